@@ -579,10 +579,10 @@ def _bundle(folder: Path) -> Reader:
     import numpy as np
 
     from kille.bus.messages import Bundle, BusError
-    from kille.bus.packing import packed, unpacked
+    from kille.bus.packing import pack, unpack
 
-    seed = packed(Bundle({"id": "7", "a": [1, {"b": None}]}, {"up": np.arange(30)}))
-    return Reader([seed], unpacked, (BusError,), altered_zip)
+    seed = pack(Bundle({"id": "7", "a": [1, {"b": None}]}, {"up": np.arange(30)}))
+    return Reader([seed], unpack, (BusError,), altered_zip)
 
 
 def _mesh(folder: Path) -> Reader:

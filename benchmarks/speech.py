@@ -18,8 +18,8 @@ from random import Random
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import sign
-from kille.speech.expectations import expected, speech
-from kille.speech.grammar import in_full, parted
+from kille.speech.expectations import expected_speech, speech
+from kille.speech.grammar import in_full, split_words
 from kille.speech.recognition import Recogniser
 from kille.speech.sound import RATE, Sound, read_wav
 from kille.speech.word_network import allows
@@ -51,14 +51,14 @@ def main() -> None:
     parser.add_argument("--some", type=int, default=200, help="tutor's sentences (200)")
     options = parser.parse_args()
     begun = time.process_time()
-    what = expected(KNOWN)
+    what = expected_speech(KNOWN)
     recogniser = Recogniser(speech())
     recogniser.expect(what)
     print(f"ready after {time.process_time() - begun:.1f} s of the processor")
     listed = [it.strip() for it in re.split(r"[|\n]", SENTENCES)]
     data = tomllib.loads(UTTERANCES.read_text(encoding="utf-8"))
     said = dict.fromkeys(text for it in data["judged"] for text in it["said"])
-    sayable = [it for it in said if allows(what.network, parted(it))]
+    sayable = [it for it in said if allows(what.network, split_words(it))]
     drawn = Random(5).sample(sayable, min(options.some, len(sayable)))
     for voice in VOICES:
         measure(recogniser, voice, "listed", listed)
@@ -98,7 +98,7 @@ def spoken(text: str, voice: str) -> Sound:
 
 def same(heard: str, text: str) -> bool:
     """Whether two texts have the same words, or mean the same."""
-    if in_full(parted(heard)) == in_full(parted(text)):
+    if in_full(split_words(heard)) == in_full(split_words(text)):
         return True
     return bool(heard) and meaning(heard) == meaning(re.sub(r"[.?!]", "", text))
 

@@ -36,18 +36,18 @@ class LocalBus:
 
     def publisher(self, topic: Topic[M]) -> Publisher[M]:
         """A way to send messages under this topic."""
-        self._kinds.settle(_named(topic), topic.kind)
+        self._kinds.settle(_local_name(topic), topic.kind)
         return _Sending(self, topic)
 
     def subscribe(self, topic: Topic[M], take: Callable[[M], None]) -> Subscription:
         """Have each message under this topic taken, from now on."""
-        self._kinds.settle(_named(topic), topic.kind)
+        self._kinds.settle(_local_name(topic), topic.kind)
         listening = _Listening(self, topic, take)
         with self._lock:
-            others = self._listening.get(_named(topic), ())
-            self._listening[_named(topic)] = (*others, listening)
-            if _named(topic) in self._latest:
-                listening.put(self._latest[_named(topic)])
+            others = self._listening.get(_local_name(topic), ())
+            self._listening[_local_name(topic)] = (*others, listening)
+            if _local_name(topic) in self._latest:
+                listening.put(self._latest[_local_name(topic)])
         return listening
 
     def close(self) -> None:
@@ -63,19 +63,19 @@ class LocalBus:
             if self._closed:
                 return
             if topic.latched:
-                self._latest[_named(topic)] = message
-            for listening in self._listening.get(_named(topic), ()):
+                self._latest[_local_name(topic)] = message
+            for listening in self._listening.get(_local_name(topic), ()):
                 listening.put(message)
 
     def _listeners(self, topic: Topic[Any]) -> int:
         with self._lock:
-            return len(self._listening.get(_named(topic), ()))
+            return len(self._listening.get(_local_name(topic), ()))
 
     def _leave(self, topic: Topic[Any], leaving: _Listening[Any]) -> None:
         with self._lock:
-            all_ = self._listening.get(_named(topic), ())
+            all_ = self._listening.get(_local_name(topic), ())
             left = tuple(it for it in all_ if it is not leaving)
-            self._listening[_named(topic)] = left
+            self._listening[_local_name(topic)] = left
 
 
 class _Sending(Generic[M]):
@@ -143,6 +143,6 @@ class _Listening(Generic[M]):
             self._take(message)
 
 
-def _named(topic: Topic[Any]) -> str:
+def _local_name(topic: Topic[Any]) -> str:
     """A process is one namespace."""
     return topic.name.removeprefix("/")

@@ -49,7 +49,7 @@ class Image:
     stamp: int
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "pixels", _given_away(self.pixels))
+        object.__setattr__(self, "pixels", _read_only_view(self.pixels))
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Bundle:
     arrays: Mapping[str, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        own = {name: _given_away(it) for name, it in self.arrays.items()}
+        own = {name: _read_only_view(it) for name, it in self.arrays.items()}
         object.__setattr__(self, "arrays", own)
 
 
@@ -109,7 +109,7 @@ class Topic(Generic[M]):
             )
 
 
-def _given_away(array: Array) -> Array:
+def _read_only_view(array: Array) -> Array:
     view = np.asarray(array).view()
     view.flags.writeable = False
     return view

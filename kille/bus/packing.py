@@ -19,35 +19,35 @@ from ttr.safety.inputs import parse_json
 _FACTS = "facts"
 
 
-def packed(bundle: Bundle) -> bytes:
+def pack(bundle: Bundle) -> bytes:
     """The bytes of a bundle.
 
-    >>> one = unpacked(packed(Bundle({"id": "7"}, {"up": np.arange(3)})))
+    >>> one = unpack(pack(Bundle({"id": "7"}, {"up": np.arange(3)})))
     >>> one.facts["id"], one.arrays["up"]
     ('7', array([0, 1, 2]))
     """
     file = io.BytesIO()
-    facts = np.frombuffer(written(bundle.facts).encode(), np.uint8)
+    facts = np.frombuffer(format_facts(bundle.facts).encode(), np.uint8)
     np.savez(file, allow_pickle=False, **{_FACTS: facts}, **bundle.arrays)
     return file.getvalue()
 
 
-def unpacked(data: bytes) -> Bundle:
+def unpack(data: bytes) -> Bundle:
     """The bundle in these bytes; BusError if they are none."""
     try:
         arrays = read_arrays(data)
         facts = arrays.pop(_FACTS).tobytes().decode()
     except (ValueError, KeyError, OSError) as error:
         raise BusError(f"what came is no bundle of arrays ({error})") from error
-    return Bundle(facts_in(facts), arrays)
+    return Bundle(parse_facts(facts), arrays)
 
 
-def written(facts: Mapping[str, Any]) -> str:
+def format_facts(facts: Mapping[str, Any]) -> str:
     """Facts as JSON on one line."""
     return json.dumps(facts, ensure_ascii=False)
 
 
-def facts_in(text: str) -> Mapping[str, Any]:
+def parse_facts(text: str) -> Mapping[str, Any]:
     """The facts in JSON; BusError if it is not an object."""
     try:
         facts = parse_json(text)

@@ -88,7 +88,7 @@ class _Serving(Generic[A]):
     def _take(self, question: Facts) -> None:
         number = str(question.facts.get("id", ""))
         if number not in self._given:
-            given = self._answered(question.facts)
+            given = self._compute_answer(question.facts)
             self._keep(number, replace(given, facts={**given.facts, "id": number}))
         answer = self._given[number]
         # A question that waited while many others were answered has its answer.
@@ -105,7 +105,7 @@ class _Serving(Generic[A]):
         while len(self._given) > _DONE:
             self._given.popitem(last=False)
 
-    def _answered(self, question: Mapping[str, Any]) -> A:
+    def _compute_answer(self, question: Mapping[str, Any]) -> A:
         try:
             return self._answer(question)
         except BusError as error:
@@ -140,13 +140,13 @@ class Asking(Generic[A]):
 
     def ask(self, question: Mapping[str, Any]) -> Mapping[str, Any]:
         """The facts of the answer; BusError if there is none, or it is an error."""
-        return self.asked(question).facts
+        return self.request(question).facts
 
-    def asked(self, question: Mapping[str, Any]) -> A:
+    def request(self, question: Mapping[str, Any]) -> A:
         """The answer; BusError if there is none, or it is an error."""
         with self._lock:
             self._number = next(self._numbers)
-            answer = self._awaited(Facts({**question, "id": self._number}))
+            answer = self._wait_for_answer(Facts({**question, "id": self._number}))
         if "error" in answer.facts:
             raise BusError(str(answer.facts["error"]))
         return answer
@@ -156,7 +156,7 @@ class Asking(Generic[A]):
         self._answers.close()
         self._questions.close()
 
-    def _awaited(self, question: Facts) -> A:
+    def _wait_for_answer(self, question: Facts) -> A:
         end = time.monotonic() + self._patience
         while not self._questions.listeners and time.monotonic() < end:
             time.sleep(_SOON)

@@ -11,7 +11,7 @@ from kille.agent import Agent
 from kille.dialogue.language import understand
 from kille.dialogue.state import words
 from kille.interfaces.terminal import complain, console
-from kille.speech.expectations import LANGUAGES, expected, speech
+from kille.speech.expectations import LANGUAGES, expected_speech, speech
 from kille.speech.recognition import Perhaps, Recogniser
 from kille.speech.sound import SoundError
 from kille.speech.utterances import from_file, from_microphone, from_pipe
@@ -97,7 +97,7 @@ class Ears:
         """What a sound is heard as, by the words that the robot knows by now."""
         known = tuple(words(robot.state))
         if known != self._expected:
-            self._recogniser.expect(expected(known, self._language))
+            self._recogniser.expect(expected_speech(known, self._language))
             self._expected = known
         found = self._recogniser.hear(sound)
         return Heard(

@@ -49,9 +49,9 @@ class Talking:
         self._problems = bus.publisher(PROBLEMS)
         self._tell_state(())
         self._open: list[Subscription] = [
-            bus.subscribe(USER_INPUT, self._told),
-            bus.subscribe(HYPOTHESES, self._perhaps_told),
-            serve(bus, CALLS, self._called),
+            bus.subscribe(USER_INPUT, self._hear_text),
+            bus.subscribe(HYPOTHESES, self._hear_hypotheses),
+            serve(bus, CALLS, self._answer_call),
         ]
 
     def close(self) -> None:
@@ -65,32 +65,32 @@ class Talking:
 
     # --- what comes in ---------------------------------------------------------------
 
-    def _told(self, said: Text) -> None:
+    def _hear_text(self, said: Text) -> None:
         """Take in what the tutor says."""
-        self._take(lambda: self._hear(said.text))
+        self._take_or_report(lambda: self._hear(said.text))
 
-    def _perhaps_told(self, said: Facts) -> None:
-        self._take(lambda: self._robot.hear_perhaps(*_texts(said.facts)))
+    def _hear_hypotheses(self, said: Facts) -> None:
+        self._take_or_report(lambda: self._robot.hear_perhaps(*_texts(said.facts)))
 
-    def _called(self, call: Mapping[str, Any]) -> Facts:
+    def _answer_call(self, call: Mapping[str, Any]) -> Facts:
         """What a program asks for is said to the robot; its answer, move by move."""
         text = text_of(call, lexicon(self._robot.language), self._robot.types)
-        done = self._taken(lambda: self._hear(text))
+        done = self._take_turn(lambda: self._hear(text))
         answer = "\n".join(exchange.answer for exchange in done if exchange.answer)
         said = [it.judgement for exchange in done for it in exchange.said]
         return Facts({"heard": text, "answer": answer, "moves": _moves(said)})
 
-    def _take(self, turn: Callable[[], object]) -> None:
+    def _take_or_report(self, turn: Callable[[], object]) -> None:
         try:
-            self._taken(turn)
+            self._take_turn(turn)
         except BusError as error:
             self._problems.publish(Text(str(error)))
 
-    def _taken(self, turn: Callable[[], object]) -> Sequence[Exchange]:
+    def _take_turn(self, turn: Callable[[], object]) -> Sequence[Exchange]:
         """Take a turn, and say what comes of it; BusError if it cannot be taken."""
-        return self._alone.submit(self._taking, turn).result()
+        return self._alone.submit(self._take_turn_here, turn).result()
 
-    def _taking(self, turn: Callable[[], object]) -> Sequence[Exchange]:
+    def _take_turn_here(self, turn: Callable[[], object]) -> Sequence[Exchange]:
         """What has been told is let go: a node may run for weeks."""
         try:
             turn()

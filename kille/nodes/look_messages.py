@@ -43,9 +43,9 @@ def bundle_of(look: Look) -> Bundle:
     facts = {
         **frame.facts,
         "up": list(look.up),
-        "things": [_told(percept) for _, percept in numbered],
+        "things": [_facts_of(percept) for _, percept in numbered],
     }
-    measured = [it for number, x in numbered for it in _measured(number, x)]
+    measured = [it for number, x in numbered for it in _arrays_of(number, x)]
     return Bundle(facts, {**frame.arrays, **dict(measured)})
 
 
@@ -111,7 +111,7 @@ def mask_in(runs: Sequence[int], shape: Sequence[int]) -> Mask:
 # --- a thing -------------------------------------------------------------------------
 
 
-def _told(x: Percept) -> Facts:
+def _facts_of(x: Percept) -> Facts:
     place = x.region.place
     return {
         "box": [int(edge) for edge in x.region.box],
@@ -121,7 +121,7 @@ def _told(x: Percept) -> Facts:
     }
 
 
-def _measured(number: int, x: Percept) -> Iterator[tuple[str, NDArray[Any]]]:
+def _arrays_of(number: int, x: Percept) -> Iterator[tuple[str, NDArray[Any]]]:
     left, top, right, bottom = x.region.box
     yield f"mask{number}", x.region.mask[top:bottom, left:right]
     for kind in _FEATURES:

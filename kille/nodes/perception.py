@@ -41,23 +41,25 @@ class Seeing:
 
     def _answer(self, request: Mapping[str, Any]) -> Bundle:
         try:
-            return self._seen(request)
+            return self._look(request)
         except SensorError as error:
             raise BusError(str(error)) from error
         except (KeyError, TypeError, ValueError) as error:
             raise BusError(f"this is no request for a look: {error}") from error
 
-    def _seen(self, request: Mapping[str, Any]) -> Bundle:
+    def _look(self, request: Mapping[str, Any]) -> Bundle:
         scans = int(request.get("scans", SCANS))
         frames = _After(self._frames, int(request.get("after", 0)))
         if scans == 0:
             return frame_bundle(frames.frame())
         pointed = request.get("pointed")
-        found = look(frames, scans, None if pointed is None else self._pointed(pointed))
+        found = look(
+            frames, scans, None if pointed is None else self._pointed_region(pointed)
+        )
         self._remember(found.frame)
         return bundle_of(found)
 
-    def _pointed(self, at: Mapping[str, Any]) -> Sighting | Mask:
+    def _pointed_region(self, at: Mapping[str, Any]) -> Sighting | Mask:
         """What is pointed at in its frame, or, if that has gone, in the next."""
         mask = mask_in(at["runs"], at["shape"])
         earlier = self._earlier.get(float(at["time"]))

@@ -34,7 +34,9 @@ def text_of(
     >>> text_of({"do": "teach", "word": "cup", "thing": 2}, lexicon("en"))
     '#2 This is a cup.'
     """
-    return f"{_pointing(call)}{_sentence(call, lexicon, types or packaged_types())}"
+    return (
+        f"{_pointing_prefix(call)}{_sentence(call, lexicon, types or packaged_types())}"
+    )
 
 
 def _sentence(call: Mapping[str, Any], lexicon: Lexicon, types: DialogueTypes) -> str:
@@ -47,18 +49,18 @@ def _sentence(call: Mapping[str, Any], lexicon: Lexicon, types: DialogueTypes) -
             return tell(lexicon, "instruct", record(content=content, signs=[sign]))
         case {"do": "ask"}:
             content = _about_this(types.record_type("Asked"), types)
-            return _plainly(lexicon, "ask_name", content)
+            return _tell_without_signs(lexicon, "ask_name", content)
         case {"do": "forget", "word": str(word)} if word.strip():
             sign = types.sign(word.strip(), "noun")
             content = rectype(word=sign.meaning)
             return tell(lexicon, "forget_word", record(content=content, signs=[sign]))
     raise BusError(
-        f"{_shown(call)} is no call: `do` is {', '.join(_KNOWN)}; to teach and to "
-        "forget need a `word`, to say a `text`"
+        f"{_format_call(call)} is no call: `do` is {', '.join(_KNOWN)}; to teach and "
+        "to forget need a `word`, to say a `text`"
     )
 
 
-def _pointing(call: Mapping[str, Any]) -> str:
+def _pointing_prefix(call: Mapping[str, Any]) -> str:
     match call.get("thing"):
         case None:
             return ""
@@ -66,7 +68,7 @@ def _pointing(call: Mapping[str, Any]) -> str:
             pass
         case int(number) if number > 0:
             return f"#{number} "
-    raise BusError(f"{_shown(call)}: `thing` is the number of a thing, from 1")
+    raise BusError(f"{_format_call(call)}: `thing` is the number of a thing, from 1")
 
 
 def _about_this(content: RecordType, types: DialogueTypes) -> RecordType:
@@ -75,10 +77,10 @@ def _about_this(content: RecordType, types: DialogueTypes) -> RecordType:
     return whole
 
 
-def _plainly(lexicon: Lexicon, act: str, content: RecordType) -> str:
+def _tell_without_signs(lexicon: Lexicon, act: str, content: RecordType) -> str:
     said: Record = record(content=content, signs=())
     return tell(lexicon, act, said)
 
 
-def _shown(call: Mapping[str, Any]) -> str:
+def _format_call(call: Mapping[str, Any]) -> str:
     return str({key: value for key, value in call.items() if key != "id"})

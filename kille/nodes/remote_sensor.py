@@ -33,7 +33,7 @@ class Eyes:
 
     def frame(self) -> Frame:
         """The next frame."""
-        return self._seen({"scans": 0}, frame_in)
+        return self._request({"scans": 0}, frame_in)
 
     def look(self, scans: int, pointed: Sighting | None) -> Look:
         """A look at the scene."""
@@ -45,7 +45,7 @@ class Eyes:
                 "shape": list(region.mask.shape),
                 "runs": runs_of(region.mask),
             }
-        return self._seen(asked, look_in)
+        return self._request(asked, look_in)
 
     def close(self) -> None:
         """Ask no more; a second call does nothing."""
@@ -56,7 +56,7 @@ class Eyes:
 
     def things(self) -> tuple[str, ...]:
         """The names of all that can be shown."""
-        return tuple(self._changed("things")["things"])
+        return tuple(self._send_command("things")["things"])
 
     def show(self, name: str) -> None:
         """Show only this object, in a place and pose of its own."""
@@ -78,17 +78,19 @@ class Eyes:
 
     def _change(self, command: str) -> None:
         """Have the scene changed, and see from then on only what shows it."""
-        self._after = int(self._changed(command)["after"])
+        self._after = int(self._send_command(command)["after"])
 
-    def _changed(self, command: str) -> Mapping[str, Any]:
+    def _send_command(self, command: str) -> Mapping[str, Any]:
         try:
             return self._stage.ask({"command": command})
         except BusError as error:
             raise SensorError(str(error)) from error
 
-    def _seen(self, asked: Mapping[str, Any], read: Callable[[Bundle], Seen]) -> Seen:
+    def _request(
+        self, asked: Mapping[str, Any], read: Callable[[Bundle], Seen]
+    ) -> Seen:
         try:
-            return read(self._looks.asked({**asked, "after": self._after}))
+            return read(self._looks.request({**asked, "after": self._after}))
         except BusError as error:
             raise SensorError(str(error)) from error
         except (KeyError, TypeError, ValueError) as error:

@@ -110,11 +110,11 @@ class Sensing:
     def _change(self, asked: Mapping[str, Any]) -> Facts:
         """Do a command of `kille.sensors.stage`, or say what can be shown."""
         try:
-            return self._changed(str(asked.get("command", "")))
+            return self._perform(str(asked.get("command", "")))
         except SensorError as error:
             raise BusError(str(error)) from error
 
-    def _changed(self, command: str) -> Facts:
+    def _perform(self, command: str) -> Facts:
         if command == "things" and isinstance(self._sensor, Stage):
             return Facts({"things": list(self._sensor.things())})
         with self._one:

@@ -69,7 +69,7 @@ class RosBus:
         """The name of the node that this process is."""
         return str(self._rospy.get_name())
 
-    def resolved(self, name: str) -> str:
+    def full_name(self, name: str) -> str:
         """The full name that a name comes to, in this namespace and as remapped."""
         return str(self._rospy.resolve_name(name))
 
@@ -92,14 +92,14 @@ class RosBus:
 
     def publisher(self, topic: Topic[M]) -> Publisher[M]:
         """A way to send messages under this topic."""
-        self._kinds.settle(self.resolved(topic.name), topic.kind)
+        self._kinds.settle(self.full_name(topic.name), topic.kind)
         sending = _Sending(topic, self._rospy)
         self._opened.append(sending)
         return sending
 
     def subscribe(self, topic: Topic[M], take: Callable[[M], None]) -> Subscription:
         """Have each message under this topic taken, from now on."""
-        self._kinds.settle(self.resolved(topic.name), topic.kind)
+        self._kinds.settle(self.full_name(topic.name), topic.kind)
         listening = _Listening(topic, self._rospy, take)
         self._opened.append(listening)
         return listening
@@ -116,7 +116,7 @@ class _Sending(Generic[M]):
     def __init__(self, topic: Topic[M], rospy: Any) -> None:
         self._form, self._open = form_of(topic.kind), True
         self._sent = time.monotonic() - _LINGER
-        self._publisher = _typed(
+        self._publisher = _connect(
             rospy,
             rospy.Publisher,
             topic.name,
@@ -154,7 +154,7 @@ class _Listening(Generic[M]):
         self._rospy, self._open = rospy, True
         self._take = Taking(topic, take)
         self._trouble = ""
-        self._subscriber = _typed(
+        self._subscriber = _connect(
             rospy,
             rospy.Subscriber,
             topic.name,
@@ -196,7 +196,7 @@ class _Listening(Generic[M]):
         self._trouble = trouble
 
 
-def _typed(
+def _connect(
     rospy: Any, make: Callable[..., Any], name: str, *of: Any, **how: Any
 ) -> Any:
     """A publisher or subscriber; BusError if the topic has another type here."""

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kille.bus import Bundle, BusError, Camera, Facts, Image, Text
-from kille.bus.packing import facts_in, packed, unpacked, written
+from kille.bus.packing import format_facts, pack, parse_facts, unpack
 from kille.bus.pixels import encoding_of, pixels_of
 from kille.ros.modules import ros
 
@@ -46,14 +46,14 @@ def form_of(kind: type[Any]) -> Form:
     if kind is Facts:
         return Form(
             std.String,
-            lambda it: std.String(written(it.facts)),
-            lambda it: Facts(facts_in(it.data)),
+            lambda it: std.String(format_facts(it.facts)),
+            lambda it: Facts(parse_facts(it.data)),
         )
     if kind is Image:
         return Form(sensor.Image, _to_image, _of_image)
     if kind is Camera:
         return Form(sensor.CameraInfo, _to_camera, _of_camera)
-    return Form(std.UInt8MultiArray, _to_array, lambda it: unpacked(bytes(it.data)))
+    return Form(std.UInt8MultiArray, _to_array, lambda it: unpack(bytes(it.data)))
 
 
 def _to_image(image: Image) -> Any:
@@ -102,7 +102,7 @@ def _of_camera(it: Any) -> Camera:
 
 def _to_array(bundle: Bundle) -> Any:
     std = ros("std_msgs.msg")
-    data = packed(bundle)
+    data = pack(bundle)
     whole = std.MultiArrayDimension(label="npz", size=len(data), stride=len(data))
     return std.UInt8MultiArray(std.MultiArrayLayout([whole], 0), data)
 

@@ -67,7 +67,7 @@ class DdsBus:
         self._opened: list[_Sending[Any] | _Listening[Any]] = []
         self._ended = Event()
 
-    def resolved(self, name: str) -> str:
+    def full_name(self, name: str) -> str:
         """The full name that a name comes to, as remapped."""
         return f"/{self._names.get(name, name).lstrip('/')}"
 
@@ -110,12 +110,12 @@ class DdsBus:
         self._ended.set()
 
     def _form(self, topic: Topic[Any]) -> Form:
-        self._kinds.settle(self.resolved(topic.name), topic.kind)
+        self._kinds.settle(self.full_name(topic.name), topic.kind)
         return form_of(topic.kind)
 
     def _topic(self, topic: Topic[Any], form: Form) -> Any:
         """The topic as DDS names those of ROS 2; there is one of a name."""
-        key = self.resolved(topic.name), form.name
+        key = self.full_name(topic.name), form.name
         if key not in self._topics:
             self._topics[key] = module("cyclonedds.topic").Topic(
                 self._participant, f"rt{key[0]}", sample_type(form.name)
@@ -173,7 +173,7 @@ class _Listening(Generic[M]):
 
     def _run(self) -> None:
         turn = module("cyclonedds.util").duration(seconds=_TURN)
-        waiting = _waiting(self._reader)
+        waiting = _unread_samples(self._reader)
         while not self._closing.is_set():
             for sample in self._reader.take_iter(waiting, timeout=turn):
                 if self._closing.is_set():
@@ -191,7 +191,7 @@ class _Listening(Generic[M]):
         self._take(message)
 
 
-def _waiting(reader: Any) -> Any:
+def _unread_samples(reader: Any) -> Any:
     """What waits to be taken, also of those who have gone since they sent it."""
     core = module("cyclonedds.core")
     states = core.ViewState.Any | core.InstanceState.Any | core.SampleState.NotRead

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kille.bus import Bundle, BusError, Camera, Facts, Image, Text
-from kille.bus.packing import facts_in, packed, unpacked, written
+from kille.bus.packing import format_facts, pack, parse_facts, unpack
 from kille.bus.pixels import encoding_of, pixels_of
 from kille.ros2.types import of_bytes, store, to_bytes
 
@@ -39,19 +39,19 @@ def form_of(kind: type[Any]) -> Form:
     )
 
 
-def _made(name: str, **fields: Any) -> Any:
+def _new_message(name: str, **fields: Any) -> Any:
     return store().types[name](**fields)
 
 
 def _of_string(text: str) -> Any:
-    return _made("std_msgs/msg/String", data=text)
+    return _new_message("std_msgs/msg/String", data=text)
 
 
 def _of_image(image: Image) -> Any:
     height, width = image.pixels.shape[:2]
     pixels = np.ascontiguousarray(image.pixels)
     ordered = pixels.astype(pixels.dtype.newbyteorder("<"), copy=False)
-    return _made(
+    return _new_message(
         "sensor_msgs/msg/Image",
         header=_header(image.stamp),
         height=height,
@@ -72,7 +72,7 @@ def _to_image(it: Any) -> Image:
 def _of_camera(camera: Camera) -> Any:
     fx, fy, cx, cy = camera.fx, camera.fy, camera.cx, camera.cy
     whole = dict.fromkeys(("x_offset", "y_offset", "height", "width"), 0)
-    return _made(
+    return _new_message(
         "sensor_msgs/msg/CameraInfo",
         header=_header(camera.stamp),
         height=camera.height,
@@ -84,7 +84,7 @@ def _of_camera(camera: Camera) -> Any:
         p=np.array([fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
         binning_x=0,
         binning_y=0,
-        roi=_made("sensor_msgs/msg/RegionOfInterest", **whole, do_rectify=False),
+        roi=_new_message("sensor_msgs/msg/RegionOfInterest", **whole, do_rectify=False),
     )
 
 
@@ -96,17 +96,17 @@ def _to_camera(it: Any) -> Camera:
 
 
 def _of_bundle(bundle: Bundle) -> Any:
-    data = np.frombuffer(packed(bundle), np.uint8)
+    data = np.frombuffer(pack(bundle), np.uint8)
     size = {"size": len(data), "stride": len(data)}
-    whole = _made("std_msgs/msg/MultiArrayDimension", label="npz", **size)
-    layout = _made("std_msgs/msg/MultiArrayLayout", dim=[whole], data_offset=0)
-    return _made("std_msgs/msg/UInt8MultiArray", layout=layout, data=data)
+    whole = _new_message("std_msgs/msg/MultiArrayDimension", label="npz", **size)
+    layout = _new_message("std_msgs/msg/MultiArrayLayout", dim=[whole], data_offset=0)
+    return _new_message("std_msgs/msg/UInt8MultiArray", layout=layout, data=data)
 
 
 def _header(stamp: int) -> Any:
     seconds, rest = divmod(stamp, _SECOND)
-    time = _made("builtin_interfaces/msg/Time", sec=seconds, nanosec=rest)
-    return _made("std_msgs/msg/Header", stamp=time, frame_id=_FRAME)
+    time = _new_message("builtin_interfaces/msg/Time", sec=seconds, nanosec=rest)
+    return _new_message("std_msgs/msg/Header", stamp=time, frame_id=_FRAME)
 
 
 def _stamp(it: Any) -> int:
@@ -121,14 +121,14 @@ _FORMS: dict[type, tuple[str, Callable[[Any], Any], Callable[[Any], Any]]] = {
     ),
     Facts: (
         "std_msgs/msg/String",
-        lambda it: _of_string(written(it.facts)),
-        lambda it: Facts(facts_in(it.data)),
+        lambda it: _of_string(format_facts(it.facts)),
+        lambda it: Facts(parse_facts(it.data)),
     ),
     Image: ("sensor_msgs/msg/Image", _of_image, _to_image),
     Camera: ("sensor_msgs/msg/CameraInfo", _of_camera, _to_camera),
     Bundle: (
         "std_msgs/msg/UInt8MultiArray",
         _of_bundle,
-        lambda it: unpacked(it.data.tobytes()),
+        lambda it: unpack(it.data.tobytes()),
     ),
 }

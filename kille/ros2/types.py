@@ -54,7 +54,7 @@ def of_bytes(data: bytes, name: str) -> Any:
 @cache
 def sample_type(name: str) -> Any:
     """The class of samples of a type, `std_msgs/msg/String`; `cdr` is the bytes."""
-    declared: Any = _declared(name)
+    declared: Any = _declare_type(name)
 
     class Sample(declared):  # type: ignore[misc]
         """A message in its bytes."""
@@ -76,7 +76,7 @@ def sample_type(name: str) -> Any:
 
 
 @cache
-def _declared(name: str) -> Any:
+def _declare_type(name: str) -> Any:
     """The type as it is told to DDS: its name and fields."""
     package, _, short = name.partition("/msg/")
     _, fields = store().fielddefs[name]
@@ -92,7 +92,7 @@ def _field(kind: Any, of: Any) -> Any:
     types = module("cyclonedds.idl.types")
     forms: Mapping[str, Callable[[], Any]] = {
         "BASE": lambda: _base(types, of[0]),
-        "NAME": lambda: _declared(of),
+        "NAME": lambda: _declare_type(of),
         "ARRAY": lambda: types.array[_field(*of[0]), of[1]],
         "SEQUENCE": lambda: types.sequence[_field(*of[0])],
     }

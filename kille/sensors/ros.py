@@ -51,7 +51,7 @@ def open_ros_sensor(name: str) -> Stream:
 
     try:
         bus = open_ros(anonymous("kille_eye"))
-        colour = bus.resolved(source.partition(":")[2] or COLOUR)
+        colour = bus.full_name(source.partition(":")[2] or COLOUR)
         sent = [topic for topic, kind in bus.topics() if kind == "sensor_msgs/Image"]
         if colour not in sent:
             raise SensorError(

@@ -15,8 +15,16 @@ from importlib.resources import files
 from typing import Any
 
 from kille.dialogue.lexicon import Lexicon, lexicon
-from kille.speech.grammar import CONTRACTED, TAUGHT, parted, tutors_grammar
-from kille.speech.word_network import Place, either, filled, fused, only, places, said
+from kille.speech.grammar import CONTRACTED, TAUGHT, split_words, tutors_grammar
+from kille.speech.word_network import (
+    State,
+    fill_slots,
+    fuse_words,
+    reachable_states,
+    restrict,
+    sequence,
+    union,
+)
 from ttr import Record
 
 LANGUAGES = ("en",)
@@ -47,7 +55,7 @@ class Speech:
 class Expected:
     """All that may be said, how probable its words are, and which are the tutor's."""
 
-    network: Place
+    network: State
     weights: Mapping[str, float]
     learned: frozenset[str]
 
@@ -75,12 +83,12 @@ def speech(language: str = "en") -> Speech:
     )
 
 
-def expected(words: Iterable[Record], language: str = "en") -> Expected:
+def expected_speech(words: Iterable[Record], language: str = "en") -> Expected:
     """What may be said to a robot that knows these words.
 
     >>> from kille.dialogue.meanings import sign
     >>> from kille.speech.word_network import allows
-    >>> network = expected([sign("cup", "noun")]).network
+    >>> network = expected_speech([sign("cup", "noun")]).network
     >>> [
     ...     allows(network, text.split())
     ...     for text in ("where is the cup", "this is a lamp", "where is the lamp")
@@ -103,37 +111,41 @@ def expected(words: Iterable[Record], language: str = "en") -> Expected:
         "_adjective": adjectives,
         "_relation": [*forms["relation"], *language_.relations],
     }
-    network = filled(grammar, {slot: _spoken(them) for slot, them in slots.items()})
+    network = fill_slots(
+        grammar, {slot: _network_of(them) for slot, them in slots.items()}
+    )
     plain = _words(grammar) | frozenset(CONTRACTED.values())
-    new = _split(language_.nouns) - _split(forms["noun"]) - plain
-    learned = frozenset(set().union(*map(_split, slots.values())) - plain)
+    new = _words_of(language_.nouns) - _words_of(forms["noun"]) - plain
+    learned = frozenset(set().union(*map(_words_of, slots.values())) - plain)
     weights = language_.weights
     return Expected(
-        fused(only(network, _Neighbours(lexicon_, known)), CONTRACTED),
+        fuse_words(restrict(network, _Neighbours(lexicon_, known)), CONTRACTED),
         dict.fromkeys(plain | learned, float(weights["usual"]))
-        | dict.fromkeys(_attached(plain), float(weights["attached"]))
+        | dict.fromkeys(_clitics(plain), float(weights["attached"]))
         | dict.fromkeys(weights["seldom_words"], float(weights["seldom"]))
-        | dict.fromkeys(_split(adjectives) - plain, float(weights["adjective"]))
+        | dict.fromkeys(_words_of(adjectives) - plain, float(weights["adjective"]))
         | dict.fromkeys(new, float(weights["new"])),
         learned,
     )
 
 
-def _attached(words: Iterable[str]) -> set[str]:
+def _clitics(words: Iterable[str]) -> set[str]:
     return {word for word in words if word.startswith("'")}
 
 
-def _spoken(forms: Iterable[str]) -> Place:
-    return either(said(parted(form)) for form in forms)
+def _network_of(forms: Iterable[str]) -> State:
+    return union(sequence(split_words(form)) for form in forms)
 
 
-def _split(forms: Iterable[str]) -> set[str]:
-    return {word for form in forms for word in parted(form)}
+def _words_of(forms: Iterable[str]) -> set[str]:
+    return {word for form in forms for word in split_words(form)}
 
 
 @cache
-def _words(network: Place) -> frozenset[str]:
-    return frozenset(word for place in places(network) for word, _ in place.after)
+def _words(network: State) -> frozenset[str]:
+    return frozenset(
+        word for place in reachable_states(network) for word, _ in place.after
+    )
 
 
 class _Neighbours:
@@ -142,9 +154,9 @@ class _Neighbours:
     def __init__(self, lexicon_: Lexicon, known: Iterable[Record]) -> None:
         self._articles = lexicon_.articles
         self._used = {
-            parted(str(it.form))[0]: str(it.article)
+            split_words(str(it.form))[0]: str(it.article)
             for it in known
-            if it.kind == "noun" and parted(str(it.form))
+            if it.kind == "noun" and split_words(str(it.form))
         }
 
     def __call__(self, before: str, word: str) -> bool:

@@ -13,7 +13,7 @@ from importlib.resources import files
 from typing import TYPE_CHECKING
 
 from kille.speech.pattern_expansion import EndlessError, spellings
-from kille.speech.word_network import NOTHING, Place, either, following, said
+from kille.speech.word_network import NOTHING, State, concatenation, sequence, union
 
 if TYPE_CHECKING:
     from lark.grammar import Symbol
@@ -47,12 +47,12 @@ _NESTED = 2
 """How often a rule may stand within itself, counting itself: "the cup by the box"."""
 
 
-def parted(text: str) -> list[str]:
+def split_words(text: str) -> list[str]:
     """The words of a text as they are heard: what hangs on a word is one of its own.
 
     Two that are mostly one, as in `CONTRACTED`, stay one.
 
-    >>> parted("Isn't this the car's left, then?")
+    >>> split_words("Isn't this the car's left, then?")
     ["isn't", 'this', 'the', 'car', "'s", 'left', 'then']
     """
     words = " ".join(it.strip('.,!?;:…"“”') for it in text.lower().split())
@@ -77,13 +77,13 @@ _FULL = {
 
 
 @cache
-def tutors_grammar(language: str, *unsaid: str) -> Place:
+def tutors_grammar(language: str, *unsaid: str) -> State:
     """All that a tutor may say in a language, with slots for his words."""
     source = files("kille.grammars").joinpath(f"tutor.{language}.lark")
     return sayable(source.read_text(encoding="utf-8"), unsaid)
 
 
-def sayable(source: str, unsaid: Iterable[str] = ()) -> Place:
+def sayable(source: str, unsaid: Iterable[str] = ()) -> State:
     """All that can be said by a grammar, from `start` on; without the words unsaid.
 
     >>> from kille.speech.word_network import sentences
@@ -95,7 +95,7 @@ def sayable(source: str, unsaid: Iterable[str] = ()) -> Place:
 
     read = Lark(source, parser=None, lexer="basic")
     terminals = {
-        it.name: _spelled(it.pattern.to_regexp(), frozenset(unsaid))
+        it.name: _terminal_network(it.pattern.to_regexp(), frozenset(unsaid))
         for it in read.terminals
     }
     rules: dict[str, list[Sequence[Symbol]]] = {}
@@ -104,13 +104,13 @@ def sayable(source: str, unsaid: Iterable[str] = ()) -> Place:
     return _Unfolding(rules, terminals).start()
 
 
-def _spelled(pattern: str, unsaid: frozenset[str]) -> Place:
+def _terminal_network(pattern: str, unsaid: frozenset[str]) -> State:
     """The ways to say a terminal; none, if it stands for any word."""
     try:
-        ways = [parted(it.replace("-", " ")) for it in spellings(pattern)]
+        ways = [split_words(it.replace("-", " ")) for it in spellings(pattern)]
     except EndlessError:
         return NOTHING
-    return either(said(way) for way in ways if way and unsaid.isdisjoint(way))
+    return union(sequence(way) for way in ways if way and unsaid.isdisjoint(way))
 
 
 class _Unfolding:
@@ -119,13 +119,13 @@ class _Unfolding:
     def __init__(
         self,
         rules: Mapping[str, list[Sequence[Symbol]]],
-        terminals: Mapping[str, Place],
+        terminals: Mapping[str, State],
     ) -> None:
         self._rules, self._terminals = rules, terminals
-        self._known: dict[tuple[str, tuple[str, ...], str], Place] = {}
+        self._known: dict[tuple[str, tuple[str, ...], str], State] = {}
         self._endless = {name for name in rules if name in self._within(name)}
 
-    def start(self) -> Place:
+    def start(self) -> State:
         return self._rule("start", (), "")
 
     def _within(self, name: str) -> set[str]:
@@ -138,31 +138,31 @@ class _Unfolding:
                 ahead += new
         return found
 
-    def _rule(self, name: str, around: tuple[str, ...], teaching: str) -> Place:
+    def _rule(self, name: str, around: tuple[str, ...], teaching: str) -> State:
         """What a rule finds, within the rules around it that may hold themselves."""
         if name in SLOTS:
             taught = name == SLOTS[0] and teaching in _NAMING
-            return said([TAUGHT if taught else name])
+            return sequence([TAUGHT if taught else name])
         if around.count(name) >= _NESTED:
             return NOTHING
         if name in self._endless:
             around = tuple(sorted((*around, name)))
-        teaching = _teaching(name, teaching)
+        teaching = _teaching_rule(name, teaching)
         key = (name, around, teaching)
         if key not in self._known:
-            self._known[key] = either(
-                following(self._symbol(it, around, teaching) for it in symbols)
+            self._known[key] = union(
+                concatenation(self._symbol(it, around, teaching) for it in symbols)
                 for symbols in self._rules[name]
             )
         return self._known[key]
 
-    def _symbol(self, symbol: Symbol, around: tuple[str, ...], teaching: str) -> Place:
+    def _symbol(self, symbol: Symbol, around: tuple[str, ...], teaching: str) -> State:
         if symbol.is_term:
             return self._terminals[symbol.name]
         return self._rule(str(symbol.name), around, teaching)
 
 
-def _teaching(name: str, around: str) -> str:
+def _teaching_rule(name: str, around: str) -> str:
     """The rule that says that a new noun may be taught here, or nothing."""
     if name in _TEACHING or (around and name in _NAMING):
         return name

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from itertools import product
 
-Spelled = tuple[str, ...]
+Texts = tuple[str, ...]
 """Different texts, in the order of the pattern."""
 
 
@@ -16,7 +16,7 @@ class EndlessError(ValueError):
     """A pattern that stands for any word, or is not of the simple kind read here."""
 
 
-def spellings(pattern: str) -> Spelled:
+def spellings(pattern: str) -> Texts:
     r"""All that a pattern matches, in lower case; what may be repeated, once.
 
     What a pattern only looks ahead for is not part of it. Raises `EndlessError` for
@@ -39,7 +39,7 @@ def spellings(pattern: str) -> Spelled:
     return tuple(dict.fromkeys(text.lower() for text in found))
 
 
-def _alternatives(pattern: str, at: int) -> tuple[Spelled, int]:
+def _alternatives(pattern: str, at: int) -> tuple[Texts, int]:
     """What stands between bars, up to the end of the group."""
     found, at = _sequence(pattern, at)
     while pattern[at : at + 1] == "|":
@@ -48,9 +48,9 @@ def _alternatives(pattern: str, at: int) -> tuple[Spelled, int]:
     return found, at
 
 
-def _sequence(pattern: str, at: int) -> tuple[Spelled, int]:
+def _sequence(pattern: str, at: int) -> tuple[Texts, int]:
     """What stands side by side, each with its `?` or `+`."""
-    found: Spelled = ("",)
+    found: Texts = ("",)
     while at < len(pattern) and pattern[at] not in "|)":
         piece, at = _piece(pattern, at)
         match pattern[at : at + 1]:
@@ -64,7 +64,7 @@ def _sequence(pattern: str, at: int) -> tuple[Spelled, int]:
     return found, at
 
 
-def _piece(pattern: str, at: int) -> tuple[Spelled, int]:
+def _piece(pattern: str, at: int) -> tuple[Texts, int]:
     """A character, a choice of them, or a group."""
     match pattern[at]:
         case "(":
@@ -75,13 +75,13 @@ def _piece(pattern: str, at: int) -> tuple[Spelled, int]:
                 raise EndlessError("[^ stands for nearly any character")
             return tuple(pattern[at + 1 : end]), end + 1
         case "\\":
-            return _escaped(pattern, at + 1)
+            return _escaped_character(pattern, at + 1)
         case ".":
             raise EndlessError(". stands for any character")
     return (pattern[at],), at + 1
 
 
-def _escaped(pattern: str, at: int) -> tuple[Spelled, int]:
+def _escaped_character(pattern: str, at: int) -> tuple[Texts, int]:
     if pattern[at] == "b":
         return ("",), at + 1
     if pattern[at].isalpha():
@@ -89,7 +89,7 @@ def _escaped(pattern: str, at: int) -> tuple[Spelled, int]:
     return (pattern[at],), at + 1
 
 
-def _group(pattern: str, at: int) -> tuple[Spelled, int]:
+def _group(pattern: str, at: int) -> tuple[Texts, int]:
     """What stands in brackets; nothing, where it is only looked for."""
     inside = at
     ahead = pattern.startswith(("?=", "?!", "?<"), at)

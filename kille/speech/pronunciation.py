@@ -41,7 +41,7 @@ class Pronouncing:
         return " ".join(filter(None, map(self._part, parts)))
 
     def _part(self, word: str) -> str:
-        return self.dictionary(word) or self._compound(word) or self._guessed(word)
+        return self.dictionary(word) or self._compound(word) or self._guess(word)
 
     def _compound(self, word: str) -> str:
         """The sounds of two words of the dictionary that make up this one."""
@@ -51,17 +51,17 @@ class Pronouncing:
                 return f"{first} {second}"
         return ""
 
-    def _guessed(self, word: str) -> str:
+    def _guess(self, word: str) -> str:
         """The sounds of the letters, with what a silent e at the end does to them."""
         *front, vowel, consonant, last = (*"  ", *word)[-max(3, len(word)) :]
         silent = last == "e" and consonant not in _VOWELS and vowel in self.long
         if silent:
             stem = "".join(front).strip()
-            spoken = (self._spelled(stem), self.long[vowel], self._spelled(consonant))
+            spoken = (self._spell(stem), self.long[vowel], self._spell(consonant))
             return " ".join(filter(None, spoken))
-        return self._spelled(word)
+        return self._spell(word)
 
-    def _spelled(self, letters: str) -> str:
+    def _spell(self, letters: str) -> str:
         """The sounds of letters, the longest that is known before the next."""
         sounds, rest = [], letters
         while rest:

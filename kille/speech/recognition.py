@@ -20,7 +20,7 @@ from kille.speech.expectations import Expected, Speech
 from kille.speech.grammar import in_full
 from kille.speech.pronunciation import Pronouncing
 from kille.speech.sound import RATE
-from kille.speech.word_network import NOTHING, Place, allows, places
+from kille.speech.word_network import NOTHING, State, allows, reachable_states
 
 _WORDS, _SOUNDS = "words", "sounds"
 """The names of the two searches."""
@@ -92,7 +92,7 @@ class Recogniser:
     def expect(self, what: Expected) -> None:
         """Listen for this from now on. New words are pronounced as is guessed."""
         for word in sorted(what.learned):
-            if self._decoder.lookup_word(self._named(word)) is None:
+            if self._decoder.lookup_word(self._entry_name(word)) is None:
                 self._add(word, (self._pronouncing.of(word),))
         self._network, self._weights = what.network, what.weights
         arcs = list(self._arcs(what.network, what.weights))
@@ -114,8 +114,8 @@ class Recogniser:
         if self._decoder.hyp() is None:
             return ()
         words = self._language(self._decoder.hyp().hypstr.replace(_ANEW, ""))
-        other = _nats(loop.score) + words - _PAUSES - _LOOP * self._spoken()
-        return _weighed(self._ways(), other)
+        other = _nats(loop.score) + words - _PAUSES - _LOOP * self._speech_frames()
+        return _probabilities(self._ways(), other)
 
     def _search(self, name: str, sound: bytes) -> int:
         """Match a sound; the number of frames in it, of 10 ms."""
@@ -130,7 +130,7 @@ class Recogniser:
         """What the words of a text count, without the sounds, in nats."""
         return _LANGUAGE * sum(math.log(self._weights[it]) for it in text.split())
 
-    def _spoken(self) -> int:
+    def _speech_frames(self) -> int:
         """The number of frames in which the latest sound was heard to be words."""
         return sum(
             it.end_frame - it.start_frame + 1
@@ -148,26 +148,26 @@ class Recogniser:
     def _add(self, word: str, ways: Iterable[str]) -> None:
         """Add a word with these pronunciations to the dictionary."""
         for number, way in enumerate(filter(None, ways), start=1):
-            name = self._named(word)
+            name = self._entry_name(word)
             self._decoder.add_word(
                 name if number == 1 else f"{name}({number})", way, False
             )
 
-    def _named(self, word: str) -> str:
+    def _entry_name(self, word: str) -> str:
         """The name of a word in the dictionary: what is pronounced anew has another."""
         return f"{word}{_ANEW}" if word in self._pronounced else word
 
     def _arcs(
-        self, network: Place, weights: Mapping[str, float]
+        self, network: State, weights: Mapping[str, float]
     ) -> Iterator[tuple[Any, ...]]:
         """The network as pocketsphinx wants it: from 0 to 1, without unknown words."""
-        numbers = {it: n for n, it in enumerate(places(network), start=2)}
+        numbers = {it: n for n, it in enumerate(reachable_states(network), start=2)}
         yield 0, numbers[network], 1.0
         for place, number in numbers.items():
             if place.ends:
                 yield number, 1, 1.0
             for word, it in place.after:
-                name = self._named(word)
+                name = self._entry_name(word)
                 if self._decoder.lookup_word(name) is not None:
                     yield number, numbers[it], weights[word] ** _LANGUAGE, name
 
@@ -176,7 +176,9 @@ def _nats(score: float) -> float:
     return _SCORE * math.log(score)
 
 
-def _weighed(ways: Iterable[tuple[str, float]], other: float) -> tuple[Perhaps, ...]:
+def _probabilities(
+    ways: Iterable[tuple[str, float]], other: float
+) -> tuple[Perhaps, ...]:
     """Scores as probabilities: of each text the best way; contractions as the rest."""
     best: dict[str, float] = {}
     for text, nats in ways:
@@ -189,7 +191,7 @@ def _weighed(ways: Iterable[tuple[str, float]], other: float) -> tuple[Perhaps, 
         whole += share
         alike.setdefault(in_full(text.split()), []).append((share, text))
     found = (
-        Perhaps(joined(max(them)[1]), sum(share for share, _ in them) / whole)
+        Perhaps(join_clitics(max(them)[1]), sum(share for share, _ in them) / whole)
         for them in alike.values()
     )
     return tuple(
@@ -197,10 +199,10 @@ def _weighed(ways: Iterable[tuple[str, float]], other: float) -> tuple[Perhaps, 
     )
 
 
-def joined(text: str) -> str:
+def join_clitics(text: str) -> str:
     """A text as it is written: what hangs on a word joins it.
 
-    >>> joined("this isn't the car 's left")
+    >>> join_clitics("this isn't the car 's left")
     "this isn't the car's left"
     """
     return text.replace(" n't", "n't").replace(" '", "'")

@@ -132,14 +132,14 @@ class WavFile:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        with self._opened("wb") as file, wave.open(file, "wb") as empty:
+        with self._open_file("wb") as file, wave.open(file, "wb") as empty:
             empty.setnchannels(1)
             empty.setsampwidth(2)
             empty.setframerate(RATE)
 
     def __call__(self, sound: Sound) -> None:
         """Add a sound, and a pause."""
-        with self._opened("r+b") as file:
+        with self._open_file("r+b") as file:
             file.seek(0, io.SEEK_END)
             file.write(sound.at(RATE).samples + bytes(2 * int(_PAUSE * RATE)))
             size = file.tell()
@@ -148,7 +148,7 @@ class WavFile:
                 file.write((size - rest).to_bytes(4, "little"))
 
     @contextmanager
-    def _opened(self, mode: str) -> Iterator[BinaryIO]:
+    def _open_file(self, mode: str) -> Iterator[BinaryIO]:
         try:
             with self._path.open(mode) as file:
                 yield cast(BinaryIO, file)

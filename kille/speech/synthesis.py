@@ -37,12 +37,12 @@ def voice(how: str, language: str = "en") -> Voice:
         return silent
     if how.lower().endswith(".wav"):
         program, target = "espeak", WavFile(Path(how))
-        return partial(_speak, _ready(program), language, target)
+        return partial(_speak, _check_installed(program), language, target)
     if how not in SYNTHESISERS:
         raise SoundError(
             f"there is no voice {how!r}: choose espeak, flite, none or FILE.wav"
         )
-    program = _ready(how)
+    program = _check_installed(how)
     if shutil.which(_PLAYER[0]) is None:
         raise SoundError(
             "there is no program to play sounds with: apt install alsa-utils, or let "
@@ -55,38 +55,38 @@ def silent(text: str) -> None:
     """Says nothing: what is said is printed all the same."""
 
 
-def synthesised(text: str, program: str = "espeak", language: str = "en") -> Sound:
+def synthesise(text: str, program: str = "espeak", language: str = "en") -> Sound:
     """A text as sound; `SoundError` if the program is missing or fails."""
-    command = SYNTHESISERS[_ready(program)]
+    command = SYNTHESISERS[_check_installed(program)]
     filled = [it.format(voice=_VOICES[language], text=text) for it in command]
-    return read_wav(_ran(filled, text.encode()))
+    return read_wav(_run_program(filled, text.encode()))
 
 
 def play(sound: Sound) -> None:
     """Play a sound by ALSA's player; `SoundError` without a loudspeaker."""
     raw = ("-t", "raw", "-f", "S16_LE", "-c", "1", "-r", str(sound.rate))
-    _ran([*_PLAYER[:-1], *raw, _PLAYER[-1]], sound.samples)
+    _run_program([*_PLAYER[:-1], *raw, _PLAYER[-1]], sound.samples)
 
 
 def _speak(
     program: str, language: str, target: Callable[[Sound], None], text: str
 ) -> None:
-    target(synthesised(_plain(text), program, language))
+    target(synthesise(_spoken_form(text), program, language))
 
 
-def _plain(text: str) -> str:
+def _spoken_form(text: str) -> str:
     """A sentence as it is spoken: "#2" is "number 2", quotation marks are silent."""
     return re.sub(r"#(\d)", r"number \1", text).replace('"', "")
 
 
-def _ready(program: str) -> str:
+def _check_installed(program: str) -> str:
     command = SYNTHESISERS[program][0]
     if shutil.which(command) is None:
         raise SoundError(f"{command} is not installed: apt install {command}")
     return program
 
 
-def _ran(command: list[str], given: bytes) -> bytes:
+def _run_program(command: list[str], given: bytes) -> bytes:
     """What a program writes; `SoundError` with its last words if it fails."""
     try:
         done = subprocess.run(

@@ -58,7 +58,7 @@ def utterances(read: Callable[[int], bytes], patience: float = inf) -> Iterator[
 
 def from_file(path: Path) -> Iterator[bytes]:
     """The utterances in a WAV file of any rate; `SoundError` if it is none."""
-    return _of(read_wav(path).at(RATE).samples)
+    return _utterances_in(read_wav(path).at(RATE).samples)
 
 
 def from_pipe(pipe: IO[bytes], patience: float = inf) -> Iterator[bytes]:
@@ -66,7 +66,7 @@ def from_pipe(pipe: IO[bytes], patience: float = inf) -> Iterator[bytes]:
 
     It is over when nobody has spoken for `patience` seconds.
     """
-    return utterances(lambda size: _whole(pipe, size), patience)
+    return utterances(lambda size: _read_exactly(pipe, size), patience)
 
 
 def from_microphone(patience: float = inf) -> bytes:
@@ -83,7 +83,7 @@ def from_microphone(patience: float = inf) -> bytes:
         )
     # Complaints go to a file: nobody reads them while it records, perhaps for hours.
     with TemporaryFile() as told:
-        found, failed = _recorded(told, patience)
+        found, failed = _record_utterance(told, patience)
         told.seek(0)
         complaints = told.read().decode(errors="replace").split("\n")
     if failed:
@@ -95,7 +95,7 @@ def from_microphone(patience: float = inf) -> bytes:
     return found
 
 
-def _recorded(told: IO[bytes], patience: float) -> tuple[bytes, bool]:
+def _record_utterance(told: IO[bytes], patience: float) -> tuple[bytes, bool]:
     """An utterance, and whether the recorder ended before there was any."""
     with subprocess.Popen(_RECORDER, stdout=subprocess.PIPE, stderr=told) as recorder:
         assert recorder.stdout is not None
@@ -106,7 +106,7 @@ def _recorded(told: IO[bytes], patience: float) -> tuple[bytes, bool]:
             recorder.terminate()
 
 
-def _of(samples: bytes) -> Iterator[bytes]:
+def _utterances_in(samples: bytes) -> Iterator[bytes]:
     """The utterances in samples that are all there."""
     pieces = _Pieces(samples)
     return utterances(pieces.read)
@@ -124,7 +124,7 @@ class _Pieces:
         return self._samples[self._at - size : self._at]
 
 
-def _whole(pipe: IO[bytes], size: int) -> bytes:
+def _read_exactly(pipe: IO[bytes], size: int) -> bytes:
     """So many bytes of a pipe, which may give fewer at a time."""
     data = b""
     while len(data) < size:

@@ -1,11 +1,11 @@
 """All that may be said, word by word: what can come next, wherever one is.
 
-A `Place` in a sentence knows whether the sentence may end there, and which words lead
-on. Two places from which the same can be said are one and the same object, so that
+A `State` in a sentence knows whether the sentence may end there, and which words lead
+on. Two states from which the same can be said are one and the same object, so that
 networks are as small as can be: minimal acyclic deterministic automata.
 
 Source: Daciuk, Mihov, Watson and Watson, "Incremental construction of minimal acyclic
-finite-state automata" (2000), for the register of places.
+finite-state automata" (2000), for the register of states.
 """
 
 from __future__ import annotations
@@ -18,124 +18,128 @@ from weakref import WeakValueDictionary
 
 
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
-class Place:
+class State:
     """Where one is in a sentence; made by the functions of this module only."""
 
     ends: bool
-    after: tuple[tuple[str, Place], ...]
+    after: tuple[tuple[str, State], ...]
     """The words that may come next, in order, and where each leads."""
 
 
 _KEPT = 2**18
 """How many results are remembered: those of some dozens of new words."""
 
-NOTHING = Place(False, ())
+NOTHING = State(False, ())
 """Where nothing can be said, not even nothing."""
 
-_register: WeakValueDictionary[object, Place] = WeakValueDictionary()
+_register: WeakValueDictionary[object, State] = WeakValueDictionary()
 _register[False, ()] = NOTHING
 
 
-def _place(ends: bool, after: Mapping[str, Place]) -> Place:
-    """The one place with this after it."""
+def _state(ends: bool, after: Mapping[str, State]) -> State:
+    """The one state with this after it."""
     arcs = tuple((word, after[word]) for word in sorted(after))
     arcs = tuple(arc for arc in arcs if arc[1] is not NOTHING)
     key = (ends, tuple((word, id(it)) for word, it in arcs))
     found = _register.get(key)
     if found is None:
-        found = _register[key] = Place(ends, arcs)
+        found = _register[key] = State(ends, arcs)
     return found
 
 
-END = _place(True, {})
+END = _state(True, {})
 """Where the sentence is over."""
 
 
-def said(words: Sequence[str]) -> Place:
+def sequence(words: Sequence[str]) -> State:
     """Just these words, one after the other.
 
-    >>> said(["a", "cup"]) is said(["a", "cup"])
+    >>> sequence(["a", "cup"]) is sequence(["a", "cup"])
     True
     """
-    return reduce(lambda rest, word: _place(False, {word: rest}), reversed(words), END)
+    return reduce(lambda rest, word: _state(False, {word: rest}), reversed(words), END)
 
 
-def either(ways: Iterable[Place]) -> Place:
+def union(ways: Iterable[State]) -> State:
     """What can be said in one of these ways.
 
-    >>> list(sentences(either([said(["a", "cup"]), said(["a", "mug"])])))
+    >>> list(sentences(union([sequence(["a", "cup"]), sequence(["a", "mug"])])))
     ['a cup', 'a mug']
     """
     left = list(ways) or [NOTHING]
     while len(left) > 1:
         pairs = zip_longest(left[::2], left[1::2], fillvalue=NOTHING)
-        left = [_either_of_two(one, other) for one, other in pairs]
+        left = [_union_of_two(one, other) for one, other in pairs]
     return left[0]
 
 
 @lru_cache(_KEPT)
-def _either_of_two(one: Place, other: Place) -> Place:
+def _union_of_two(one: State, other: State) -> State:
     if one is other or other is NOTHING:
         return one
     if one is NOTHING:
         return other
     after = dict(one.after)
     for word, it in other.after:
-        after[word] = _either_of_two(after[word], it) if word in after else it
-    return _place(one.ends or other.ends, after)
+        after[word] = _union_of_two(after[word], it) if word in after else it
+    return _state(one.ends or other.ends, after)
 
 
-def following(parts: Iterable[Place]) -> Place:
+def concatenation(parts: Iterable[State]) -> State:
     """What can be said part by part.
 
-    >>> a_cup_or_none = either([said(["a", "cup"]), END])
-    >>> list(sentences(following([said(["yes"]), a_cup_or_none])))
+    >>> a_cup_or_none = union([sequence(["a", "cup"]), END])
+    >>> list(sentences(concatenation([sequence(["yes"]), a_cup_or_none])))
     ['yes', 'yes a cup']
     """
-    return reduce(lambda rest, part: _then(part, rest), reversed(list(parts)), END)
+    return reduce(
+        lambda rest, part: _concatenate(part, rest), reversed(list(parts)), END
+    )
 
 
 @lru_cache(_KEPT)
-def _then(first: Place, second: Place) -> Place:
-    after = {word: _then(it, second) for word, it in first.after}
-    rest = _place(False, after)
-    return _either_of_two(rest, second) if first.ends else rest
+def _concatenate(first: State, second: State) -> State:
+    after = {word: _concatenate(it, second) for word, it in first.after}
+    rest = _state(False, after)
+    return _union_of_two(rest, second) if first.ends else rest
 
 
-def filled(place: Place, slots: Mapping[str, Place]) -> Place:
+def fill_slots(state: State, slots: Mapping[str, State]) -> State:
     """The network with other networks in place of some of its words.
 
-    >>> naming = said(["a", "NOUN"])
-    >>> nouns = either([said(["cup"]), said(["teddy", "bear"])])
-    >>> list(sentences(filled(naming, {"NOUN": nouns})))
+    >>> naming = sequence(["a", "NOUN"])
+    >>> nouns = union([sequence(["cup"]), sequence(["teddy", "bear"])])
+    >>> list(sentences(fill_slots(naming, {"NOUN": nouns})))
     ['a cup', 'a teddy bear']
     """
-    known: dict[Place, Place] = {}
+    known: dict[State, State] = {}
 
-    def at(here: Place) -> Place:
+    def at(here: State) -> State:
         if here not in known:
             plain = {word: at(it) for word, it in here.after if word not in slots}
-            ways = [_then(slots[w], at(it)) for w, it in here.after if w in slots]
-            known[here] = either([_place(here.ends, plain), *ways])
+            ways = [
+                _concatenate(slots[w], at(it)) for w, it in here.after if w in slots
+            ]
+            known[here] = union([_state(here.ends, plain), *ways])
         return known[here]
 
-    return at(place)
+    return at(state)
 
 
-def only(place: Place, may_follow: Callable[[str, str], bool]) -> Place:
+def restrict(state: State, may_follow: Callable[[str, str], bool]) -> State:
     """What can be said of it where a word may follow the one before.
 
     Before the first word stands "", and after the last.
 
-    >>> a_cup = either([said(["a", "cup"]), said(["an", "cup"])])
-    >>> list(sentences(only(a_cup, lambda before, word: before != "an")))
+    >>> a_cup = union([sequence(["a", "cup"]), sequence(["an", "cup"])])
+    >>> list(sentences(restrict(a_cup, lambda before, word: before != "an")))
     ['a cup']
     """
-    known: dict[tuple[Place, str], Place] = {}
+    known: dict[tuple[State, str], State] = {}
 
-    def at(here: Place, before: str) -> Place:
+    def at(here: State, before: str) -> State:
         if (here, before) not in known:
-            known[here, before] = _place(
+            known[here, before] = _state(
                 here.ends and may_follow(before, ""),
                 {
                     word: at(it, word)
@@ -145,62 +149,62 @@ def only(place: Place, may_follow: Callable[[str, str], bool]) -> Place:
             )
         return known[here, before]
 
-    return at(place, "")
+    return at(state, "")
 
 
-def fused(place: Place, words: Mapping[tuple[str, str], str]) -> Place:
+def fuse_words(state: State, words: Mapping[tuple[str, str], str]) -> State:
     """The network with one word in place of two neighbours: "is", "n't" is "isn't".
 
-    >>> it_is_not = said(["it", "is", "n't"])
-    >>> list(sentences(fused(it_is_not, {("is", "n't"): "isn't"})))
+    >>> it_is_not = sequence(["it", "is", "n't"])
+    >>> list(sentences(fuse_words(it_is_not, {("is", "n't"): "isn't"})))
     ["it isn't"]
     """
-    known: dict[Place, Place] = {}
+    known: dict[State, State] = {}
 
-    def at(here: Place) -> Place:
+    def at(here: State) -> State:
         if here not in known:
-            ways = [_place(here.ends, {})]
+            ways = [_state(here.ends, {})]
             for word, it in here.after:
-                one = {w: at(end) for w, end in _fusing(word, it, words)}
-                rest = at(_place(it.ends, _unfused(word, it, words)))
-                ways.append(_place(False, {**one, word: rest}))
-            known[here] = either(ways)
+                one = {w: at(end) for w, end in _fusions(word, it, words)}
+                rest = at(_state(it.ends, _unfused_words(word, it, words)))
+                ways.append(_state(False, {**one, word: rest}))
+            known[here] = union(ways)
         return known[here]
 
-    return at(place)
+    return at(state)
 
 
-def _fusing(
-    word: str, place: Place, words: Mapping[tuple[str, str], str]
-) -> Iterator[tuple[str, Place]]:
+def _fusions(
+    word: str, state: State, words: Mapping[tuple[str, str], str]
+) -> Iterator[tuple[str, State]]:
     """The words that a word is fused to with what comes next."""
-    for second, end in place.after:
+    for second, end in state.after:
         if (word, second) in words:
             yield words[word, second], end
 
 
-def _unfused(
-    word: str, place: Place, words: Mapping[tuple[str, str], str]
-) -> dict[str, Place]:
+def _unfused_words(
+    word: str, state: State, words: Mapping[tuple[str, str], str]
+) -> dict[str, State]:
     """What may come next and stays apart."""
-    return {w: it for w, it in place.after if (word, w) not in words}
+    return {w: it for w, it in state.after if (word, w) not in words}
 
 
-def allows(place: Place, words: Iterable[str]) -> bool:
+def allows(state: State, words: Iterable[str]) -> bool:
     """Whether just these words can be said.
 
-    >>> allows(said(["a", "cup"]), ["a"])
+    >>> allows(sequence(["a", "cup"]), ["a"])
     False
     """
-    here = place
+    here = state
     for word in words:
         here = dict(here.after).get(word, NOTHING)
     return here.ends
 
 
-def places(place: Place) -> list[Place]:
-    """All places that can be reached, this one first."""
-    found, ahead = {place: None}, [place]
+def reachable_states(state: State) -> list[State]:
+    """All states that can be reached, this one first."""
+    found, ahead = {state: None}, [state]
     while ahead:
         for _, it in ahead.pop().after:
             if it not in found:
@@ -209,10 +213,10 @@ def places(place: Place) -> list[Place]:
     return list(found)
 
 
-def sentences(place: Place) -> Iterator[str]:
+def sentences(state: State) -> Iterator[str]:
     """All that can be said, in alphabetical order of the words."""
-    if place.ends:
+    if state.ends:
         yield ""
-    for word, it in place.after:
+    for word, it in state.after:
         for rest in sentences(it):
             yield f"{word} {rest}".rstrip()

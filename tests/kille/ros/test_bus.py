@@ -341,7 +341,7 @@ def test_many_who_ask_get_each_their_own(bus: Bus) -> None:
     found = dict[int, int]()
 
     def ask(number: int) -> None:
-        found[number] = int(askers[number].asked({"n": number}).arrays["n"])
+        found[number] = int(askers[number].request({"n": number}).arrays["n"])
 
     threads = [threading.Thread(target=ask, args=(n,)) for n in range(4)]
     for thread in threads:

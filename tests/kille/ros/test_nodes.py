@@ -16,7 +16,7 @@ from hypothesis.extra import numpy as arrays
 
 from kille import Agent, Memory
 from kille.bus import Asking, Bundle, Bus, BusError, Facts, LocalBus, Text, serve
-from kille.bus.packing import packed, unpacked
+from kille.bus.packing import pack, unpack
 from kille.nodes.dialogue import Talking
 from kille.nodes.look_messages import bundle_of, look_in, mask_in, runs_of
 from kille.nodes.perception import Seeing
@@ -249,7 +249,7 @@ def test_without_a_sensor_perception_says_so(heard: Any) -> None:
     bus = LocalBus()
     seeing = Seeing(bus, patience=0.2)
     with pytest.raises(BusError, match="no picture came on camera/rgb/image_color"):
-        Asking(bus, LOOKS, WAIT).asked({"scans": 1})
+        Asking(bus, LOOKS, WAIT).request({"scans": 1})
     seeing.close()
     bus.close()
 
@@ -289,12 +289,12 @@ def test_a_sensor_that_fails_is_told_once_and_tried_again(heard: Any) -> None:
     problems = heard(bus, PROBLEMS)
     sensing, seeing = Sensing(bus, sensor), Seeing(bus)
     asking = Asking(bus, LOOKS, WAIT)
-    assert asking.asked({"scans": 1}).facts["things"] == []
+    assert asking.request({"scans": 1}).facts["things"] == []
     sensor.broken = True
     assert problems.next().text == "the cable is loose"
     assert problems.nothing(1.5)
     sensor.broken = False
-    assert asking.asked({"scans": 1}).facts["things"] == []
+    assert asking.request({"scans": 1}).facts["things"] == []
     for it in (seeing, sensing, sensor, bus):
         it.close()
 
@@ -305,7 +305,7 @@ def test_a_sensor_is_read_only_while_somebody_listens() -> None:
     threading.Event().wait(0.2)
     assert sensor.read == 0
     seeing = Seeing(bus)
-    assert Asking(bus, LOOKS, WAIT).asked({"scans": 1}).facts["things"] == []
+    assert Asking(bus, LOOKS, WAIT).request({"scans": 1}).facts["things"] == []
     assert sensor.read > 0
     for it in (seeing, sensing, sensor, bus):
         it.close()
@@ -386,7 +386,7 @@ def test_a_broken_request_is_refused_in_one_line(
     robot: Robot, request_: dict[str, Any]
 ) -> None:
     with pytest.raises(BusError, match="this is no request for a look"):
-        Asking(robot.bus, LOOKS, WAIT).asked(request_)
+        Asking(robot.bus, LOOKS, WAIT).request(request_)
 
 
 def test_a_look_that_is_none_is_one_line() -> None:
@@ -406,7 +406,7 @@ def test_a_look_comes_over_whole(scene: str) -> None:
     sensor = open_sensor(scene)
     seen = look(sensor, 2)
     sensor.close()
-    again = look_in(unpacked(packed(bundle_of(seen))))
+    again = look_in(unpack(pack(bundle_of(seen))))
     assert again.up == seen.up
     assert again.frame.intrinsics == seen.frame.intrinsics
     assert again.frame.time == seen.frame.time

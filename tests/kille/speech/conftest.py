@@ -12,7 +12,7 @@ from shutil import which
 import pytest
 
 from kille.dialogue.meanings import sign
-from kille.speech.expectations import expected, speech
+from kille.speech.expectations import expected_speech, speech
 from kille.speech.recognition import Recogniser
 from kille.speech.sound import RATE, read_wav
 
@@ -50,7 +50,7 @@ def recogniser() -> Recogniser:
     """A recogniser that expects what may be said with the words of `KNOWN`."""
     pytest.importorskip("pocketsphinx")
     made = Recogniser(speech())
-    made.expect(expected(KNOWN))
+    made.expect(expected_speech(KNOWN))
     return made
 
 

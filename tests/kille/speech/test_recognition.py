@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from kille.dialogue.meanings import sign
-from kille.speech.expectations import expected, speech
-from kille.speech.grammar import in_full, parted
+from kille.speech.expectations import expected_speech, speech
+from kille.speech.grammar import in_full, split_words
 from kille.speech.recognition import Recogniser
 from kille.speech.sound import RATE
 
@@ -32,7 +32,7 @@ def test_a_sentence_is_heard(
     recogniser: Recogniser, spoken: Spoken, text: str, voice: str
 ) -> None:
     best, *_ = recogniser.hear(spoken(text, voice))
-    assert in_full(parted(best.text)) == text
+    assert in_full(split_words(best.text)) == text
     assert 0 < best.p <= 1
 
 
@@ -83,6 +83,6 @@ def test_other_talk_is_heard_so_badly_that_the_robot_begs_pardon(
 
 def test_a_new_word_is_heard_as_it_is_guessed(spoken: Spoken) -> None:
     other = Recogniser(speech())
-    other.expect(expected([sign("wug", "noun"), sign("shoe-box", "noun")]))
+    other.expect(expected_speech([sign("wug", "noun"), sign("shoe-box", "noun")]))
     for text in ("where is the wug", "this is a wug", "where is the shoe-box"):
-        assert in_full(parted(other.hear(spoken(text))[0].text)) == text
+        assert in_full(split_words(other.hear(spoken(text))[0].text)) == text

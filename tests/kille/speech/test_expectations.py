@@ -10,10 +10,10 @@ import pytest
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import sign
-from kille.speech.expectations import Expected, expected, speech
-from kille.speech.grammar import parted
-from kille.speech.recognition import joined
-from kille.speech.word_network import Place, allows, places
+from kille.speech.expectations import Expected, expected_speech, speech
+from kille.speech.grammar import split_words
+from kille.speech.recognition import join_clitics
+from kille.speech.word_network import State, allows, reachable_states
 
 KNOWN = [
     *(sign(it, "noun") for it in ("cup", "apple", "teddy bear", "shoe-box")),
@@ -25,7 +25,7 @@ KNOWN = [
 
 @pytest.fixture(scope="module")
 def what() -> Expected:
-    return expected(KNOWN)
+    return expected_speech(KNOWN)
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def what() -> Expected:
     ],
 )
 def test_what_a_tutor_says_is_expected(what: Expected, text: str) -> None:
-    assert allows(what.network, parted(text))
+    assert allows(what.network, split_words(text))
 
 
 @pytest.mark.parametrize(
@@ -53,11 +53,11 @@ def test_what_a_tutor_says_is_expected(what: Expected, text: str) -> None:
     ["This is a apple.", "This is an cup.", "Where is the lamp?", "This is a.", "Is."],
 )
 def test_what_nobody_says_is_not(what: Expected, text: str) -> None:
-    assert not allows(what.network, parted(text))
+    assert not allows(what.network, split_words(text))
 
 
 def test_every_word_has_a_weight(what: Expected) -> None:
-    said = {word for place in places(what.network) for word, _ in place.after}
+    said = {word for place in reachable_states(what.network) for word, _ in place.after}
     assert said <= set(what.weights)
     assert all(0 < what.weights[it] <= 1 for it in said)
 
@@ -67,7 +67,7 @@ def test_what_is_expected_is_understood(what: Expected) -> None:
     assert [it for it in texts if not _understood(it)] == []
 
 
-def _drawn(network: Place, chance: Random) -> Iterator[str]:
+def _drawn(network: State, chance: Random) -> Iterator[str]:
     """Sentences of a network, of twelve words at most."""
     while True:
         place, said = network, list[str]()
@@ -75,7 +75,7 @@ def _drawn(network: Place, chance: Random) -> Iterator[str]:
             word, place = chance.choice(place.after)
             said.append(word)
         if len(said) <= 12:
-            yield joined(" ".join(said))
+            yield join_clitics(" ".join(said))
 
 
 def _understood(text: str) -> bool:
