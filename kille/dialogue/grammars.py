@@ -19,6 +19,9 @@ from typing import Any, NamedTuple, TypeAlias
 
 import regex
 
+BACKSLASHES = 20
+"""The number of backslashes in a grammar that may follow another backslash."""
+
 
 class GrammarError(ValueError):
     """A grammar that cannot be used, and why."""
@@ -234,6 +237,7 @@ def by_lark(text: str, starts: Sequence[str]) -> Source:
     from lark import Lark
     from lark.exceptions import LarkError
 
+    _refuse_backslashes(text)
     try:
         found = Lark(text, parser=None, lexer="basic", start=list(starts))
     except LarkError as mistake:
@@ -259,6 +263,20 @@ def by_lark(text: str, starts: Sequence[str]) -> Source:
     ]
     ignored = [it for name in found.ignore_tokens for it in patterns[name]]
     return Source(productions, patterns, ignored)
+
+
+def _refuse_backslashes(text: str) -> None:
+    """Refuse what Lark would read for hours: an open quote with many backslashes.
+
+    Each of two backslashes in a row may be read alone or with the other, so that the
+    ways to look for the end of the quote grow exponentially with them.
+    """
+    doubled = sum(len(run) - 1 for run in regex.findall(r"\\{2,}", text))
+    if doubled > BACKSLASHES:
+        raise GrammarError(
+            f"it has {doubled} backslashes that follow another, expected at most "
+            f"{BACKSLASHES}: write [\\x5c] for a backslash in an expression"
+        )
 
 
 def _first_mistake(failure: BaseException) -> str:

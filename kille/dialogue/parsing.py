@@ -87,12 +87,16 @@ class Grammar:
     def parse(self, text: str, start: str = "start") -> list[Tree]:
         """Every way to read the whole text, those with the fewest parts first.
 
-        Raises `GrammarError` where an expression takes too long to be looked for.
+        Raises `GrammarError` where an expression takes too long to be looked for, and
+        where rules are nested too deep.
         """
         if len(text.split()) > _MOST_WORDS:
             return []
         chart = _Chart(self, text)
-        rows = chart.rule(start, chart.after(0)).get(len(text), [])
+        try:
+            rows = chart.rule(start, chart.after(0)).get(len(text), [])
+        except RecursionError:
+            raise GrammarError("its rules nest too deep to be looked for") from None
         return [tree for row in rows for tree in row if isinstance(tree, Tree)]
 
     def check_terminals(self) -> None:

@@ -226,3 +226,20 @@ def test_terminals_are_checked_before_a_dialogue_comes_to_them() -> None:
     assert grammar.parse("x") == []
     with pytest.raises(GrammarError, match="the terminal B is no regular expression"):
         grammar.check_terminals()
+
+
+@pytest.mark.parametrize("opening", ["/", '"', ""])
+def test_a_grammar_with_many_backslashes_is_refused_at_once(opening):
+    with pytest.raises(GrammarError, match="backslashes that follow another"):
+        by_lark(f"start: a\na: {opening}" + "\\" * 500, ["start"])
+
+
+def test_a_few_backslashes_are_read():
+    assert Grammar(r"start: /\\\\/", "start").parse("\\\\")
+
+
+def test_rules_that_nest_too_deep_are_told():
+    chain = "".join(f"r{n}: r{n + 1}\n" for n in range(2000))
+    grammar = Grammar(f'start: r0\n{chain}r2000: "a"\n', "start")
+    with pytest.raises(GrammarError, match="nest too deep"):
+        grammar.parse("a")
