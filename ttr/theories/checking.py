@@ -61,17 +61,20 @@ def check(theory: Theory) -> Report:
     >>> print(check(theory))
     2 checks hold
     """
-    report = asked(theory)
+    report = answer_checks(theory)
     rules = [one for one in theory.rules.values() if _is_own(one.span, theory)]
     return replace(report, rules=len(rules), faults=_faults(theory, rules))
 
 
-def asked(theory: Theory) -> Report:
-    """Answer the theory's checks, but do not check its rules; raises as `check`."""
+def answer_checks(theory: Theory, model: Model | None = None) -> Report:
+    """Answer the theory's checks, but do not check its rules; raises as `check`.
+
+    `model` is the model of the theory's givens, where it is known already.
+    """
     if not isinstance(theory, Theory):
         raise TTRError(f"check takes a theory, found {kind_of(theory)}")
     purse = purse_of_several(len(theory.givens) + len(theory.checks))
-    model = model_of(theory, purse)
+    model = model_of(theory, purse) if model is None else model
     failures = []
     for one in theory.checks:
         answer = _answer(one.query, theory, model, purse)

@@ -19,7 +19,7 @@ from ttr.notation.syntax_trees import Application, Name, Source, Statement
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
 from ttr.theories.check_statements import CheckReader
-from ttr.theories.checking import asked
+from ttr.theories.checking import answer_checks
 from ttr.theories.game_statements import opened
 from ttr.theories.queries import Check, IsBelow, IsOf
 from ttr.types.objects import Object
@@ -81,7 +81,8 @@ def _declare(session: Session, tree: Statement, source: Source) -> Reply:
         opened(after.theory)  # refuses a game that starts from what is no state of it
     if not isinstance(tree, trees.Question):
         return Reply(replace(after, before=session), list_changes(changed))
-    report = asked(replace(after.theory, checks=after.theory.checks[-1:]))
+    newest = replace(after.theory, checks=after.theory.checks[-1:])
+    report = answer_checks(newest, after.model)
     if not report.holds:
         return Reply(session, str(report))
     return Reply(replace(after, before=session), "it holds")
@@ -183,7 +184,7 @@ def _answer_check(session: Session, question: Check) -> Reply:
             return _compare_types(
                 session, _reduced_type(session, lower), _reduced_type(session, upper)
             )
-    report = asked(replace(session.theory, checks=(question,)))
+    report = answer_checks(replace(session.theory, checks=(question,)), session.model)
     if report.holds:
         return Reply(session, "yes")
     (failure,) = report.failures
