@@ -8,6 +8,7 @@ import stat
 from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from kille.databases import has_strange_journal, shown
@@ -64,10 +65,10 @@ def _faults(connection: sqlite3.Connection) -> Iterator[str]:
         return
     yield from (f"it has {fault}" for fault in schema.content_faults(connection))
     if schema.version(connection) == schema.VERSION:
-        yield from _lesson_faults(connection)
+        yield from islice(_lesson_faults(connection), MOST_FAULTS)
         return
     with closing(files.up_to_date_copy(connection)) as copy:
-        yield from _lesson_faults(copy)
+        yield from islice(_lesson_faults(copy), MOST_FAULTS)
 
 
 def _in_short(damage: str) -> str:
@@ -78,15 +79,11 @@ def _in_short(damage: str) -> str:
 
 def _lesson_faults(connection: sqlite3.Connection) -> Iterator[str]:
     keys = connection.execute("SELECT id FROM lessons ORDER BY id").fetchall()
-    told = 0
     for (key,) in keys:
         try:
             reading.lesson(connection, key)
         except (ValueError, TypeError, KeyError, OverflowError, sqlite3.Error) as error:
             yield f"lesson {key} cannot be read: {shown(str(error))}"
-            told += 1
-            if told == MOST_FAULTS:
-                return
 
 
 def _amount(connection: sqlite3.Connection) -> Amount:

@@ -189,7 +189,6 @@ class _File:
             pages.append(part)
             length -= len(part)
             number = int.from_bytes(page[:4], "big")
-        self._seen |= seen
         return b"".join(pages)
 
     def _free(self) -> Iterator[int]:

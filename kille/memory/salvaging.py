@@ -155,27 +155,30 @@ def _count_fitting(version: int, found: Rows) -> int:
     """How many rows could be of a memory of this version."""
     with closing(sqlite3.connect(":memory:")) as tables:
         schema.migrate(tables, schema.MIGRATIONS[:version])
-        return _insert(tables, found, dry=True)
+        return sum(values is not None for _, values in _fitted_rows(tables, found))
 
 
-def _insert(tables: sqlite3.Connection, found: Rows, *, dry: bool = False) -> int:
-    """Insert all rows that fit; how many do not, or in a dry run how many do."""
+def _fitted_rows(
+    tables: sqlite3.Connection, found: Rows
+) -> list[tuple[str, tuple[Value, ...] | None]]:
+    """The table and the values of every row; None if they do not fit in it."""
     columns = {it: _columns(tables, it) for it in _names(tables)}
     rows = [(name, it) for name in columns for it in found.tables.get(name, ())]
     rows += [(name, it) for it in found.strays if (name := _table_of(it, columns))]
-    fitting, lost = 0, 0
-    for name, row in rows:
-        values = _fitted(row, columns[name])
-        fitting += values is not None
-        if dry:
-            continue
+    return [(name, _fitted(row, columns[name])) for name, row in rows]
+
+
+def _insert(tables: sqlite3.Connection, found: Rows) -> int:
+    """Insert all rows that fit; how many do not."""
+    lost = 0
+    for name, values in _fitted_rows(tables, found):
         if values is None:
             lost += 1
             continue
         marks = ", ".join("?" * len(values))
         done = tables.execute(f"INSERT OR IGNORE INTO {name} VALUES ({marks})", values)
         lost += not done.rowcount
-    return fitting if dry else lost
+    return lost
 
 
 def _names(tables: sqlite3.Connection) -> list[str]:

@@ -154,6 +154,43 @@ def test_rows_are_read_from_pages_as_sqlite_reads_them(
     assert (found.strays, found.unreadable) == ([], 0)
 
 
+def database(*statements: str) -> bytes:
+    """The bytes of a database with pages of 512 bytes, made by these statements."""
+    with closing(sqlite3.connect(":memory:")) as connection:
+        connection.execute("PRAGMA page_size = 512")
+        for statement in statements:
+            connection.execute(statement)
+        connection.commit()
+        return connection.serialize()
+
+
+def test_a_record_whose_head_is_longer_than_it_says_cannot_be_read() -> None:
+    content = database(
+        "CREATE TABLE any (a)", f"INSERT INTO any VALUES (x'{'07' * 59}')"
+    )
+    head, shorter = bytes([3, 0x81, 12 + 2 * 59 - 128]), bytes([2, 0x81, 4])
+    assert content.count(head + bytes([7] * 59)) == 1
+    (row,) = rows_in(content).tables["any"]
+    assert row.values == (bytes([7] * 59),)
+    found = rows_in(content.replace(head + bytes([7]), shorter + bytes([7])))
+    assert (list(found.tables["any"]), found.unreadable) == ([], 1)
+
+
+def test_rows_behind_a_page_that_is_lost_are_read_as_those_of_their_table() -> None:
+    content = database(
+        "CREATE TABLE any (a)",
+        *(f"INSERT INTO any VALUES (zeroblob({100 + n}))" for n in range(60)),
+    )
+    whole = rows_in(content)
+    leaves = [n for n in range(2, len(content) // 512) if content[n * 512] == 0x0D]
+    lost = leaves[len(leaves) // 2] * 512
+    found = rows_in(content[:lost] + bytes(512) + content[lost + 512 :])
+    assert found.unreadable == 1
+    assert found.tables["any"][0] == whole.tables["any"][0]
+    assert found.tables["any"][-1] == whole.tables["any"][-1]
+    assert found.strays == []
+
+
 @given(st.binary(max_size=5000), st.binary(max_size=200), st.integers(0, 5000))
 def test_any_bytes_have_rows_or_none(content: bytes, more: bytes, at: int) -> None:
     for head in (b"", b"SQLite format 3\0\x02\0" + bytes(82)):
@@ -430,6 +467,24 @@ def test_what_was_seen_without_its_lesson_is_told_of(path: Path) -> None:
     assert done.losses == (
         "lesson 2: what was seen is left, but not what word it taught",
     )
+
+
+def test_each_lesson_that_is_damaged_is_told_of_up_to_twenty(path: Path) -> None:
+    teach(path, 24)
+    change(path, "UPDATE scans SET points = x'00' WHERE lesson < 4")
+    assert len(check(path).faults) == 3
+    change(path, "UPDATE scans SET points = x'00'")
+    assert len(check(path).faults) == 20
+
+
+def test_bytes_where_a_number_should_be_are_no_text(path: Path) -> None:
+    teach(path)
+    change(path, "UPDATE sightings SET x = x'31' WHERE lesson = 3")
+    done, found = saved_from(path)
+    assert done.losses == ("1 row or pages that cannot be read",)
+    lesson = found[3]
+    assert isinstance(lesson, ObjectLesson)
+    assert lesson.seen.place is None
 
 
 def test_a_lesson_that_is_damaged_is_left_out(path: Path) -> None:
