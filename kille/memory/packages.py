@@ -16,7 +16,7 @@ from typing import Protocol
 
 from kille.archives import check_sizes, opened_zip, read_member
 from kille.databases import shown
-from kille.private import FILE_MODE, FOLDER_MODE, private
+from kille.private import FOLDER_MODE, private
 from ttr.safety.inputs import read_bytes
 from ttr.safety.limits import MEMBER, PACKAGE
 
@@ -146,9 +146,8 @@ class _ZipWriter:
         self._opened = opened
 
     def write(self, name: str, content: bytes) -> None:
-        entry = zipfile.ZipInfo(name, _FIRST_DAY)
-        entry.external_attr = FILE_MODE << 16
-        self._opened.writestr(entry, content)
+        """Write a member that is its user's alone, as `zipfile` has it unpacked."""
+        self._opened.writestr(zipfile.ZipInfo(name, _FIRST_DAY), content)
 
 
 @contextmanager

@@ -113,13 +113,13 @@ def delete_lesson(connection: sqlite3.Connection, key: int) -> bool:
 
 def scan_bytes(scan: Scan) -> tuple[bytes, bytes]:
     """The arrays row by row, little-endian on every machine."""
-    points = scan.points.astype("<f4", copy=False)
+    points = scan.points.astype("<f4")
     return scan.descriptors.tobytes(), points.tobytes()
 
 
 def vector_bytes(vector: Vector) -> bytes:
     """The numbers one after the other, little-endian on every machine."""
-    return vector.astype("<f4", copy=False).tobytes()
+    return vector.astype("<f4").tobytes()
 
 
 def _add_sighting(connection: sqlite3.Connection, key: int, seen: Sighting) -> None:

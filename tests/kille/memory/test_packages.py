@@ -136,6 +136,27 @@ def test_the_same_memory_gives_the_same_bytes(tmp_path: Path, seen: Sighting) ->
     assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
 
 
+def test_what_is_unpacked_from_a_zip_is_its_users_alone(
+    tmp_path: Path, seen: Sighting
+) -> None:
+    with small_memory(seen) as memory:
+        export(memory, tmp_path / "a.zip")
+    with zipfile.ZipFile(tmp_path / "a.zip") as packed:
+        assert {it.external_attr >> 16 for it in packed.infolist()} == {0o600}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="only POSIX can sync all files at once")
+def test_a_folder_is_on_its_disk_before_it_has_its_name(
+    tmp_path: Path, seen: Sighting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    named: list[bool] = []
+    monkeypatch.setattr(os, "sync", lambda: named.append((tmp_path / "a").exists()))
+    with small_memory(seen) as memory:
+        export(memory, tmp_path / "a")
+    assert named == [False]
+    assert (tmp_path / "a").is_dir()
+
+
 def test_others_can_read_it(tmp_path: Path, seen: Sighting) -> None:
     with small_memory(seen) as memory:
         export(memory, tmp_path / "a.zip")
