@@ -108,3 +108,9 @@ def test_what_a_thing_is_and_where_it_is_are_not_the_same() -> None:
     assert [type(it) for it in lessons] == [ObjectLesson, RelationLesson]
     same = [[has_same_content(a, b) for b in lessons] for a in lessons]
     assert same == [[True, False], [False, True]]
+
+
+def test_two_sightings_are_two_though_the_same_was_seen(seen: Sighting) -> None:
+    again = replace(seen)
+    assert len({seen, again}) == 2
+    assert seen != again

@@ -21,7 +21,9 @@ from kille.memory import (
     schema,
 )
 from kille.memory.checking import check
+from kille.memory.errors import explained
 from kille.memory.exporting import export
+from kille.memory.files import open_to_read
 
 from .test_files import refusal, taught
 from .test_schema import of_version_1, of_version_2
@@ -506,6 +508,29 @@ def test_commits_are_durable_before_they_return(path: Path) -> None:
     with Memory.open(path) as memory:
         found = memory._connection.execute("PRAGMA synchronous").fetchone()
     assert found == (2,), "FULL: a commit waits until the disk has it"
+
+
+def test_what_is_no_fault_of_the_file_is_not_blamed_on_it() -> None:
+    stopped = sqlite3.OperationalError("interrupted")
+    stopped.sqlite_errorcode = sqlite3.SQLITE_INTERRUPT
+    with (
+        pytest.raises(sqlite3.OperationalError, match="interrupted"),
+        explained("memory.db"),
+    ):
+        raise stopped
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/fd"), reason="needs /proc")
+def test_a_file_that_is_refused_is_not_kept_open(
+    path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    taught(path, said(1), seen)
+    change(path, "CREATE TABLE strange (a)")
+    with pytest.raises(MemoryFileError) as refused:
+        open_to_read(path)
+    links = [it for it in Path("/proc/self/fd").iterdir() if it.is_symlink()]
+    assert "memory.db has " in str(refused.value)
+    assert str(path) not in {os.readlink(it) for it in links if it.is_symlink()}
 
 
 def test_what_cannot_be_opened_is_a_memory_file_error(tmp_path: Path) -> None:
