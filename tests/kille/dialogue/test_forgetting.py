@@ -30,6 +30,15 @@ def test_the_latest_lesson_about_what_is_talked_of(table: Any) -> None:
     assert taught(table.state) == ["cup", "blue"]
 
 
+def test_what_is_talked_of_need_not_be_what_is_looked_at(table: Any) -> None:
+    table.hear("This is red.")
+    table.hear("The book is blue.")
+    table.hear("This is a cup.")
+    table.hear("Where is the book?")
+    assert table.hear("Forget that.") == "OK, I forgot that this is blue."
+    assert taught(table.state) == ["red", "cup"]
+
+
 def test_the_latest_lesson(table: Any) -> None:
     table.hear("This is red.")
     table.hear("The book is blue.")

@@ -143,6 +143,21 @@ def test_a_lesson_is_learned_anew_in_the_other_perspective(table: Any) -> None:
     assert agreed == lesson.content
 
 
+@pytest.mark.parametrize(
+    ("question", "as_it_sees_it", "as_the_car_sees_it"),
+    [
+        ("Is the red cup to the left of the car?", "Yes", "No"),
+        ("Is the blue cup to the left of the car?", "No", "Yes"),
+    ],
+)
+def test_whose_is_asked_whichever_says_yes(
+    table: Any, question: str, as_it_sees_it: str, as_the_car_sees_it: str
+) -> None:
+    assert table.hear(question) == WHOSE
+    assert table.hear("As you see it.").startswith(as_it_sees_it)
+    assert table.hear("No, as the car sees it.").startswith(as_the_car_sees_it)
+
+
 def test_a_question_whose_answer_depends_on_it(table: Any) -> None:
     assert table.hear("Is the red cup to the left of the car?") == WHOSE
     table.hear("From the car.")

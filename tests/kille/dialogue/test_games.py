@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import named, predicate_at
+from kille.dialogue.tutoring import tutoring
 
 Make = Callable[..., Any]
 
@@ -278,3 +279,10 @@ def test_every_move_of_the_robot_has_its_wording_and_its_type() -> None:
     for act in lexicon().says:
         name = "".join(part.capitalize() for part in act.split("_"))
         assert predicate_at(named(name), "e").name == act
+
+
+# --- the rules themselves -------------------------------------------------------------
+
+
+def test_every_rule_says_what_it_is_for() -> None:
+    assert [rule.name for rule in tutoring([]).rules if not rule.doc] == []
