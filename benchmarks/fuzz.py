@@ -555,7 +555,7 @@ def _package(folder: Path) -> Reader:
     from kille import Agent
     from kille.memory import Memory
     from kille.memory.exporting import export
-    from kille.memory.importing import opened
+    from kille.memory.importing import open_package
     from kille.memory.packages import PackageError
 
     file, made = folder / "memory.db", folder / "made.zip"
@@ -567,7 +567,7 @@ def _package(folder: Path) -> Reader:
         export(memory, made)
 
     def read(path: Path) -> None:
-        with opened(path) as package:
+        with open_package(path) as package:
             for _ in package.lessons():
                 pass
 

@@ -1,4 +1,4 @@
-"""Zips and NumPy archives: nothing is unpacked before it is known how large it is.
+"""Zips and NumPy archives: nothing is unpacked before its size is known.
 
 What is too large raises `OSError`, what is damaged `DamagedArchiveError`. Nothing is
 ever written to disk, so that the names in an archive lead nowhere.
@@ -40,16 +40,16 @@ _DAMAGE = (
     zlib.error,
     zipfile.BadZipFile,
 )
-"""What numpy and zipfile come to where bytes of an archive are wrong."""
+"""The errors that numpy and zipfile raise for invalid bytes of an archive."""
 
 
 class DamagedArchiveError(ValueError):
-    """An archive whose bytes are wrong."""
+    """An archive with invalid bytes."""
 
 
 @contextmanager
-def damage_told() -> Iterator[None]:
-    """Turns whatever wrong bytes come to into `DamagedArchiveError`."""
+def report_damage() -> Iterator[None]:
+    """Turn any error from invalid bytes into `DamagedArchiveError`."""
     try:
         yield
     except (OSError, DamagedArchiveError):
@@ -60,7 +60,7 @@ def damage_told() -> Iterator[None]:
 
 
 class _Bounded(io.BufferedReader):
-    """A file whose list of contents, which is read at once, is not too large."""
+    """A file whose table of contents, which is read at once, is not too large."""
 
     limit: Limit | None = DIRECTORY
 
@@ -71,14 +71,14 @@ class _Bounded(io.BufferedReader):
 
 
 @contextmanager
-def opened_zip(source: Path | bytes) -> Iterator[zipfile.ZipFile]:
-    """A zip, from its file or its bytes, whose list of contents has been read."""
+def open_zip(source: Path | bytes) -> Iterator[zipfile.ZipFile]:
+    """Open a zip from its file or its bytes; its table of contents has been read."""
     if isinstance(source, bytes):
         raw: BinaryIO = io.BytesIO(source)
     else:
         raw = open_file(source)
     with raw, _Bounded(raw) as file:  # type: ignore[arg-type]
-        with damage_told():
+        with report_damage():
             archive = zipfile.ZipFile(file)
         file.limit = None
         with archive:
@@ -86,17 +86,17 @@ def opened_zip(source: Path | bytes) -> Iterator[zipfile.ZipFile]:
 
 
 def check_sizes(archive: zipfile.ZipFile, limit: Limit) -> None:
-    """Refuses a zip whose files have too much in them together."""
+    """Refuse a zip whose files are too large together."""
     limit.check(sum(it.file_size for it in archive.infolist()))
 
 
 def read_member(archive: zipfile.ZipFile, name: str, limit: Limit) -> bytes:
-    """A file of a zip; `KeyError` if there is none of this name.
+    """Read a file of a zip; `KeyError` if there is none of this name.
 
     A zip may say that less is in it than there is: no more is unpacked than it says.
     """
     entry = archive.getinfo(name)
-    with _member(archive, entry, limit) as file, damage_told():
+    with _member(archive, entry, limit) as file, report_damage():
         return file.read(entry.file_size + 1)
 
 
@@ -106,10 +106,8 @@ def _member(
 ) -> Iterator[IO[bytes]]:
     limit.check(entry.file_size)
     if entry.compress_type not in _WAYS:
-        raise DamagedArchiveError(
-            f"{entry.filename} is compressed in a way that is not known"
-        )
-    with damage_told():
+        raise DamagedArchiveError(f"{entry.filename} is compressed in an unknown way")
+    with report_damage():
         file = archive.open(entry)
     with file:
         yield file
@@ -126,7 +124,7 @@ def read_arrays(data: bytes, limit: Limit = ARRAYS) -> dict[str, NDArray[Any]]:
     >>> read_arrays(file.getvalue())
     {'up': array([0, 1, 2])}
     """
-    with opened_zip(data) as archive:
+    with open_zip(data) as archive:
         check_sizes(archive, limit)
         return {
             entry.filename.removesuffix(_SUFFIX): read_array(archive, entry, limit)
@@ -138,8 +136,10 @@ def read_arrays(data: bytes, limit: Limit = ARRAYS) -> dict[str, NDArray[Any]]:
 def read_array(
     archive: zipfile.ZipFile, entry: zipfile.ZipInfo, limit: Limit = ARRAYS
 ) -> NDArray[Any]:
-    """The array in a file of an archive, which has to be as large as its head says."""
-    with _member(archive, entry, limit) as file, damage_told():
+    """Read the array in a file of an archive, which must be as large as its header
+    says.
+    """
+    with _member(archive, entry, limit) as file, report_damage():
         head = read_head(file)
         rest = entry.file_size - file.tell()
         if head.size != rest:
@@ -152,7 +152,7 @@ def read_array(
 
 
 class Head(NamedTuple):
-    """What the head of an array says of it."""
+    """The header of an array."""
 
     shape: tuple[int, ...]
     by_columns: bool
@@ -160,16 +160,16 @@ class Head(NamedTuple):
 
     @property
     def size(self) -> int:
-        """How many bytes its numbers have."""
+        """The number of bytes of its data."""
         return math.prod(self.shape) * self.kind.itemsize
 
 
 def read_head(file: IO[bytes]) -> Head:
-    """The head of an array, up to its first number.
+    """Read the header of an array, up to its first number.
 
     Raises `DamagedArchiveError` for an array of Python objects.
     """
-    with damage_told():
+    with report_damage():
         shape, by_columns, kind = _HEADS[np.lib.format.read_magic(file)](file)
         if kind.hasobject:
             raise DamagedArchiveError("it holds Python objects")

@@ -1,4 +1,4 @@
-"""SQLite files of our own: nothing in them is believed that kille did not write.
+"""SQLite files of our own: nothing in them is trusted that kille did not write.
 
 A database carries code: triggers, views, defaults and checks run with the statements of
 whoever opens it. So a file is used only if its schema is, to the word, the one that
@@ -28,7 +28,7 @@ _LONGEST_NAME = 60
 
 
 def restrict(connection: sqlite3.Connection) -> None:
-    """Take from a database, before it is read, what it could do by being opened.
+    """Disable what a database could do just by being opened, before it is read.
 
     Its schema may call no function with effects, its pages are checked as they are
     read, and no value is larger than LARGEST_VALUE. From Python 3.12 on its triggers
@@ -44,7 +44,7 @@ def restrict(connection: sqlite3.Connection) -> None:
 
 
 def has_strange_journal(path: Path) -> bool:
-    """Is the journal beside a file one that ours never have?
+    """Is there a journal beside the file that kille never has?
 
     SQLite waits for a pipe without end, and deletes the file that a journal names. Only
     journals that were written for several databases at once name one.
@@ -60,7 +60,7 @@ def has_strange_journal(path: Path) -> bool:
 
 
 def schema_of(connection: sqlite3.Connection) -> Schema:
-    """What a database is made of; the layout of its statements does not count."""
+    """The schema of a database; the layout of its statements does not count."""
     rows = connection.execute("SELECT type, name, tbl_name, sql FROM sqlite_master")
     return Counter(
         (str(kind), str(name), f"on {table}: {_plain(sql)}")
@@ -68,10 +68,10 @@ def schema_of(connection: sqlite3.Connection) -> Schema:
     )
 
 
-def made_by(make: Callable[[sqlite3.Connection], object]) -> Schema:
-    """The schema of a database in which this has made the tables.
+def schema_made_by(make: Callable[[sqlite3.Connection], object]) -> Schema:
+    """The schema of a database whose tables `make` has made.
 
-    >>> made_by(lambda it: it.execute('CREATE TABLE "words"  (name TEXT)'))
+    >>> schema_made_by(lambda it: it.execute('CREATE TABLE "words"  (name TEXT)'))
     Counter({('table', 'words', 'on words: CREATE TABLE words (name TEXT)'): 1})
     """
     with closing(sqlite3.connect(":memory:")) as connection:
@@ -80,7 +80,7 @@ def made_by(make: Callable[[sqlite3.Connection], object]) -> Schema:
 
 
 def schema_faults(connection: sqlite3.Connection, expected: Schema) -> Iterator[str]:
-    """How a database is not made as expected, each as the end of "It has …".
+    """The differences from the expected schema, each as the end of "It has …".
 
     >>> with closing(sqlite3.connect(":memory:")) as connection:
     ...     _ = connection.execute("CREATE VIEW words AS SELECT 'cup' AS name")
@@ -97,13 +97,14 @@ def schema_faults(connection: sqlite3.Connection, expected: Schema) -> Iterator[
     for kind, name in sorted(missing - strange):
         yield f"no {kind} {name}"
     for kind, name in sorted(missing & strange):
-        yield f"{_one(kind)} {name} that is not as kille makes it"
+        yield f"{_with_article(kind)} {name} that is not as kille makes it"
     for kind, name in sorted(strange - missing):
-        yield f"{_one(shown(kind))} that kille never makes, {shown(name)}"
+        part = _with_article(printable_name(kind))
+        yield f"{part} that kille never makes, {printable_name(name)}"
 
 
 def row_faults(connection: sqlite3.Connection) -> Iterator[str]:
-    """Values of types other than those of their columns, and rows without their parent.
+    """Values of other types than their columns, and rows without their parent.
 
     Each is the end of "It has …". The schema must be the expected one.
     """
@@ -115,13 +116,13 @@ def row_faults(connection: sqlite3.Connection) -> Iterator[str]:
         yield f"rows in {table} whose {parent} are missing"
 
 
-def shown(name: str) -> str:
-    """A name from a file as part of a line for people."""
+def printable_name(name: str) -> str:
+    """A name from a file, made printable for a line to people."""
     text = name if name.isprintable() else ascii(name)[1:-1]
     return text if len(text) <= _LONGEST_NAME else f"{text[:_LONGEST_NAME]}..."
 
 
-def _one(kind: str) -> str:
+def _with_article(kind: str) -> str:
     return f"an {kind}" if kind == "index" else f"a {kind}"
 
 

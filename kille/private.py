@@ -8,15 +8,15 @@ from pathlib import Path
 FILE_MODE, FOLDER_MODE = 0o600, 0o700
 
 
-def private(path: str, flags: int) -> int:
-    """Open a file as `open` does; a file that this creates is its user's alone.
+def open_private(path: str, flags: int) -> int:
+    """Open a file like `os.open`; a new file is readable by its user only.
 
     It is the `opener` of Python's `open`. A file that is there already keeps its
     permissions.
 
     >>> import stat, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     with open(Path(folder, "diary"), "xb", opener=private) as file:
+    ...     with open(Path(folder, "diary"), "xb", opener=open_private) as file:
     ...         print(stat.filemode(os.fstat(file.fileno()).st_mode))
     -rw-------
     """
@@ -29,7 +29,7 @@ def private(path: str, flags: int) -> int:
 def create_private_file(path: Path) -> None:
     """Create an empty private file, unless something is there. Raises OSError."""
     try:
-        with open(path, "xb", opener=private):
+        with open(path, "xb", opener=open_private):
             pass
     except FileExistsError:
         return

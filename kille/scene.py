@@ -1,4 +1,4 @@
-"""What is seen: frames, regions, features and looks, as immutable values.
+"""The scene as values: frames, regions, features and looks, all immutable.
 
 Axes are those of the colour camera: x to the right, y down, z forward, in metres.
 Pixels are (u, v) = (column, row). Depth is registered to colour, in metres, NaN where
@@ -59,7 +59,7 @@ class Intrinsics:
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """One picture: colour (H, W, 3) RGB, depth (H, W) or none at all, time in seconds.
+    """One picture: colour (H, W, 3) RGB, depth (H, W) or None, and time in seconds.
 
     `outlines` holds what a labelled recording or a simulation knows to be where,
     name -> mask (H, W). It is a tutor's finger and a test's answer; nothing that
@@ -75,7 +75,7 @@ class Frame:
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """Pixels that belong to one thing: mask (H, W), its box, its middle (or none).
+    """The pixels of one thing: mask (H, W), its box, and its middle or None.
 
     `place` is the median of the 3-D points under the mask; without depth it is None,
     since the location is honestly unknown.
@@ -101,7 +101,7 @@ class Features:
 
 @dataclass(frozen=True, eq=False)
 class Percept:
-    """One thing as seen in one look: its region in the first frame, its scans.
+    """One thing seen in one look: its region in the first frame, and its scans.
 
     The scans are of consecutive frames, ten of them where the sensor has as many; they
     may be extracted only when they are asked for, and so are the traits measured.
@@ -115,7 +115,7 @@ class Percept:
 
     @cached_property
     def traits(self) -> Traits:
-        """What `measure` finds, which is asked once."""
+        """The traits, which `measure` computes once."""
         return self.measure()
 
 
@@ -130,16 +130,16 @@ class Look:
 
 @dataclass(frozen=True)
 class Configuration:
-    """How a target stands to a landmark: all that a spatial word is judged of.
+    """How a target is placed relative to a landmark, as spatial words describe it.
 
     Directions are in metres on the level axes of the viewer: right, away, up. What is
     unknown is None.
     """
 
     offset: Direction
-    """From the landmark to the target."""
+    """The vector from the landmark to the target."""
     viewed: Direction | None = None
-    """From the viewer to the landmark: the viewer's ray."""
+    """The vector from the viewer to the landmark."""
     target_size: float | None = None
     """Metres from end to end."""
     landmark_size: float | None = None
@@ -150,6 +150,6 @@ class Configuration:
     contact: float | None = None
     """The share of the target that touches the landmark, in [0, 1]."""
     support: float | None = None
-    """How far the landmark bears the target, in [0, 1]."""
+    """How far the landmark supports the target, in [0, 1]."""
     containment: float | None = None
     """The share of the target within the landmark's bounds, in [0, 1]."""

@@ -1,4 +1,4 @@
-"""What is wrong with a memory file: all that opening it would refuse, and more."""
+"""Check a memory file: all faults for which opening it would fail, and more."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from kille.databases import has_strange_journal, shown
+from kille.databases import has_strange_journal, printable_name
 from kille.memory import files, reading, schema
-from kille.memory.errors import DAMAGE, STRANGE_JOURNAL, explained, primary_code
+from kille.memory.errors import DAMAGE, STRANGE_JOURNAL, explain_failures, primary_code
 from kille.memory.exporting import Amount
 
 MOST_FAULTS = 20
-"""How many faults of one sort are told."""
+"""How many faults of one sort are reported."""
 
 
 @dataclass(frozen=True)
 class Health:
-    """What there is to say of a memory file."""
+    """The result of checking a memory file."""
 
     faults: tuple[str, ...]
     """What is wrong with it, each as a line for people."""
     notes: tuple[str, ...]
-    """What its user should know, though nothing is wrong with it."""
+    """What its user should know, although it is no fault."""
     amount: Amount | None
-    """How much is in it; None if that cannot be known."""
+    """How much is in it; None if that is unknown."""
 
 
 def check(path: Path) -> Health:
-    """Look through a memory file, all of it, and change nothing.
+    """Check all of a memory file and change nothing.
 
     Raises MemoryFileError if there is no file, or it is not a memory of this or an
     earlier kille.
@@ -42,7 +42,7 @@ def check(path: Path) -> Health:
         return Health((f"it has {STRANGE_JOURNAL}",), tuple(_notes(path)), None)
     amount: Amount | None = None
     faults: list[str] = []
-    with explained(str(path)):
+    with explain_failures(str(path)):
         try:
             with closing(files.connect_to_read(path)) as connection:
                 files.check_identity(connection, path)
@@ -51,7 +51,7 @@ def check(path: Path) -> Health:
         except sqlite3.Error as error:
             if primary_code(error) not in DAMAGE:
                 raise
-            faults.append(f"it is damaged: {shown(str(error))}")
+            faults.append(f"it is damaged: {printable_name(str(error))}")
     return Health(tuple(dict.fromkeys(faults)), tuple(_notes(path)), amount)
 
 
@@ -72,9 +72,9 @@ def _faults(connection: sqlite3.Connection) -> Iterator[str]:
 
 
 def _in_short(damage: str) -> str:
-    """What SQLite says first of some damage, without its heading."""
+    """The first line of SQLite's report of damage, without its heading."""
     lines = [it for it in damage.splitlines() if not it.startswith("***")]
-    return shown(" ".join(" ".join(lines).split()))
+    return printable_name(" ".join(" ".join(lines).split()))
 
 
 def _lesson_faults(connection: sqlite3.Connection) -> Iterator[str]:
@@ -83,7 +83,7 @@ def _lesson_faults(connection: sqlite3.Connection) -> Iterator[str]:
         try:
             reading.lesson(connection, key)
         except (ValueError, TypeError, KeyError, OverflowError, sqlite3.Error) as error:
-            yield f"lesson {key} cannot be read: {shown(str(error))}"
+            yield f"lesson {key} cannot be read: {printable_name(str(error))}"
 
 
 def _amount(connection: sqlite3.Connection) -> Amount:

@@ -17,7 +17,7 @@ DIRECTIONS = frozenset({"offset", "viewed"})
 
 
 def as_json(it: Configuration) -> dict[str, Any]:
-    """What is known of a configuration, by the names of its fields.
+    """The known fields of a configuration, by name.
 
     >>> as_json(Configuration((0.1, 0.0, 0.2), contact=1.0))
     {'offset': (0.1, 0.0, 0.2), 'contact': 1.0}
@@ -26,7 +26,7 @@ def as_json(it: Configuration) -> dict[str, Any]:
 
 
 def from_json(known: dict[str, Any]) -> Configuration:
-    """The configuration of which this is known; fields of other names are passed over.
+    """A configuration from its known fields; other fields are ignored.
 
     Raises ValueError for what is no configuration.
 
@@ -35,34 +35,34 @@ def from_json(known: dict[str, Any]) -> Configuration:
     """
     told = {name: x for name, x in known.items() if name in FIELDS and x is not None}
     if "offset" not in told:
-        raise ValueError("a configuration has an offset")
+        raise ValueError("a configuration needs an offset")
     return Configuration(**{name: _field(name, x) for name, x in told.items()})
 
 
 def to_text(it: Configuration) -> str:
-    """The configuration as one line; every number comes back as it was."""
+    """Write the configuration as one line, with every number exact."""
     return json.dumps(as_json(it), allow_nan=False)
 
 
 def from_text(text: str) -> Configuration:
-    """The configuration that was written as this line."""
+    """Read a configuration written by `to_text`."""
     return from_json(json.loads(text))
 
 
 def _field(name: str, value: Any) -> Any:
     if name == "others":
-        return tuple(_direction(name, it) for it in _listed(name, value))
+        return tuple(_direction(name, it) for it in _require_list(name, value))
     if name in DIRECTIONS:
         return _direction(name, value)
     return _number(name, value)
 
 
 def _direction(name: str, value: Any) -> Direction:
-    right, away, up = (_number(name, it) for it in _listed(name, value))
+    right, away, up = (_number(name, it) for it in _require_list(name, value))
     return right, away, up
 
 
-def _listed(name: str, value: Any) -> list[Any]:
+def _require_list(name: str, value: Any) -> list[Any]:
     if not isinstance(value, list):
         raise ValueError(f"{name} is no list")
     return value

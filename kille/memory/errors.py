@@ -1,4 +1,5 @@
-"""How remembering fails: one line that says what, where and what to do."""
+"""The failures of a memory, each a line that says what is wrong, where, and what to
+do."""
 
 from __future__ import annotations
 
@@ -7,7 +8,7 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from kille.databases import shown
+from kille.databases import printable_name
 
 
 class MemoryFileError(Exception):
@@ -15,11 +16,11 @@ class MemoryFileError(Exception):
 
 
 class NoSuchLessonError(LookupError):
-    """A lesson was named that the memory does not hold."""
+    """The memory has no lesson of this number or word."""
 
 
 class NotKeptError(Exception):
-    """A lesson that does not come back from the file as it went in."""
+    """A lesson that reads back from the file differently from how it was written."""
 
 
 ELSEWHERE = "or name another file with --memory"
@@ -51,7 +52,7 @@ EXPLANATIONS = {
 
 
 def explanation(place: str, code: int) -> str:
-    """The line for a person that says what this result of SQLite's means."""
+    """The line for people that explains this result code of SQLite."""
     return f"{place} {EXPLANATIONS[code].format(file=shlex.quote(place))}"
 
 
@@ -59,8 +60,8 @@ def _check(place: str) -> str:
     return CHECK.format(file=shlex.quote(place))
 
 
-def untrusted(place: str, fault: str) -> MemoryFileError:
-    """The error for a file that has what kille would not have written."""
+def untrusted_file_error(place: str, fault: str) -> MemoryFileError:
+    """The error for a file with something that kille would not have written."""
     return MemoryFileError(f"{place} has {fault}: {_check(place)}")
 
 
@@ -74,13 +75,13 @@ STRANGE_JOURNAL = "a journal beside it that kille never writes"
 
 
 @contextmanager
-def explained(place: str) -> Iterator[None]:
-    """Turn whatever fails in the file at `place` into a line for a person.
+def explain_failures(place: str) -> Iterator[None]:
+    """Turn any failure in the file at `place` into a line for people.
 
     Values that no lesson can have were damaged on their disk. Mistakes of the program
     itself, such as a broken constraint, pass unchanged.
 
-    >>> with explained("notes.txt"):
+    >>> with explain_failures("notes.txt"):
     ...     _ = sqlite3.connect("/").execute("SELECT 1")
     Traceback (most recent call last):
     ...
@@ -103,14 +104,14 @@ def explained(place: str) -> Iterator[None]:
 
 
 @contextmanager
-def content_explained(place: str) -> Iterator[None]:
-    """The same where values are read: what is none was damaged on its disk."""
+def explain_content_failures(place: str) -> Iterator[None]:
+    """Likewise where values are read: an invalid value was damaged on disk."""
     try:
-        with explained(place):
+        with explain_failures(place):
             yield
     except (ValueError, TypeError, KeyError, OverflowError, RecursionError) as error:
         raise MemoryFileError(
-            f"{place} is damaged ({shown(str(error))}): {_check(place)}"
+            f"{place} is damaged ({printable_name(str(error))}): {_check(place)}"
         ) from error
 
 

@@ -1,4 +1,4 @@
-"""A whole memory as a package that other programs can read.
+"""Export a whole memory as a package that other programs can read.
 
     memory.json          the format, its version, and the SHA-256 of each .jsonl file
     dialogues.jsonl      a line for each dialogue
@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from kille.memory.memory import MemoryReader
-from kille.memory.packages import MANIFEST, Writer, writing
+from kille.memory.packages import MANIFEST, Writer, open_to_write
 from kille.memory.packing import Line, pack_dialogue, pack_lesson, pack_turn
 
 FORMAT, VERSION = "kille memory", 2
@@ -28,7 +28,7 @@ DIALOGUES, TURNS, LESSONS = "dialogues.jsonl", "turns.jsonl", "lessons.jsonl"
 
 @dataclass(frozen=True)
 class Amount:
-    """How much went somewhere."""
+    """The number of dialogues, turns and lessons."""
 
     dialogues: int
     turns: int
@@ -36,18 +36,18 @@ class Amount:
 
 
 def export(memory: MemoryReader, path: Path) -> Amount:
-    """Write all that the memory holds: a zip if the path ends so, or a folder.
+    """Write all that the memory holds, as a zip if the path ends in .zip, or a folder.
 
     An older zip of ours is replaced. Raises PackageError, and leaves what was there,
     if it cannot be written or the path is taken by something else.
     """
-    with writing(path) as package, memory.at_one_moment():
+    with open_to_write(path) as package, memory.at_one_moment():
         dialogues, turns = memory.dialogues(), memory.turns()
         keys = [lesson.key for lesson in memory.lessons()]
         files = {
             DIALOGUES: _lines(map(pack_dialogue, dialogues)),
             TURNS: _lines(map(pack_turn, turns)),
-            LESSONS: _lines(_written(package, memory, key) for key in keys),
+            LESSONS: _lines(_write_lesson(package, memory, key) for key in keys),
         }
         for name, content in files.items():
             package.write(name, content)
@@ -58,17 +58,17 @@ def export(memory: MemoryReader, path: Path) -> Amount:
 
 
 def checksum(content: bytes) -> str:
-    """The SHA-256 of bytes, as text."""
+    """The SHA-256 of the bytes, in hexadecimal."""
     return sha256(content).hexdigest()
 
 
 def place(key: int, name: str) -> str:
-    """Where in a package the file of a lesson is."""
+    """The path of a lesson's file in a package."""
     return f"lessons/{key}/{name}"
 
 
-def _written(package: Writer, memory: MemoryReader, key: int) -> Line:
-    """The line of a lesson, whose files are written."""
+def _write_lesson(package: Writer, memory: MemoryReader, key: int) -> Line:
+    """Write the files of a lesson; returns its line."""
     line, files = pack_lesson(memory.lesson(key))
     for name, content in files.items():
         package.write(place(key, name), content)

@@ -1,4 +1,4 @@
-"""Where a memory is, and how its file is opened: whole, ours, and by one writer.
+"""Where a memory is, and how its file is opened: checked, and by one writer at most.
 
 A writer holds SQLite's write lock from opening to closing, so a second one is refused
 at once while readers go on reading. The lock is the system's: a killed program loses
@@ -20,10 +20,10 @@ from kille.memory.errors import (
     ELSEWHERE,
     STRANGE_JOURNAL,
     MemoryFileError,
-    explained,
+    explain_failures,
     explanation,
     primary_code,
-    untrusted,
+    untrusted_file_error,
 )
 from kille.private import create_private_file
 
@@ -51,7 +51,7 @@ def default_path() -> Path:
 
 
 def open_to_write(path: Path) -> sqlite3.Connection:
-    """A connection that owns the file, which is made where there is none.
+    """Open a connection that owns the file, which is made if missing.
 
     Only its user can read a new file, and what SQLite writes beside it. Raises
     MemoryFileError if the file is no memory, damaged, too new, not writable, has what
@@ -59,7 +59,7 @@ def open_to_write(path: Path) -> sqlite3.Connection:
     """
     _make_folder(path)
     _make_file(path)
-    with explained(str(path)):
+    with explain_failures(str(path)):
         connection = _connect(path, "mode=rw")
         try:
             _check_ours(connection, path)
@@ -73,13 +73,13 @@ def open_to_write(path: Path) -> sqlite3.Connection:
 
 
 def open_to_read(path: Path) -> sqlite3.Connection:
-    """A connection that only reads, beside a writer if there is one.
+    """Open a connection that only reads, beside a writer if there is one.
 
     A file of an older version is left as it is: a copy of it in the working memory is
     brought up to date and read. Raises MemoryFileError if there is no file, or it is
     no memory, damaged, of a newer version, or has what kille did not write.
     """
-    with explained(str(path)):
+    with explain_failures(str(path)):
         connection = connect_to_read(path)
         try:
             _check_ours(connection, path)
@@ -94,7 +94,7 @@ def open_to_read(path: Path) -> sqlite3.Connection:
 
 
 def connect_to_read(path: Path) -> sqlite3.Connection:
-    """A connection to a file that nothing has been checked of but that it is one.
+    """Open a connection to an existing file, whose content is not checked.
 
     Raises MemoryFileError if there is none, and sqlite3.Error as SQLite does.
     """
@@ -106,14 +106,14 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
 
 
 def open_transient() -> sqlite3.Connection:
-    """A connection to a memory without a file."""
+    """Open a connection to a memory without a file."""
     connection = sqlite3.connect(":memory:", isolation_level=None)
     _own(connection)
     return connection
 
 
 def hold(connection: sqlite3.Connection) -> None:
-    """Begin a transaction unless one is open: it keeps every other writer out."""
+    """Begin a transaction unless one is open, which keeps every other writer out."""
     if not connection.in_transaction:
         connection.execute("BEGIN IMMEDIATE")
 
@@ -144,7 +144,7 @@ def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
     if 0 < os.path.getsize(path) < SMALLEST_DATABASE_BYTES:
         raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_NOTADB))
     if has_strange_journal(path):
-        raise untrusted(str(path), STRANGE_JOURNAL)
+        raise untrusted_file_error(str(path), STRANGE_JOURNAL)
     connection = sqlite3.connect(
         f"{path.absolute().as_uri()}?{mode}",
         uri=True,
@@ -156,7 +156,7 @@ def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
 
 
 def _own(connection: sqlite3.Connection) -> None:
-    """Make this the only writer, commits durable and the tables up to date."""
+    """Become the only writer, with durable commits and tables up to date."""
     connection.execute("PRAGMA synchronous = FULL")
     # What is forgotten is overwritten, not only passed over.
     connection.execute("PRAGMA secure_delete = ON")
@@ -168,18 +168,18 @@ def _own(connection: sqlite3.Connection) -> None:
 
 
 def _check_ours(connection: sqlite3.Connection, path: Path) -> None:
-    """Refuse what is not ours before anything in it is changed."""
+    """Refuse a file that is not a kille memory before anything in it is changed."""
     check_identity(connection, path)
     for fault in schema.part_faults(connection):
-        raise untrusted(str(path), fault)
+        raise untrusted_file_error(str(path), fault)
     if connection.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
         raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_CORRUPT))
     for fault in schema.content_faults(connection):
-        raise untrusted(str(path), fault)
+        raise untrusted_file_error(str(path), fault)
 
 
 def check_identity(connection: sqlite3.Connection, path: Path) -> None:
-    """Refuse the database of another program, and what a newer kille wrote."""
+    """Refuse the database of another program, or of a newer kille."""
     if not schema.is_memory(connection):
         raise MemoryFileError(
             f"{path} is the database of another program, not a kille memory: "
@@ -203,7 +203,7 @@ def up_to_date_copy(connection: sqlite3.Connection) -> sqlite3.Connection:
 
 
 def _reading_mode(path: Path) -> Mode:
-    """How to read a file that may lie where nothing can be written.
+    """How to open a file for reading, which may lie where nothing can be written.
 
     SQLite wants to keep its log beside the file. Where it cannot, and no log waits
     there to be read, the file alone is the whole memory.

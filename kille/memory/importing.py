@@ -1,4 +1,4 @@
-"""Reading a package back: nothing of it is believed before it was checked."""
+"""Import a package: nothing in it is trusted before it has been checked."""
 
 from __future__ import annotations
 
@@ -18,7 +18,13 @@ from kille.memory.exporting import (
     place,
 )
 from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
-from kille.memory.packages import MANIFEST, PackageError, Reader, damage_told, reading
+from kille.memory.packages import (
+    MANIFEST,
+    PackageError,
+    Reader,
+    open_to_read,
+    report_damage,
+)
 from kille.memory.packing import (
     FILES,
     Line,
@@ -31,7 +37,7 @@ from ttr.safety.inputs import parse_json, read_lines
 
 
 class Package:
-    """The memory in a package. Made by `opened`, which has checked its lists.
+    """The memory in a package. Made by `open_package`, which has checked its lists.
 
     `dialogues` and `turns` are those of the memory, in order; each turn is of one of
     the dialogues, and no two have the same number.
@@ -57,14 +63,14 @@ class Package:
         Raises PackageError at the first that is damaged.
         """
         for _, line in self._lessons:
-            with damage_told(self._path):
+            with report_damage(self._path):
                 lesson = self._lesson(_json(line))
             yield lesson
 
     def _lesson(self, line: Line) -> ObjectLesson | RelationLesson:
         key, sums = line["lesson"], line["files"]
         files = {
-            name: _checked(self._reader, place(key, name), sums[name])
+            name: _checked_content(self._reader, place(key, name), sums[name])
             for name in FILES & sums.keys()
         }
         return unpack_lesson(line, files, self._turns)
@@ -79,17 +85,17 @@ class Package:
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[Package]:
-    """The package at this path, every file of which has been read and checked once.
+def open_package(path: Path) -> Iterator[Package]:
+    """Open the package at this path; each of its files has been read and checked once.
 
     Raises PackageError, one line, if it is damaged, of a newer version or no package.
     """
-    with damage_told(path), reading(path) as reader:
+    with report_damage(path), open_to_read(path) as reader:
         package = Package(reader, path)
         for _ in package.lessons():
             pass
-    with reading(path) as reader:
-        with damage_told(path):
+    with open_to_read(path) as reader:
+        with report_damage(path):
             package = Package(reader, path)
         yield package
 
@@ -109,7 +115,7 @@ def _sums(reader: Reader, path: Path) -> dict[str, str]:
 
 
 def _lines(reader: Reader, name: str, sums: dict[str, str]) -> Iterator[bytes]:
-    content = _checked(reader, name, sums[name])
+    content = _checked_content(reader, name, sums[name])
     return read_lines(io.BytesIO(content))
 
 
@@ -118,7 +124,7 @@ def _number(line: bytes) -> int:
     return whole(_json(line), "lesson")
 
 
-def _checked(reader: Reader, name: str, known: str) -> bytes:
+def _checked_content(reader: Reader, name: str, known: str) -> bytes:
     content = reader.read(name)
     if checksum(content) != known:
         raise ValueError(f"{name} is not what was exported")
@@ -126,13 +132,13 @@ def _checked(reader: Reader, name: str, known: str) -> bytes:
 
 
 def _json(content: bytes) -> Line:
-    value = parse_json(content, _refused)
+    value = parse_json(content, _refuse_constant)
     if not isinstance(value, dict):
         raise TypeError(f"{content[:40]!r} is no object of JSON")
     return value
 
 
-def _refused(constant: str) -> NoReturn:
+def _refuse_constant(constant: str) -> NoReturn:
     raise ValueError(f"{constant} is no number of JSON")
 
 

@@ -1,4 +1,4 @@
-"""What a memory holds: words, turns and lessons, as immutable values."""
+"""The content of a memory: words, turns and lessons, as immutable values."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from kille.memory.pictures import Picture
 from kille.scene import Configuration, Point, Traits, Vector
 
 Kind = Literal["object", "attribute", "relation"]
-"""What a word is said of: what a thing is, how it is, or where it is."""
+"""What a word describes: what a thing is, how it is, or where it is."""
 
 DESCRIPTOR_LENGTH = 128
 
 LONGEST_WORD = 1000
-"""Characters of the longest word; no sentence that teaches one is so long."""
+"""The most characters of a word; no sentence that teaches one is so long."""
 
 # Control characters, halves of characters, and other line breaks. Of the invisible
 # characters only those that turn the direction of writing.
@@ -51,7 +51,7 @@ class Word:
 
 @dataclass(frozen=True)
 class Dialogue:
-    """That a dialogue began, at a time as ISO 8601 text."""
+    """The fact that a dialogue began, at a time in ISO 8601."""
 
     number: int
     began: str
@@ -116,7 +116,7 @@ class Sighting:
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Two objects as they stood when the word for their relation was taught.
+    """Two objects as they were placed when the word for their relation was taught.
 
     `target` and `landmark` are names of words, or empty for a thing that has none;
     `configuration` says how the target stands to the landmark. Raises ValueError for
@@ -140,7 +140,7 @@ class Arrangement:
 
 @dataclass(frozen=True)
 class Lesson:
-    """That a turn taught a word; `key` names the lesson for good.
+    """The fact that a turn taught a word; `key` identifies the lesson for good.
 
     It `holds`, or it is one in what the word does not hold of: "this is not a cup".
     """
@@ -153,14 +153,14 @@ class Lesson:
 
 @dataclass(frozen=True, eq=False)
 class ObjectLesson(Lesson):
-    """A lesson in what an object is called, or how it is, with what was seen."""
+    """A lesson in a name or an attribute of an object, with what was seen."""
 
     seen: Sighting
 
 
 @dataclass(frozen=True)
 class RelationLesson(Lesson):
-    """A lesson in what a relation is called, with what was seen."""
+    """A lesson in a spatial relation, with what was seen."""
 
     seen: Arrangement
 
@@ -168,7 +168,7 @@ class RelationLesson(Lesson):
 def lesson_of(
     key: int, word: Word, turn: Turn, seen: Sighting | Arrangement, *, holds: bool
 ) -> ObjectLesson | RelationLesson:
-    """The lesson in what was seen, whichever kind it is of."""
+    """A lesson of the kind that fits what was seen."""
     if isinstance(seen, Sighting):
         return ObjectLesson(key, word, turn, seen, holds=holds)
     return RelationLesson(key, word, turn, seen, holds=holds)
@@ -177,7 +177,7 @@ def lesson_of(
 def with_picture(
     lesson: ObjectLesson | RelationLesson, picture: Picture | None
 ) -> ObjectLesson | RelationLesson:
-    """The lesson with this picture of what was seen."""
+    """A copy of the lesson with this picture of what was seen."""
     match lesson:
         case ObjectLesson():
             return replace(lesson, seen=replace(lesson.seen, picture=picture))
@@ -188,7 +188,7 @@ def with_picture(
 def has_same_content(
     one: ObjectLesson | RelationLesson, other: ObjectLesson | RelationLesson
 ) -> bool:
-    """Do two lessons teach the same, from the same turn and the same evidence?
+    """Do two lessons teach the same from the same turn and the same evidence?
 
     Their keys do not count; NaN is the same as NaN.
     """
@@ -203,7 +203,7 @@ def has_same_content(
 
 
 def _facts(seen: Sighting) -> tuple[object, ...]:
-    """All that a sighting has but its arrays."""
+    """All fields of a sighting except its arrays."""
     cues = sorted(seen.traits)
     return seen.sensor, seen.time, len(seen.scans), seen.place, cues, seen.picture
 
@@ -255,7 +255,7 @@ def _require_finite(owner: str, *numbers: float) -> None:
 
 
 def _numbers(value: object) -> Iterator[float]:
-    """All numbers in a value made of tuples."""
+    """All numbers in nested tuples."""
     match value:
         case tuple():
             for part in value:

@@ -10,7 +10,11 @@ from types import TracebackType
 from typing import Self
 
 from kille.memory import files, merging, reading, writing
-from kille.memory.errors import NoSuchLessonError, content_explained, explained
+from kille.memory.errors import (
+    NoSuchLessonError,
+    explain_content_failures,
+    explain_failures,
+)
 from kille.memory.lessons import (
     Arrangement,
     Dialogue,
@@ -26,11 +30,11 @@ from kille.memory.merging import Merged, Source
 from kille.memory.pictures import Picture
 
 Scope = Callable[[sqlite3.Connection], AbstractContextManager[None]]
-"""How much is kept or undone at once."""
+"""A transaction: what happens in it is kept as a whole or undone."""
 
 
 class MemoryReader:
-    """What a memory file holds, to look at; another may be writing meanwhile.
+    """The content of a memory file, to read only; another program may be writing.
 
     Made by `Memory.reading`; it is its own context manager. `place` says in words
     where the memory is. Any method raises MemoryFileError when the file fails it.
@@ -41,8 +45,8 @@ class MemoryReader:
         self.place = place
 
     def close(self) -> None:
-        """Let go of the file; a second call does nothing."""
-        with explained(self.place):
+        """Close the file; a second call does nothing."""
+        with explain_failures(self.place):
             self._connection.close()
 
     def __enter__(self) -> Self:
@@ -57,91 +61,92 @@ class MemoryReader:
         self.close()
 
     def words(self) -> tuple[Word, ...]:
-        """Every word that is known to hold of something, oldest first.
+        """Every word that is known to apply to something, oldest first.
 
         It is as it was said when that was first taught, with the first article it had.
         """
-        with content_explained(self.place):
+        with explain_content_failures(self.place):
             return reading.words(self._connection)
 
     def counts(self) -> dict[tuple[Kind, str], int]:
-        """In how many lessons each word was said to hold, by its kind and name."""
-        with content_explained(self.place):
+        """The number of lessons in which each word was said to apply, by kind and
+        name."""
+        with explain_content_failures(self.place):
             return reading.counts(self._connection)
 
     def dialogues(self) -> tuple[Dialogue, ...]:
         """All dialogues, in the order in which they began."""
-        with content_explained(self.place):
+        with explain_content_failures(self.place):
             return reading.dialogues(self._connection)
 
     def turns(self) -> tuple[Turn, ...]:
-        """All that was said, dialogue by dialogue."""
-        with content_explained(self.place):
+        """Everything that was said, dialogue by dialogue."""
+        with explain_content_failures(self.place):
             return reading.turns(self._connection)
 
     def lessons(self) -> tuple[Lesson, ...]:
         """All lessons, oldest first, without what was seen in them."""
-        with content_explained(self.place):
+        with explain_content_failures(self.place):
             return reading.lessons(self._connection)
 
     def latest(self, count: int = 1) -> tuple[Lesson, ...]:
-        """So many of the newest lessons, the newest last, without what was seen."""
-        with content_explained(self.place):
+        """The newest `count` lessons, the newest last, without what was seen."""
+        with explain_content_failures(self.place):
             return reading.latest(self._connection, count)
 
     def told(self, key: int) -> Lesson:
         """The lesson of this key without what was seen. Raises NoSuchLessonError."""
-        with content_explained(self.place):
-            found = reading.told(self._connection, key)
+        with explain_content_failures(self.place):
+            found = reading.lesson_without_sight(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
         return found
 
     def keys_of(self, kind: Kind, name: str) -> tuple[int, ...]:
         """The keys of the lessons in a word, oldest first."""
-        with content_explained(self.place):
+        with explain_content_failures(self.place):
             return reading.keys_of(self._connection, kind, name)
 
     def objects(self) -> Iterator[ObjectLesson]:
-        """The lessons in what objects are, oldest first, without their pictures.
+        """The lessons in what objects are called, oldest first, without their pictures.
 
         They are read some hundred at a time, as they are asked for.
         """
-        with content_explained(self.place):
+        with explain_content_failures(self.place):
             yield from reading.objects(self._connection)
 
     def attributes(self) -> Iterator[ObjectLesson]:
-        """The lessons in how objects are, read like those in what they are."""
-        with content_explained(self.place):
+        """The lessons in attributes of objects, read like those in their names."""
+        with explain_content_failures(self.place):
             yield from reading.objects(self._connection, "attribute")
 
     def relations(self) -> Iterator[RelationLesson]:
         """The lessons about relations, read like those about objects."""
-        with content_explained(self.place):
+        with explain_content_failures(self.place):
             yield from reading.relations(self._connection)
 
     def lesson(self, key: int) -> ObjectLesson | RelationLesson:
         """The lesson of this key with its picture. Raises NoSuchLessonError."""
-        with content_explained(self.place):
+        with explain_content_failures(self.place):
             found = reading.lesson(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
         return found
 
     def picture(self, key: int) -> Picture | None:
-        """The picture of a lesson, None if none was kept or there is no lesson."""
-        with content_explained(self.place):
+        """The picture of a lesson; None if none was kept or there is no such lesson."""
+        with explain_content_failures(self.place):
             return reading.picture(self._connection, key)
 
     @contextmanager
     def at_one_moment(self) -> Iterator[Self]:
-        """All that is asked inside is answered as of one moment."""
-        with explained(self.place), reading.at_one_moment(self._connection):
+        """Answer all questions asked inside as of one moment."""
+        with explain_failures(self.place), reading.at_one_moment(self._connection):
             yield self
 
 
 class Memory(MemoryReader):
-    """Lessons, and the turns they came from, on disk before a method returns.
+    """Lessons and the turns they came from, on disk before a method returns.
 
     Inside `together` they are on disk when that ends. Made by `open` or `transient`;
     it is its own context manager. Any method raises MemoryFileError when the file fails
@@ -159,11 +164,11 @@ class Memory(MemoryReader):
 
     def __init__(self, connection: sqlite3.Connection, place: str) -> None:
         super().__init__(connection, place)
-        self._scope: Scope = _committed
+        self._scope: Scope = _commit_durably
 
     @classmethod
     def open(cls, path: Path) -> Self:
-        """The memory in this file, made where there is none, to read and to write.
+        """Open the memory in this file, made if missing, to read and to write.
 
         One program at a time may hold it so. Raises MemoryFileError.
         """
@@ -171,21 +176,21 @@ class Memory(MemoryReader):
 
     @staticmethod
     def reading(path: Path) -> MemoryReader:
-        """The memory in this file, only to read. Raises MemoryFileError."""
+        """Open the memory in this file, only to read. Raises MemoryFileError."""
         return MemoryReader(files.open_to_read(path), str(path))
 
     @classmethod
     def transient(cls) -> Self:
-        """A memory that is gone when it is closed."""
+        """A memory that is deleted when it is closed."""
         return cls(files.open_transient(), "the memory of this session")
 
     def begin_dialogue(self, time: str) -> int:
-        """The number of a new dialogue that begins at this time (ISO 8601)."""
+        """Begin a dialogue at this time (ISO 8601); returns its number."""
         with self._transaction() as connection:
             return writing.add_dialogue(connection, time)
 
     def record_turn(self, turn: Turn) -> int:
-        """Keep what was said; the id of the turn, the same however often it is kept.
+        """Record a turn; returns its id, the same however often it is recorded.
 
         What it was understood to be, "" at first, may be added when it is known.
         Raises ValueError if its dialogue never began, or if something else is on
@@ -204,7 +209,7 @@ class Memory(MemoryReader):
         article: str = "",
         holds: bool = True,
     ) -> int:
-        """Keep the turn, the word it taught and what was seen, all or nothing.
+        """Record the turn, the word it taught, and what was seen, all or nothing.
 
         The key of the lesson, which `holds`, or is one in what the word does not hold
         of. Raises ValueError as `record_turn` does.
@@ -222,7 +227,7 @@ class Memory(MemoryReader):
         article: str = "",
         holds: bool = True,
     ) -> int:
-        """The same for a word for how a thing is, such as "red"."""
+        """Learn a word for an attribute, such as "red", in the same way."""
         word = Word(name, surface, "attribute", article)
         return self._learn(turn, word, seen, holds)
 
@@ -236,7 +241,7 @@ class Memory(MemoryReader):
         article: str = "",
         holds: bool = True,
     ) -> int:
-        """The same for a word for where a thing is, such as "left of"."""
+        """Learn a word for a spatial relation, such as "left of", in the same way."""
         word = Word(name, surface, "relation", article)
         return self._learn(turn, word, seen, holds)
 
@@ -247,7 +252,7 @@ class Memory(MemoryReader):
             return writing.add_lesson(connection, turn, word, seen, holds=holds)
 
     def forget(self, key: int) -> None:
-        """Unlearn one lesson; what was said stays on record.
+        """Forget one lesson; what was said stays on record.
 
         A word goes with its last lesson. Raises NoSuchLessonError.
         """
@@ -257,7 +262,8 @@ class Memory(MemoryReader):
             raise _no_such(self.place, key)
 
     def forget_word(self, kind: Kind, name: str) -> tuple[int, ...]:
-        """Unlearn all lessons in a word, all or nothing; their keys, oldest first.
+        """Forget all lessons in a word, all or nothing; returns their keys, oldest
+        first.
 
         Raises NoSuchLessonError if there are none.
         """
@@ -270,19 +276,19 @@ class Memory(MemoryReader):
         return keys
 
     def merge(self, other: Source) -> Merged:
-        """Add what is new in another memory, all or nothing; what that was.
+        """Add what is new in another memory, all or nothing; returns what was added.
 
-        Nothing that is known is learned again: not a lesson of the same in the same
-        word from the same turn of the same dialogue. An empty memory becomes the other.
+        A lesson is known if it teaches the same, in the same word, from the same turn
+        of the same dialogue. An empty memory becomes equal to the other.
         """
         with self._transaction() as connection:
             return merging.merge(connection, other)
 
     @contextmanager
     def together(self) -> Iterator[None]:
-        """All that is kept inside is on disk afterwards, or nothing of it is."""
+        """Keep all changes made inside, or none of them."""
         with self._transaction():
-            outer, self._scope = self._scope, _part
+            outer, self._scope = self._scope, _savepoint
             try:
                 yield
             finally:
@@ -290,20 +296,20 @@ class Memory(MemoryReader):
 
     @contextmanager
     def _transaction(self) -> Iterator[sqlite3.Connection]:
-        """What happens inside is kept wholly, or none of it ever happened."""
-        with explained(self.place), self._scope(self._connection):
+        """A transaction on the connection, whose failures are explained."""
+        with explain_failures(self.place), self._scope(self._connection):
             yield self._connection
 
 
 def _no_such(place: str, key: int) -> NoSuchLessonError:
     return NoSuchLessonError(
-        f"{place} has no lesson {key}: kille memory show WORD tells those in a word"
+        f"{place} has no lesson {key}: kille memory show WORD lists those in a word"
     )
 
 
 @contextmanager
-def _committed(connection: sqlite3.Connection) -> Iterator[None]:
-    """A transaction that is on disk afterwards.
+def _commit_durably(connection: sqlite3.Connection) -> Iterator[None]:
+    """A transaction that is on disk when it ends.
 
     The next one begins at once: it holds the lock that makes this the one writer of
     the file.
@@ -320,8 +326,8 @@ def _committed(connection: sqlite3.Connection) -> Iterator[None]:
 
 
 @contextmanager
-def _part(connection: sqlite3.Connection) -> Iterator[None]:
-    """A part of a larger transaction: it is on disk when the whole is."""
+def _savepoint(connection: sqlite3.Connection) -> Iterator[None]:
+    """A part of a larger transaction; it is on disk when the whole is."""
     connection.execute("SAVEPOINT part")
     try:
         yield

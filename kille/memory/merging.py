@@ -1,4 +1,4 @@
-"""Adding another memory to one, so that nothing is learned twice.
+"""Merge one memory into another, so that nothing is learned twice.
 
 A dialogue of the other is one of ours if both began at the same time and all turns that
 both have are the same. A lesson is one of ours if it teaches the same of the same word
@@ -24,11 +24,11 @@ from kille.memory.lessons import (
 
 Identity = tuple[int, int, str, str, bool]
 Said = Mapping[int, Turn]
-"""The turns of one dialogue by their number, as if it had no number itself."""
+"""The turns of one dialogue by their number, without the dialogue's own number."""
 
 
 class Source(Protocol):
-    """A memory to be added; its turns are of its dialogues, its lessons of those."""
+    """A memory to be merged; its turns and lessons refer to its own dialogues."""
 
     @property
     def dialogues(self) -> Sequence[Dialogue]:
@@ -36,7 +36,7 @@ class Source(Protocol):
 
     @property
     def turns(self) -> Sequence[Turn]:
-        """All that was said."""
+        """Everything that was said."""
 
     def lessons(self) -> Iterator[ObjectLesson | RelationLesson]:
         """All lessons, oldest first."""
@@ -44,18 +44,18 @@ class Source(Protocol):
 
 @dataclass(frozen=True)
 class Merged:
-    """What a memory gained."""
+    """What a memory gained from a merge."""
 
     dialogues: int
     turns: int
     lessons: tuple[int, ...]
     """The keys of the new lessons."""
     known: int
-    """How many lessons it had already."""
+    """The number of lessons that it had already."""
 
 
 def merge(connection: sqlite3.Connection, source: Source) -> Merged:
-    """Add what is new, inside the transaction of the caller."""
+    """Add what is new, inside the caller's transaction."""
     before = _counts(connection)
     numbers = _add_dialogues(connection, source)
     for turn in source.turns:
@@ -66,7 +66,7 @@ def merge(connection: sqlite3.Connection, source: Source) -> Merged:
 
 
 def _add_dialogues(connection: sqlite3.Connection, source: Source) -> dict[int, int]:
-    """The number here of each dialogue there; those that are new begin."""
+    """The number here of each dialogue there; new ones are added."""
     ours = {it.number: it for it in reading.dialogues(connection)}
     keeps = not ours
     said_here = _by_dialogue(reading.turns(connection))
@@ -78,7 +78,8 @@ def _add_dialogues(connection: sqlite3.Connection, source: Source) -> dict[int, 
             number: shared
             for number, it in ours.items()
             if it.began == other.began
-            and (shared := _shared(said_here.get(number, {}), said)) is not None
+            and (shared := _count_shared_turns(said_here.get(number, {}), said))
+            is not None
         }
         if alike:
             found = max(alike, key=lambda number: alike[number])
@@ -93,7 +94,7 @@ def _add_dialogues(connection: sqlite3.Connection, source: Source) -> dict[int, 
 def _add_lessons(
     connection: sqlite3.Connection, source: Source, numbers: Mapping[int, int]
 ) -> tuple[list[int], int]:
-    """The keys of the lessons that were new, and how many were not."""
+    """Add the new lessons; returns their keys, and how many were known."""
     ours = Counter(map(_identity, reading.lessons(connection)))
     keeps = writing.never_taught(connection)
     learned, known = [], 0
@@ -131,7 +132,7 @@ def _by_dialogue(turns: Iterable[Turn]) -> dict[int, dict[int, Turn]]:
     return found
 
 
-def _shared(ours: Said, others: Said) -> int | None:
+def _count_shared_turns(ours: Said, others: Said) -> int | None:
     """How many turns both dialogues have; None if they differ in one."""
     both = ours.keys() & others.keys()
     return len(both) if all(ours[it] == others[it] for it in both) else None

@@ -1,4 +1,5 @@
-"""Packages: named files in a folder or a zip, written all at once and read with care.
+"""Packages: named files in a folder or a zip, written all at once and checked when
+read.
 
 Whoever is killed while writing leaves the place as it was: a package is made beside it
 and put there when it is whole and on disk. Only its user can read a new one.
@@ -14,9 +15,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Protocol
 
-from kille.archives import check_sizes, opened_zip, read_member
-from kille.databases import shown
-from kille.private import FOLDER_MODE, private
+from kille.archives import check_sizes, open_zip, read_member
+from kille.databases import printable_name
+from kille.private import FOLDER_MODE, open_private
 from ttr.safety.inputs import read_bytes
 from ttr.safety.limits import MEMBER, PACKAGE
 
@@ -26,12 +27,12 @@ _FIRST_DAY = (1980, 1, 1, 0, 0, 0)  # of zips: the same content is the same byte
 
 
 class PackageError(Exception):
-    """A package that cannot be written, or is none, or is damaged."""
+    """A package that cannot be written, is damaged, or is no package."""
 
 
 @contextmanager
-def damage_told(path: Path) -> Iterator[None]:
-    """Turn whatever goes wrong in reading a package into one line."""
+def report_damage(path: Path) -> Iterator[None]:
+    """Turn any failure to read a package into one line."""
     try:
         yield
     except PackageError:
@@ -49,39 +50,39 @@ def damage_told(path: Path) -> Iterator[None]:
         MemoryError,
     ) as error:
         raise PackageError(
-            f"{path} is damaged, or no exported memory ({_reason(error)}): nothing "
+            f"{path} is damaged, or is no exported memory ({_reason(error)}): nothing "
             "was changed; export it again, or take another copy"
         ) from error
 
 
 class Reader(Protocol):
-    """The files of a package."""
+    """Reads the files of a package."""
 
     def read(self, name: str) -> bytes:
-        """The content of a file. KeyError if there is none of this name."""
+        """The content of a file. KeyError if the package has no file of this name."""
 
 
 class Writer(Protocol):
-    """Where the files of a package go."""
+    """Writes the files of a package."""
 
     def write(self, name: str, content: bytes) -> None:
-        """Adds a file."""
+        """Add a file."""
 
 
 @contextmanager
-def reading(path: Path) -> Iterator[Reader]:
-    """The package at a path, whichever of the two it is."""
+def open_to_read(path: Path) -> Iterator[Reader]:
+    """Open the package at a path, be it a folder or a zip."""
     if path.is_dir():
         yield _FolderReader(path)
         return
-    with opened_zip(path) as opened:
+    with open_zip(path) as opened:
         check_sizes(opened, PACKAGE)
         yield _ZipReader(opened)
 
 
 @contextmanager
-def writing(path: Path) -> Iterator[Writer]:
-    """A package that is at the path, and on disk, when all inside went well.
+def open_to_write(path: Path) -> Iterator[Writer]:
+    """Write a package, which is at the path, and on disk, if all inside goes well.
 
     A zip takes the place of an older package of ours, and of nothing else; a folder
     must be new or empty. PackageError if it cannot be written.
@@ -89,7 +90,7 @@ def writing(path: Path) -> Iterator[Writer]:
     target = Path(os.path.realpath(path))
     draft = target.parent / f".{target.name}.{os.getpid()}.part"
     try:
-        with _failure_told(path):
+        with _report_write_failure(path):
             _check_free(path)
             with _draft(draft, zipped=path.suffix.lower() == ZIP) as writer:
                 yield writer
@@ -101,7 +102,7 @@ def writing(path: Path) -> Iterator[Writer]:
 
 
 @contextmanager
-def _failure_told(path: Path) -> Iterator[None]:
+def _report_write_failure(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
@@ -137,7 +138,7 @@ class _FolderWriter:
     def write(self, name: str, content: bytes) -> None:
         path = self._folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        with open(path, "xb", opener=private) as file:
+        with open(path, "xb", opener=open_private) as file:
             file.write(content)
 
 
@@ -157,7 +158,7 @@ def _draft(draft: Path, *, zipped: bool) -> Iterator[Writer]:
         _sync_all()
         return
     draft.parent.mkdir(parents=True, exist_ok=True)
-    with open(draft, "xb", opener=private) as file:
+    with open(draft, "xb", opener=open_private) as file:
         with zipfile.ZipFile(file, "w") as opened:
             yield _ZipWriter(opened)
         file.flush()
@@ -165,17 +166,17 @@ def _draft(draft: Path, *, zipped: bool) -> Iterator[Writer]:
 
 
 def _check_free(path: Path) -> None:
-    """Refuse to take the place of anything but an older package."""
+    """Refuse to replace anything but an older package."""
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         return
     if path.is_dir() or not _is_package(path):
         kind = "is a folder with something in it" if path.is_dir() else "is no export"
-        raise PackageError(f"{path} {kind}: it is left alone, name another place")
+        raise PackageError(f"{path} {kind}: it was left alone, name another place")
 
 
 def _is_package(path: Path) -> bool:
     try:
-        with reading(path) as package:
+        with open_to_read(path) as package:
             package.read(MANIFEST)
     except (KeyError, ValueError):
         return False
@@ -183,13 +184,13 @@ def _is_package(path: Path) -> bool:
 
 
 def _sync_all() -> None:
-    """Have all files on disk, at once: one by one takes minutes for many lessons."""
+    """Sync all files to disk at once: one by one takes minutes for many lessons."""
     if os.name == "posix":
         os.sync()
 
 
 def _sync_folder(folder: Path) -> None:
-    """Have the names in a folder on disk too, where the system can do that."""
+    """Sync the names in a folder to disk too, where the system can do that."""
     if os.name != "posix":
         return
     opened = os.open(folder, os.O_RDONLY)
@@ -207,4 +208,4 @@ def _remove(path: Path) -> None:
 
 
 def _reason(error: Exception) -> str:
-    return shown(" ".join(str(error.args[0] if error.args else error).split()))
+    return printable_name(" ".join(str(error.args[0] if error.args else error).split()))

@@ -1,4 +1,5 @@
-"""Dialogues, turns and lessons as lines of JSON, with files of arrays and pictures.
+"""Pack dialogues, turns and lessons as lines of JSON, with files of arrays and
+pictures.
 
 What is unpacked is checked: a `ValueError`, `KeyError`, `TypeError` or `OverflowError`
 says that these are not values that were packed.
@@ -43,28 +44,28 @@ _LARGEST = 2**53
 
 
 def pack_dialogue(dialogue: Dialogue) -> Line:
-    """The line of a dialogue."""
+    """Pack a dialogue as a line."""
     return {"dialogue": dialogue.number, "began": dialogue.began}
 
 
 def unpack_dialogue(line: Line) -> Dialogue:
-    """The dialogue of a line."""
+    """Unpack a dialogue from its line."""
     return Dialogue(whole(line, "dialogue"), _text(line, "began"))
 
 
 def pack_turn(turn: Turn) -> Line:
-    """The line of a turn."""
+    """Pack a turn as a line."""
     return asdict(turn)
 
 
 def unpack_turn(line: Line) -> Turn:
-    """The turn of a line."""
+    """Unpack a turn from its line."""
     texts = (_text(line, it) for it in ("speaker", "text", "judgement", "time"))
     return Turn(whole(line, "dialogue"), whole(line, "number"), *texts)
 
 
 def pack_lesson(lesson: ObjectLesson | RelationLesson) -> tuple[Line, Files]:
-    """The line of a lesson, and the files that belong to it."""
+    """Pack a lesson as a line, and the files that belong to it."""
     line: Line = {
         "lesson": lesson.key,
         **asdict(lesson.word),
@@ -92,7 +93,7 @@ def pack_lesson(lesson: ObjectLesson | RelationLesson) -> tuple[Line, Files]:
 def unpack_lesson(
     line: Line, files: Files, turns: Mapping[tuple[int, int], Turn]
 ) -> ObjectLesson | RelationLesson:
-    """The lesson of a line with its files; `turns` by dialogue and number."""
+    """Unpack a lesson from its line and files; `turns` are by dialogue and number."""
     key = whole(line, "lesson")
     turn = turns[whole(line, "dialogue"), whole(line, "turn")]
     word, holds = _word(line), _truth(line)
@@ -122,7 +123,7 @@ def _word(line: Line) -> Word:
 
 
 def _truth(line: Line) -> bool:
-    """Whether the lesson holds, as all did of which nothing is said."""
+    """Does the lesson say that the word applies? Older lines without this field do."""
     holds = line.get("holds", True)
     if not isinstance(holds, bool):
         raise TypeError(f"holds is {holds!r}, neither true nor false")
@@ -130,7 +131,7 @@ def _truth(line: Line) -> bool:
 
 
 def whole(line: Line, name: str) -> int:
-    """The whole number of this name, which is not below zero."""
+    """The whole number in this field, which must not be negative."""
     value = _integer(line[name])
     if value < 0:
         raise ValueError(f"{name} is below zero")

@@ -1,4 +1,4 @@
-"""The rows of an SQLite file, read page by page, however damaged the file is.
+"""Read the rows of an SQLite file page by page, however damaged the file is.
 
 Nothing of the database is executed: pages are bytes, and rows are what lies in the
 leaves of a table's tree. Where a tree is broken, all leaves that no tree leads to are
@@ -27,7 +27,7 @@ _SIZES = tuple(2**it for it in range(9, 17))
 
 
 class BrokenPageError(Exception):
-    """A page, a cell or a record that is not as SQLite writes them."""
+    """A page, a cell or a record that SQLite did not write so."""
 
 
 @dataclass(frozen=True)
@@ -43,12 +43,12 @@ class Row:
 
 @dataclass(frozen=True)
 class Rows:
-    """What was found in a file."""
+    """The rows found in a file."""
 
     tables: Mapping[str, Sequence[Row]]
     """The rows of each table that the schema leads to."""
     strays: Sequence[Row]
-    """Rows of leaves that no tree leads to, if a tree is broken."""
+    """Rows on leaves that no tree reaches, if a tree is broken."""
     unreadable: int
     """How many rows and pages could not be read."""
 
@@ -65,7 +65,7 @@ def rows_in(content: Content) -> Rows:
 
 
 def page_size(content: Content) -> int | None:
-    """The size of pages that the file says it has; None if its beginning is lost."""
+    """The page size given in the file's header; None if the header is lost."""
     if content[: len(MAGIC)] != MAGIC or len(content) < _HEAD_BYTES:
         return None
     size = int.from_bytes(content[16:18], "big")
@@ -103,7 +103,7 @@ class _File:
         return Rows(tables, strays, self._unreadable)
 
     def _tree(self, root: int) -> Iterator[Row]:
-        """The rows of the tree with this root, as far as pages lead to them."""
+        """The rows of the tree with this root, as far as they can be reached."""
         waiting = [root]
         while waiting:
             number = waiting.pop()
@@ -170,7 +170,7 @@ class _File:
         return Row(key - 2**64 if key >= 2**63 else key, _record(payload))
 
     def _bytes_inside(self, length: int) -> int:
-        """How much of so long a payload is in the leaf itself."""
+        """How many bytes of a payload of this length are in the leaf itself."""
         if length <= self._usable - 35:
             return length
         least = (self._usable - 12) * 32 // 255 - 23
@@ -192,7 +192,7 @@ class _File:
         return b"".join(pages)
 
     def _free(self) -> Iterator[int]:
-        """The pages that SQLite has put aside: what was in them is no row any more."""
+        """The free pages of SQLite: their former rows are deleted."""
         if not self._known:
             return
         seen: set[int] = set()

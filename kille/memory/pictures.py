@@ -1,4 +1,4 @@
-"""What is kept of what was seen, as encoded pictures; nothing here decodes them."""
+"""Pictures kept with a lesson, in encoded form; nothing here decodes them."""
 
 from __future__ import annotations
 

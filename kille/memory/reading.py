@@ -1,4 +1,4 @@
-"""What a memory holds, as values: the questions asked of its tables.
+"""Read what a memory holds, as values, from its tables.
 
 Lessons are read some hundred at a time, by one statement a table. No cursor stays open
 between two answers: it would keep the file from being let go.
@@ -111,7 +111,7 @@ PICTURE = """
 
 @contextmanager
 def at_one_moment(connection: sqlite3.Connection) -> Iterator[None]:
-    """What is read inside is as it was at one moment, whoever writes meanwhile."""
+    """Read everything inside as of one moment, whoever writes meanwhile."""
     if connection.in_transaction:
         yield
         return
@@ -123,7 +123,7 @@ def at_one_moment(connection: sqlite3.Connection) -> Iterator[None]:
 
 
 def words(connection: sqlite3.Connection) -> tuple[Word, ...]:
-    """Every word that is known to hold of something, oldest first.
+    """Every word that is known to apply to something, oldest first.
 
     It is as it was said when that was first taught, with the first article it had.
     """
@@ -131,7 +131,7 @@ def words(connection: sqlite3.Connection) -> tuple[Word, ...]:
 
 
 def counts(connection: sqlite3.Connection) -> dict[tuple[Kind, str], int]:
-    """In how many lessons each word was said to hold, by its kind and name."""
+    """The number of lessons in which each word was said to apply, by kind and name."""
     rows = connection.execute(COUNTS)
     return {(kind, name): number for kind, name, number in rows}
 
@@ -142,7 +142,7 @@ def dialogues(connection: sqlite3.Connection) -> tuple[Dialogue, ...]:
 
 
 def turns(connection: sqlite3.Connection) -> tuple[Turn, ...]:
-    """All that was said, dialogue by dialogue."""
+    """Everything that was said, dialogue by dialogue."""
     return tuple(Turn(*row) for row in connection.execute(TURNS))
 
 
@@ -152,12 +152,12 @@ def lessons(connection: sqlite3.Connection) -> tuple[Lesson, ...]:
 
 
 def latest(connection: sqlite3.Connection, count: int) -> tuple[Lesson, ...]:
-    """So many of the newest lessons, the newest last, without what was seen."""
+    """The newest `count` lessons, the newest last, without what was seen."""
     found = connection.execute(LATEST, (count,)).fetchall()
     return tuple(_lesson(row) for row in reversed(found))
 
 
-def told(connection: sqlite3.Connection, key: int) -> Lesson | None:
+def lesson_without_sight(connection: sqlite3.Connection, key: int) -> Lesson | None:
     """The lesson of this key without what was seen, or None."""
     row = connection.execute(TOLD, (key,)).fetchone()
     return None if row is None else _lesson(row)
@@ -171,7 +171,7 @@ def keys_of(connection: sqlite3.Connection, kind: Kind, name: str) -> tuple[int,
 def objects(
     connection: sqlite3.Connection, kind: Kind = "object"
 ) -> Iterator[ObjectLesson]:
-    """The lessons in what objects are, or how they are, without their pictures.
+    """The lessons in names or attributes of objects, without their pictures.
 
     Oldest first. A batch is read when its first lesson is asked for: what was forgotten
     before is left out.
@@ -203,7 +203,7 @@ def lesson(
 
 
 def picture(connection: sqlite3.Connection, key: int) -> Picture | None:
-    """The picture of a lesson, None if it has none."""
+    """The picture of a lesson; None if it has none."""
     row = connection.execute(PICTURE, (key,)).fetchone()
     if row is None:
         return None
@@ -221,7 +221,7 @@ def objects_between(
     last: int,
     kinds: tuple[Kind, Kind] = ("object", "attribute"),
 ) -> list[ObjectLesson]:
-    """The lessons of these kinds whose keys are from the first to the last of these."""
+    """The lessons of these kinds with keys from `first` to `last`."""
     scans = _scans(connection, first, last)
     traits = _traits(connection, first, last)
     found = []
@@ -242,7 +242,7 @@ def objects_between(
 def relations_between(
     connection: sqlite3.Connection, first: int, last: int
 ) -> list[RelationLesson]:
-    """The lessons about relations with keys from the first to the last of these."""
+    """The lessons about relations with keys from `first` to `last`."""
     found = []
     for row in connection.execute(RELATIONS, (first, last)).fetchall():
         sensor, time, target, landmark, text = row[LESSON_WIDTH:]
@@ -255,7 +255,7 @@ def relations_between(
 
 
 def scan(descriptors: bytes, points: bytes) -> Scan:
-    """The scan whose arrays, row by row and little-endian, are these bytes."""
+    """Decode a scan from its arrays, which are stored row by row and little-endian."""
     return Scan(
         np.frombuffer(descriptors, np.uint8).reshape(-1, DESCRIPTOR_LENGTH),
         floats(points).reshape(-1, 3),
@@ -263,7 +263,7 @@ def scan(descriptors: bytes, points: bytes) -> Scan:
 
 
 def floats(blob: bytes) -> Vector:
-    """The numbers (n,) whose little-endian bytes these are; not copied."""
+    """Decode little-endian numbers (n,) without copying them."""
     return np.frombuffer(blob, "<f4").astype(np.float32, copy=False)
 
 
@@ -294,7 +294,7 @@ def _batches(connection: sqlite3.Connection, kind: Kind) -> Iterator[tuple[int, 
 
 
 def _lesson(row: tuple[Any, ...]) -> Lesson:
-    """The lesson of a row that begins with LESSON_COLUMNS."""
+    """The lesson in a row that begins with LESSON_COLUMNS."""
     key, holds, name, surface, kind, article, *said = row[:LESSON_WIDTH]
     word = Word(name, surface, kind, article)
     return Lesson(key, word, Turn(*said), holds=bool(holds))

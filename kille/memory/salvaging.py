@@ -1,4 +1,4 @@
-"""Saving what can be read of a memory file that is damaged, or not to be trusted.
+"""Salvage what can be read of a memory file that is damaged or not to be trusted.
 
 Nothing of the old file is believed or executed: its rows are read from its pages and
 put into the tables that kille makes, what belongs together is mended, and every lesson
@@ -18,24 +18,24 @@ from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import NamedTuple
 
-from kille.databases import has_strange_journal, restrict, shown
+from kille.databases import has_strange_journal, printable_name, restrict
 from kille.memory import reading, schema
-from kille.memory.errors import ELSEWHERE, MemoryFileError, explained
+from kille.memory.errors import ELSEWHERE, MemoryFileError, explain_failures
 from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
 from kille.memory.memory import Memory
 from kille.memory.merging import Merged
 from kille.memory.pages import Row, Rows, Value, rows_in
 
 UNKNOWN = "unknown"
-"""When a lost dialogue began, and who said a lost turn."""
+"""The time of a lost dialogue, and the speaker of a lost turn."""
 
 
 class Column(NamedTuple):
-    """A column of a table of ours."""
+    """A column of a table of a memory."""
 
     kind: str
     is_key: bool
-    """Is it the rowid, of which nothing is stored?"""
+    """Is it the rowid, which is not stored in the record?"""
     is_required: bool
 
 
@@ -45,15 +45,16 @@ _BESIDE = ("-wal", "-journal")
 
 @dataclass(frozen=True)
 class Salvage:
-    """What was saved, and what was not."""
+    """What was saved, and what was lost."""
 
     saved: Merged
     losses: tuple[str, ...]
-    """What is lost, each as a line for people; that rows were not found is none."""
+    """What is lost, each as a line for people; rows that were not found do not
+    count."""
 
 
 def salvage(path: Path, target: Path) -> Salvage:
-    """Make a new memory of what can be read of a file, which stays as it is.
+    """Make a new memory from what can be read of a file, which is left unchanged.
 
     Raises MemoryFileError if the target is taken, the file is changed meanwhile, or
     nothing of a memory is found in it.
@@ -67,20 +68,20 @@ def salvage(path: Path, target: Path) -> Salvage:
             f"{target} cannot be made ({error.strerror}): name a file elsewhere"
         ) from error
     with folder as name:
-        saved = _salvaged(path, Path(name))
+        saved = _salvage_in(path, Path(name))
         os.rename(Path(name) / _NEW, target)
     return saved
 
 
-def _salvaged(path: Path, folder: Path) -> Salvage:
-    """Make the new memory in a folder of its own."""
+def _salvage_in(path: Path, folder: Path) -> Salvage:
+    """Make the new memory in this folder."""
     place = folder / "rows.db"
     with (
-        explained(str(path)),
+        explain_failures(str(path)),
         closing(sqlite3.connect(place, isolation_level=None)) as tables,
     ):
         losses = list(_fill(tables, _rows_of(_copy(path, folder))))
-        kept = _Kept(tables)
+        kept = _SalvagedMemory(tables)
         if not (kept.dialogues or kept.turns or kept.keys):
             raise MemoryFileError(
                 f"nothing of a kille memory can be found in {path}: "
@@ -96,7 +97,7 @@ def _salvaged(path: Path, folder: Path) -> Salvage:
 
 
 def _copy(path: Path, folder: Path) -> Path:
-    """A copy of a file in which all is that was committed to it."""
+    """Copy a file, with everything that was committed to it."""
     copy = folder / "copy.db"
     files = [Path(f"{path}{ending}") for ending in ("", *_BESIDE)]
     try:
@@ -137,7 +138,7 @@ def _rows_of(path: Path) -> Rows:
 
 
 def _fill(tables: sqlite3.Connection, found: Rows) -> Iterator[str]:
-    """Put rows into tables of the current version; what does not fit is told."""
+    """Put rows into tables of the current version; yields what does not fit."""
     version = max(
         range(1, schema.VERSION + 1), key=lambda it: _count_fitting(it, found)
     )
@@ -152,7 +153,7 @@ def _fill(tables: sqlite3.Connection, found: Rows) -> Iterator[str]:
 
 
 def _count_fitting(version: int, found: Rows) -> int:
-    """How many rows could be of a memory of this version."""
+    """The number of rows that could belong to a memory of this version."""
     with closing(sqlite3.connect(":memory:")) as tables:
         schema.migrate(tables, schema.MIGRATIONS[:version])
         return sum(values is not None for _, values in _fitted_rows(tables, found))
@@ -165,11 +166,11 @@ def _fitted_rows(
     columns = {it: _columns(tables, it) for it in _names(tables)}
     rows = [(name, it) for name in columns for it in found.tables.get(name, ())]
     rows += [(name, it) for it in found.strays if (name := _table_of(it, columns))]
-    return [(name, _fitted(row, columns[name])) for name, row in rows]
+    return [(name, _fit_row(row, columns[name])) for name, row in rows]
 
 
 def _insert(tables: sqlite3.Connection, found: Rows) -> int:
-    """Insert all rows that fit; how many do not."""
+    """Insert all rows that fit; return how many do not."""
     lost = 0
     for name, values in _fitted_rows(tables, found):
         if values is None:
@@ -197,14 +198,14 @@ def _columns(tables: sqlite3.Connection, table: str) -> list[Column]:
 
 def _table_of(row: Row, columns: dict[str, list[Column]]) -> str:
     """The only table in which a row fits, or "": none, or one of several."""
-    fitting = [it for it, kinds in columns.items() if _fitted(row, kinds, strict=True)]
+    fitting = [it for it, kinds in columns.items() if _fit_row(row, kinds, strict=True)]
     return fitting[0] if len(fitting) == 1 else ""
 
 
-def _fitted(
+def _fit_row(
     row: Row, columns: Sequence[Column], *, strict: bool = False
 ) -> tuple[Value, ...] | None:
-    """The values of a row as these columns have them; None if one is of another type.
+    """The values of a row for these columns; None if one has another type.
 
     Text that was stored as bytes is text, unless that is strictly looked at.
     """
@@ -233,12 +234,13 @@ _TYPES = {"INTEGER": int, "REAL": float | int, "TEXT": str, "BLOB": bytes}
 
 
 def _mend(tables: sqlite3.Connection) -> Iterator[str]:
-    """Give every row what it needs to be of use, or take it away."""
+    """Complete every row, or remove it; yields what is lost."""
     numbers = (0, schema.LARGEST_KEY)
     outside = "FROM lessons WHERE id NOT BETWEEN ? AND ?"
     strange = tables.execute(f"SELECT id, name {outside}", numbers).fetchall()
     for key, name in strange:
-        yield f"lesson {key} ({shown(name)}) has a number that kille never gives"
+        lesson = f"lesson {key} ({printable_name(name)})"
+        yield f"{lesson} has a number that kille never gives"
     tables.execute(f"DELETE {outside}", numbers)
     tables.execute(
         "INSERT INTO dialogues SELECT DISTINCT dialogue, ? FROM turns "
@@ -257,7 +259,8 @@ def _mend(tables: sqlite3.Connection) -> Iterator[str]:
         "id NOT IN (SELECT lesson FROM sightings)) ORDER BY id"
     ).fetchall()
     for key, name in unseen:
-        yield f"lesson {key} ({shown(name)}): nothing is left of what was seen"
+        lesson = f"lesson {key} ({printable_name(name)})"
+        yield f"{lesson}: nothing is left of what was seen"
     tables.executemany("DELETE FROM lessons WHERE id = ?", [(it,) for it, _ in unseen])
     orphans: set[int] = set()
     for table in ("crops", "pictures", "scans", "traits", "sightings", "arrangements"):
@@ -270,7 +273,7 @@ def _mend(tables: sqlite3.Connection) -> Iterator[str]:
 
 
 def _mend_turns(tables: sqlite3.Connection) -> Iterator[str]:
-    """Give lessons whose turn is lost one of a dialogue of which nothing is known."""
+    """Give lessons whose turn is lost a turn in an unknown dialogue."""
     homeless = tables.execute(
         "SELECT turn, min(id), min(name) FROM lessons "
         "WHERE turn NOT IN (SELECT id FROM turns) GROUP BY turn ORDER BY turn"
@@ -285,11 +288,12 @@ def _mend_turns(tables: sqlite3.Connection) -> Iterator[str]:
             "INSERT INTO turns VALUES (?, ?, ?, ?, '', '', ?)",
             (turn, dialogue, number, UNKNOWN, UNKNOWN),
         )
-        yield f"lesson {key} ({shown(name)}) is kept, but not who taught it when"
+        lesson = f"lesson {key} ({printable_name(name)})"
+        yield f"{lesson} is kept, but not who taught it when"
 
 
-class _Kept:
-    """The memory in the tables, as it is merged into another; `losses` are told."""
+class _SalvagedMemory:
+    """The memory in the tables, to be merged into another; collects `losses`."""
 
     def __init__(self, tables: sqlite3.Connection) -> None:
         self._tables = tables
@@ -304,7 +308,9 @@ class _Kept:
             try:
                 lesson = reading.lesson(self._tables, key)
             except (ValueError, TypeError, KeyError, OverflowError) as error:
-                self.losses.append(f"lesson {key} is damaged: {shown(str(error))}")
+                self.losses.append(
+                    f"lesson {key} is damaged: {printable_name(str(error))}"
+                )
                 continue
             if lesson is not None:
                 yield lesson

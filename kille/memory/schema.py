@@ -1,4 +1,4 @@
-"""The tables of a memory file, and how older files are brought up to date.
+"""The tables of a memory file, and the migration of older files.
 
 A word has no row of its own: it is known exactly as long as a lesson teaches it, so
 that forgetting a lesson leaves nothing behind.
@@ -13,13 +13,13 @@ import struct
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 
-from kille.databases import Schema, made_by, row_faults, schema_faults, schema_of
+from kille.databases import Schema, row_faults, schema_faults, schema_made_by, schema_of
 
 # "KILL" in ASCII: tells our files from any other SQLite database.
 APPLICATION_ID = 0x4B494C4C
 
 Migration = tuple[str | Callable[[sqlite3.Connection], None], ...]
-"""Statements, and what no statement can say."""
+"""Statements, and functions for what no statement can do."""
 
 TABLES: Migration = (
     """
@@ -85,7 +85,7 @@ NEARLY_NOTHING = 0.01  # metres added to a length before its logarithm is taken
 
 
 def move_traits(connection: sqlite3.Connection) -> None:
-    """What version 1 knew of things as a whole, as vectors of the cues it became."""
+    """Convert what version 1 knew of whole things to vectors of the present cues."""
     looks = connection.execute(
         "SELECT lesson, colour, length, breadth, thickness FROM older_sightings "
         "ORDER BY lesson"
@@ -100,7 +100,7 @@ def move_traits(connection: sqlite3.Connection) -> None:
 
 
 def move_offsets(connection: sqlite3.Connection) -> None:
-    """Offsets as configurations of which nothing else is known."""
+    """Convert offsets to configurations in which nothing else is known."""
     offsets = connection.execute(
         "SELECT lesson, target, landmark, x, y, z FROM older_arrangements "
         "ORDER BY lesson"
@@ -220,7 +220,8 @@ def is_memory(connection: sqlite3.Connection) -> bool:
 
 
 def part_faults(connection: sqlite3.Connection) -> Iterator[str]:
-    """How the parts of a memory are not those of its version, as ends of "It has …".
+    """The differences between the parts of a memory and its version, as ends of "It has
+    …".
 
     >>> from contextlib import closing
     >>> with closing(sqlite3.connect(":memory:")) as connection:
@@ -238,7 +239,7 @@ def part_faults(connection: sqlite3.Connection) -> Iterator[str]:
 
 
 def content_faults(connection: sqlite3.Connection) -> Iterator[str]:
-    """What the tables of a memory hold that kille never writes, told likewise.
+    """Contents of the tables that kille never writes, likewise as ends of "It has …".
 
     The tables must be those of its version.
     """
@@ -249,7 +250,7 @@ def content_faults(connection: sqlite3.Connection) -> Iterator[str]:
 
 
 LARGEST_KEY = 2**62
-"""The largest number of a lesson: no later one must be unable to get a number."""
+"""The largest number that a lesson may have, so that later ones can get numbers too."""
 
 # Each since a version. A lesson without what was seen would be passed over wherever
 # lessons are read; and SQLite does not look at checks in a file that is only read.
@@ -299,21 +300,21 @@ _NEVER = (
 
 
 def _any(connection: sqlite3.Connection, query: str) -> bool:
-    """Does a query count any?"""
+    """Does a query count anything?"""
     (count,) = connection.execute(query).fetchone()
     return bool(count)
 
 
 @cache
 def _parts(version: int) -> Schema:
-    """The parts of a memory of a version, in which nothing is."""
-    return made_by(lambda it: migrate(it, MIGRATIONS[:version]))
+    """The parts of an empty memory of this version."""
+    return schema_made_by(lambda it: migrate(it, MIGRATIONS[:version]))
 
 
 def migrate(
     connection: sqlite3.Connection, migrations: Sequence[Migration] = MIGRATIONS
 ) -> None:
-    """Bring the tables up to date, in the transaction that is open.
+    """Bring the tables up to date, within the open transaction.
 
     SQLite must not be looking after foreign keys, as it does not unless it is told to.
 

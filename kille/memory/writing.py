@@ -1,4 +1,4 @@
-"""How values get into the tables of a memory, inside the transaction of the caller."""
+"""Write values to the tables of a memory, inside the caller's transaction."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ from kille.scene import Vector
 def add_dialogue(
     connection: sqlite3.Connection, began: str, number: int | None = None
 ) -> int:
-    """The number of a new dialogue: the one given, if one is."""
+    """Add a dialogue; returns its number, which is the given one if there is one."""
     new = "INSERT INTO dialogues (id, began) VALUES (?, ?)"
     return _insert(connection, new, number, began)
 
 
 def add_turn(connection: sqlite3.Connection, turn: Turn) -> int:
-    """The id of this turn, which is kept once however often it is added.
+    """Add a turn, once only; returns its id.
 
     What it was understood to be may be added when it is known. Raises ValueError if
     its dialogue never began, or if something else is on record as that turn.
@@ -70,9 +70,9 @@ def add_lesson(
     holds: bool = True,
     key: int | None = None,
 ) -> int:
-    """The key of a new lesson, with its turn and all that was seen.
+    """Add a lesson with its turn and all that was seen; returns its key.
 
-    It is the one given, if one is. The lesson is read back: raises NotKeptError if it
+    A given key is used. The lesson is read back: raises NotKeptError if it
     is not on file as it was given.
     """
     key = _insert(
@@ -107,18 +107,18 @@ def never_taught(connection: sqlite3.Connection) -> bool:
 
 
 def delete_lesson(connection: sqlite3.Connection, key: int) -> bool:
-    """Take a lesson away with all that was seen in it; was there one?"""
+    """Delete a lesson with all that was seen in it; was there one?"""
     return connection.execute("DELETE FROM lessons WHERE id = ?", (key,)).rowcount == 1
 
 
 def scan_bytes(scan: Scan) -> tuple[bytes, bytes]:
-    """The arrays row by row, little-endian on every machine."""
+    """Encode the arrays row by row, little-endian on every machine."""
     points = scan.points.astype("<f4")
     return scan.descriptors.tobytes(), points.tobytes()
 
 
 def vector_bytes(vector: Vector) -> bytes:
-    """The numbers one after the other, little-endian on every machine."""
+    """Encode the numbers, little-endian on every machine."""
     return vector.astype("<f4").tobytes()
 
 
@@ -189,7 +189,7 @@ def _add_crop(connection: sqlite3.Connection, key: int, crop: Crop) -> None:
 def _check_kept(
     connection: sqlite3.Connection, lesson: ObjectLesson | RelationLesson
 ) -> None:
-    """Read the lesson back: whoever says that it is learned must know that it is."""
+    """Read the lesson back: the robot may say that it has learned only if it has."""
     try:
         kept = reading.lesson(connection, lesson.key)
     except (ValueError, TypeError) as error:
@@ -209,7 +209,7 @@ def _insert(
     statement: str,
     *values: str | int | float | bytes | None,
 ) -> int:
-    """Insert one row; its id."""
+    """Insert one row; returns its id."""
     key = connection.execute(statement, values).lastrowid
     assert key is not None  # an INSERT has just been done
     return key

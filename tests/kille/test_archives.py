@@ -16,7 +16,7 @@ from hypothesis.extra import numpy as arrays
 from kille.archives import (
     DamagedArchiveError,
     check_sizes,
-    opened_zip,
+    open_zip,
     read_arrays,
     read_head,
     read_member,
@@ -102,12 +102,12 @@ TOO_MUCH: dict[str, Callable[[], object]] = {
 
 
 def _member(data: bytes) -> None:
-    with opened_zip(data) as archive:
+    with open_zip(data) as archive:
         read_member(archive, "a", FEW)
 
 
 def _members(data: bytes) -> None:
-    with opened_zip(data) as archive:
+    with open_zip(data) as archive:
         check_sizes(archive, FEW)
 
 
@@ -148,7 +148,7 @@ def test_a_head_with_a_shape_below_zero_is_damaged(shape: tuple[int, ...]) -> No
 
 def test_no_more_is_unpacked_than_the_list_says() -> None:
     data = said_to_be(10, zipped(("a", bytes(10**6))))
-    with opened_zip(data) as archive, pytest.raises(DamagedArchiveError, match="CRC"):
+    with open_zip(data) as archive, pytest.raises(DamagedArchiveError, match="CRC"):
         read_member(archive, "a", FEW)
 
 
@@ -157,12 +157,12 @@ def test_what_is_in_a_zip_may_be_larger_than_its_list(
 ) -> None:
     monkeypatch.setattr("kille.archives._Bounded.limit", Limit(10_000, DIRECTORY.unit))
     data = zipped(("a", bytes(20_000)), way=zipfile.ZIP_STORED)
-    with opened_zip(data) as archive:
+    with open_zip(data) as archive:
         assert read_member(archive, "a", Limit(20_000, "bytes")) == bytes(20_000)
 
 
 def test_a_list_without_end_is_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
     data = zipped(*((f"{it}", b"") for it in range(300)))
     monkeypatch.setattr("kille.archives._Bounded.limit", Limit(10_000, DIRECTORY.unit))
-    with pytest.raises(InputLimitError, match="no more than 10 kB"), opened_zip(data):
+    with pytest.raises(InputLimitError, match="no more than 10 kB"), open_zip(data):
         pass

@@ -8,7 +8,7 @@ from contextlib import closing
 
 import pytest
 
-from kille.databases import row_faults, shown
+from kille.databases import printable_name, row_faults
 
 TABLES = """
     CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -62,6 +62,6 @@ def test_a_value_that_kille_never_writes_is_a_fault(
 
 def test_a_name_is_shown_on_a_line_of_its_size() -> None:
     for name in ("", "cup", "boîte", 60 * "a"):
-        assert shown(name) == name
-    assert shown(61 * "a") == 60 * "a" + "..."
-    assert shown("cup\n\x1b[31m") == r"cup\n\x1b[31m"
+        assert printable_name(name) == name
+    assert printable_name(61 * "a") == 60 * "a" + "..."
+    assert printable_name("cup\n\x1b[31m") == r"cup\n\x1b[31m"

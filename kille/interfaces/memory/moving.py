@@ -9,7 +9,7 @@ from pathlib import Path
 from kille.interfaces.terminal import FINE, complain, console, memory_path, print_json
 from kille.memory import Memory, MemoryFileError
 from kille.memory.exporting import export
-from kille.memory.importing import opened
+from kille.memory.importing import open_package
 from kille.memory.packages import PackageError
 
 Report = Callable[[str, Mapping[str, int]], None]
@@ -32,7 +32,7 @@ def import_memory(given: Path | None, source: Path, report: Report) -> int:
     """Adds what is new in an exported memory; the exit code."""
     path = memory_path(given)
     try:
-        with opened(source) as package, Memory.open(path) as memory:
+        with open_package(source) as package, Memory.open(path) as memory:
             gained = memory.merge(package)
     except (MemoryFileError, PackageError) as error:
         return complain(error)

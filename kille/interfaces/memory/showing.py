@@ -38,7 +38,7 @@ from kille.memory import (
 )
 from kille.memory.configurations import as_json as configuration_json
 from kille.memory.pictures import JPEG
-from kille.private import private
+from kille.private import open_private
 
 _COLUMNS, _ROWS = 40, 12
 _NAME = 50  # characters of a word in the name of a file
@@ -141,7 +141,7 @@ def _written(lesson: ObjectLesson | RelationLesson, out: Path | None) -> Shown:
         out.mkdir(parents=True, exist_ok=True)
         for kind, (ending, content) in _pictures(picture).items():
             files[kind] = out / f"{lesson.key}-{name}-{kind}{ending}"
-            with open(files[kind], "wb", opener=private) as file:
+            with open(files[kind], "wb", opener=open_private) as file:
                 file.write(content)
     except OSError as error:
         raise _Unwritable(

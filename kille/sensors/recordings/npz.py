@@ -23,10 +23,10 @@ from numpy.typing import NDArray
 
 from kille.archives import (
     DamagedArchiveError,
-    damage_told,
-    opened_zip,
+    open_zip,
     read_array,
     read_head,
+    report_damage,
 )
 from kille.scene import Frame, Intrinsics
 from kille.sensors.captures import RATE
@@ -165,7 +165,7 @@ def _shape_text(array: NDArray[Any]) -> str:
 
 def _arrays(path: Path) -> dict[str, NDArray[Any]]:
     """The arrays that are asked for, by name; those not compressed stay on disk."""
-    with opened_zip(path) as archive:
+    with open_zip(path) as archive:
         entries = [it for it in archive.infolist() if it.filename.endswith(".npy")]
         named = {_name(it): it for it in entries}
         held = [it for it in named.values() if not _stays(it)]
@@ -193,7 +193,7 @@ def _stays(entry: zipfile.ZipInfo) -> bool:
 
 
 def _map(path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> NDArray[Any]:
-    with damage_told():
+    with report_damage():
         with archive.open(entry) as file:
             head = read_head(file)
             skipped = file.tell()

@@ -14,7 +14,7 @@ from errno import ENOSPC
 from pathlib import Path
 
 from kille.databases import has_strange_journal, restrict
-from kille.private import private
+from kille.private import open_private
 from kille.studies.log.outcomes import RunError
 
 FILE, LOCK = "log.db", ".lock"
@@ -25,7 +25,7 @@ def locked(folder: Path) -> Iterator[None]:
     """Keeps all other writers out of a folder, which is made."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        file = open(folder / LOCK, "a+", opener=private)  # noqa: SIM115
+        file = open(folder / LOCK, "a+", opener=open_private)  # noqa: SIM115
     except OSError as error:
         raise _unwritten(folder, error) from error
     with file:

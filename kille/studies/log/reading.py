@@ -12,7 +12,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
-from kille.databases import shown
+from kille.databases import printable_name
 from kille.studies.log.about import About, about_in
 from kille.studies.log.cells import of_cells
 from kille.studies.log.folders import FILE, connected, explained, reading_mode
@@ -143,5 +143,5 @@ def _reading(folder: Path) -> Iterator[sqlite3.Connection]:
             yield connection
         except (ValueError, TypeError, KeyError, RecursionError) as error:
             raise RunError(
-                f"{path} is damaged ({shown(str(error))}): put back a copy"
+                f"{path} is damaged ({printable_name(str(error))}): put back a copy"
             ) from error

@@ -6,7 +6,7 @@ import sqlite3
 from functools import cache
 from pathlib import Path
 
-from kille.databases import Schema, made_by, row_faults, schema_faults
+from kille.databases import Schema, row_faults, schema_faults, schema_made_by
 from kille.studies.log.cells import columns
 from kille.studies.log.folders import FILE
 from kille.studies.log.outcomes import RunError
@@ -111,7 +111,7 @@ def _untrusted(folder: Path, fault: str) -> RunError:
 @cache
 def _parts() -> Schema:
     """The parts of a log in which nothing is."""
-    return made_by(make)
+    return schema_made_by(make)
 
 
 def make(connection: sqlite3.Connection) -> None:

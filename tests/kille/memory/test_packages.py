@@ -30,7 +30,7 @@ from kille.memory import (
     Turn,
 )
 from kille.memory.exporting import Amount, export
-from kille.memory.importing import opened
+from kille.memory.importing import open_package
 from kille.memory.merging import Merged
 from kille.memory.packages import PackageError
 from kille.scene import Configuration
@@ -58,7 +58,7 @@ def lesson_content(lesson: ObjectLesson | RelationLesson) -> object:
 
 def imported(path: Path, memory: Memory) -> tuple[int, int]:
     """Imports, and says how many lessons were new and how many were not."""
-    with opened(path) as package:
+    with open_package(path) as package:
         gained = memory.merge(package)
     return len(gained.lessons), gained.known
 
@@ -312,9 +312,9 @@ def test_what_a_memory_gains_is_counted(tmp_path: Path, seen: Sighting) -> None:
     with small_memory(seen) as other, Memory.transient() as memory:
         export(other, path)
         memory.begin_dialogue("before")
-        with opened(path) as package:
+        with open_package(path) as package:
             assert memory.merge(package) == Merged(2, 4, (2, 3), 0)
-        with opened(path) as package:
+        with open_package(path) as package:
             assert memory.merge(package) == Merged(0, 0, (), 2)
 
 
@@ -333,7 +333,7 @@ def test_what_was_forgotten_can_be_brought_back(tmp_path: Path, seen: Sighting) 
 
 def refusal(path: Path) -> str:
     """The line that refuses this package."""
-    with pytest.raises(PackageError) as caught, opened(path):
+    with pytest.raises(PackageError) as caught, open_package(path):
         pass
     line = str(caught.value)
     assert "\n" not in line
@@ -378,7 +378,7 @@ def test_a_file_that_is_missing_or_changed_is_damage(folder: Path, name: str) ->
     file.unlink()
     assert "is damaged" in refusal(folder)
     file.write_bytes(original)
-    with opened(folder) as package:
+    with open_package(folder) as package:
         assert len(list(package.lessons())) == 2
 
 
@@ -534,13 +534,13 @@ def test_files_that_we_do_not_know_are_passed_over(folder: Path) -> None:
         "lessons.jsonl",
         lambda line: line["files"].update({"../x": "0", "y": "0"}),
     )
-    with opened(folder) as package:
+    with open_package(folder) as package:
         assert len(list(package.lessons())) == 2
 
 
 def test_whole_numbers_that_every_program_reads_are_kept(folder: Path) -> None:
     rewritten(folder, "turns.jsonl", lambda line: line.update(number=2**53))
-    with opened(folder) as package:
+    with open_package(folder) as package:
         assert 2**53 in {it.number for it in package.turns}
 
 
@@ -566,7 +566,7 @@ def test_a_package_of_the_first_version_is_read(folder: Path) -> None:
     relist(folder, "lessons.jsonl", text)
     manifest = json.loads((folder / "memory.json").read_text())
     (folder / "memory.json").write_text(json.dumps(manifest | {"version": 1}))
-    with opened(folder) as package, Memory.transient() as memory:
+    with open_package(folder) as package, Memory.transient() as memory:
         memory.merge(package)
         assert all(it.holds and it.word.article == "" for it in memory.lessons())
         assert [it.word.name for it in memory.lessons()] == ["cup", "left_of"]
@@ -609,7 +609,7 @@ def test_a_link_goes_on_leading_where_it_leads(tmp_path: Path, seen: Sighting) -
         export(memory, link)
         export(memory, link)
     assert link.is_symlink()
-    with opened(target) as package:
+    with open_package(target) as package:
         assert len(list(package.lessons())) == 2
 
 
@@ -651,7 +651,7 @@ def test_an_older_export_is_replaced_wholly_or_not_at_all(
         assert path.read_bytes() == before
         assert [it.name for it in tmp_path.iterdir()] == ["package.zip"]
         export(memory, path)
-        with opened(path) as package:
+        with open_package(path) as package:
             assert [it.word.name for it in package.lessons()] == ["left_of"]
 
 
@@ -661,7 +661,7 @@ def test_a_memory_that_fails_while_it_learns_is_as_it_was(
     large = replace(seen, scans=10 * seen.scans)
     with small_memory(large) as other:
         export(other, tmp_path / "package.zip")
-    with Memory.open(path) as memory, opened(tmp_path / "package.zip") as package:
+    with Memory.open(path) as memory, open_package(tmp_path / "package.zip") as package:
         connection = memory._connection
         (pages,) = connection.execute("PRAGMA page_count").fetchone()
         connection.execute(f"PRAGMA max_page_count = {pages}")
@@ -674,7 +674,7 @@ def test_a_memory_that_fails_while_it_learns_is_as_it_was(
 
 
 def refused(path: Path) -> str:
-    with pytest.raises(PackageError) as caught, opened(path):
+    with pytest.raises(PackageError) as caught, open_package(path):
         pass
     assert "\n" not in str(caught.value)
     return str(caught.value)
@@ -689,7 +689,7 @@ def test_a_file_of_a_package_is_no_larger_than_it_may_be(
         dialogue = memory.begin_dialogue("2026-01-31T12:00")
         memory.record_turn(Turn(dialogue, 1, "robot", "I see a thing. " * 99, "", ""))
         export(memory, path)
-    with opened(path) as package:
+    with open_package(path) as package:
         assert len(package.turns) == 1
     few = Limit(1000, "bytes")
     monkeypatch.setattr("kille.memory.packages.MEMBER", few)
@@ -743,7 +743,7 @@ def test_the_names_in_a_zip_lead_nowhere(tmp_path: Path) -> None:
         link = zipfile.ZipInfo("link")
         link.external_attr = 0o120777 << 16
         archive.writestr(link, "/etc/passwd")
-    with opened(path) as package:
+    with open_package(path) as package:
         assert len(package.dialogues) == 1
     assert [it.name for it in tmp_path.rglob("*")] == ["inner", "package.zip"]
 
@@ -759,4 +759,4 @@ def test_lines_of_a_package_nest_and_count_only_so_far(
     (path / "dialogues.jsonl").write_bytes(line)
     manifest["files"]["dialogues.jsonl"] = sha256(line).hexdigest()
     (path / "memory.json").write_text(json.dumps(manifest))
-    assert "is damaged, or no exported memory" in refused(path)
+    assert "is damaged, or is no exported memory" in refused(path)
