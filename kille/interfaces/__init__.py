@@ -1,1 +1,1 @@
-"""The programs: how a person meets the robot."""
+"""The commands, with which a person meets the robot."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def in_bytes(count: int) -> str:
-    """An amount on a disk.
+    """A number of bytes as people write it.
 
     >>> in_bytes(1_536_000), in_bytes(71_400_000_000)
     ('2 MB', '71 GB')
@@ -19,7 +19,7 @@ def in_bytes(count: int) -> str:
 
 
 def in_frames(count: int) -> str:
-    """So many frames.
+    """A number of frames as people write it.
 
     >>> in_frames(1), in_frames(2)
     ('1 frame', '2 frames')
@@ -28,5 +28,5 @@ def in_frames(count: int) -> str:
 
 
 def why_unwritten(path: Path, error: OSError) -> str:
-    """Why something could not be written, in one line."""
+    """Explain in one line why something could not be written."""
     return f"{path} cannot be written: {(error.strerror or str(error)).lower()}"

@@ -1,4 +1,4 @@
-"""The command `kille`. What needs the camera or the parser is imported when it runs."""
+"""The command `kille`. Camera and parser are imported only when needed."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
 
 
 def command() -> NoReturn:
-    """The command as it is installed.
+    """Run the installed command.
 
     When all is done a thread may still be building a part of the index. Python waits
     for it, and Ctrl-C then would tell of the thread, and of nothing that matters.
@@ -37,7 +37,7 @@ def command() -> NoReturn:
 
 
 def _unforeseen_in_thread(told: threading.ExceptHookArgs) -> None:
-    """What a thread met is one line, too; the command goes on without the thread."""
+    """Report a thread's error in one line; the command goes on without the thread."""
     if told.exc_value is not None and not isinstance(told.exc_value, SystemExit):
         from ttr.safety.unforeseen_errors import report_unforeseen
 
@@ -45,7 +45,7 @@ def _unforeseen_in_thread(told: threading.ExceptHookArgs) -> None:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs the command; 0 fine, 1 failed, 2 wrong use, 130 after Ctrl-C."""
+    """Run the command; 0 is success, 1 failure, 2 wrong use, 130 Ctrl-C."""
     prepare_streams()
     try:
         code = _run(argv)
@@ -76,7 +76,7 @@ def _run(argv: Sequence[str] | None) -> int:
 
 
 def _limit_pictures() -> None:
-    """Has OpenCV itself refuse what is too large, which it settles when it is loaded.
+    """Make OpenCV refuse large pictures itself, which it decides when it is loaded.
 
     Sizes are read before that, too, but by another reader of the same headers.
     """
@@ -483,10 +483,10 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _talk(options: argparse.Namespace) -> int:
-    from kille.interfaces.showing import derivation, nothing
+    from kille.interfaces.showing import derivation, show_nothing
     from kille.interfaces.talk import talk
 
-    account = derivation if options.trace else nothing
+    account = derivation if options.trace else show_nothing
     settings = {"mode": options.mode, "wording": options.wording}
     if options.theory:
         from functools import partial
@@ -565,7 +565,7 @@ def _memory_forget(options: argparse.Namespace) -> int:
         options.parser.error("name a WORD, a LESSON or --last, one of them")
     named = " ".join(options.named)
     chosen = forgetting.last if options.last else forgetting.of(named)
-    may = forgetting.sure if options.yes else forgetting.asked
+    may = forgetting.sure if options.yes else forgetting.ask_consent
     report = forgetting.as_json if options.json else forgetting.as_text
     return forgetting.forget(options.memory, chosen, may, report)
 
@@ -623,10 +623,10 @@ def _experiment_run(options: argparse.Namespace) -> int:
 
 
 def _experiment_resume(options: argparse.Namespace) -> int:
-    from kille.interfaces.experiment.running import as_it_is, resume_study
+    from kille.interfaces.experiment.running import keep_as_is, resume_study
     from kille.studies.running.runner import forget_broken
 
-    first = forget_broken if options.again else as_it_is
+    first = forget_broken if options.again else keep_as_is
     return resume_study(options.folder, _request(options), first)
 
 

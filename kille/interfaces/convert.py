@@ -1,4 +1,4 @@
-"""`kille convert`: a recording in another format."""
+"""`kille convert`: convert a recording to another format."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from kille.sensors.sensor import SensorError
 def convert_recording(
     source: str, out: Path, named: str | None, may_write: Callable[[Path], None]
 ) -> int:
-    """Writes the recording of that name to `out`; the exit code.
+    """Write the recording of this name to `out`; returns the exit code.
 
     `may_write` raises SensorError if `out` must be left as it is.
     """
@@ -28,13 +28,13 @@ def convert_recording(
         may_write(out)
         if into.suffix:
             check_file(out)
-        recording = _opened(source)
+        recording = _open_recording(source)
     except SensorError as error:
         return complain(error)
     except OSError as error:
         return complain(why_unwritten(out, error), FAILED)
     try:
-        return _converted(recording, out, into, may_write)
+        return _convert(recording, out, into, may_write)
     except SensorError as error:
         return complain(error, FAILED)
     except OSError as error:
@@ -43,7 +43,7 @@ def convert_recording(
         recording.close()
 
 
-def _opened(source: str) -> Recording:
+def _open_recording(source: str) -> Recording:
     sensor = open_recording(source)
     if not isinstance(sensor, Recording):
         raise SensorError(
@@ -53,7 +53,7 @@ def _opened(source: str) -> Recording:
     return sensor
 
 
-def _converted(
+def _convert(
     recording: Recording, out: Path, into: Format, may_write: Callable[[Path], None]
 ) -> int:
     needed = estimate(recording, into)
@@ -72,7 +72,7 @@ def _converted(
     seconds = rest[-1].time - rest[0].time
     screen.print(
         f"{out}: {in_frames(needed.frames)}, {seconds:.1f} s, as a {into.title}, "
-        f"{in_bytes(_taken(out))}",
+        f"{in_bytes(_size_on_disk(out))}",
         markup=False,
     )
     if rest[0].read().outlines and into.title != "capture folder":
@@ -82,7 +82,7 @@ def _converted(
     return FINE
 
 
-def _taken(out: Path) -> int:
-    """The bytes that a file takes, or all files in a folder."""
+def _size_on_disk(out: Path) -> int:
+    """The size in bytes of a file, or of all files in a folder."""
     files = out.rglob("*") if out.is_dir() else [out]
     return sum(it.stat().st_size for it in files if it.is_file())

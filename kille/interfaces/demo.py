@@ -20,7 +20,7 @@ Row = tuple[str, View]
 
 
 def demo(seed: int, picture: Path) -> int:
-    """Plays the demonstration, prints it, and writes the sheet; the exit code."""
+    """Play the demonstration, print it, and write the sheet; returns the exit code."""
     folder = picture.absolute().parent
     if picture.is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
         return complain(

@@ -21,26 +21,26 @@ DEVICE, ALWAYS, PIPE = "device", "always", "-"
 microphone all the time, raw samples on the standard input."""
 
 _SILENCE = 10.0
-"""Seconds in which who has pressed Enter begins to speak."""
+"""Seconds within which a person who has pressed Enter begins to speak."""
 
 _SURE = 0.9
-"""From this probability on, what was heard is taken as if it were typed."""
+"""From this probability, an utterance is treated as if it had been typed."""
 
 
 @dataclass(frozen=True)
 class Heard:
-    """What was perhaps said in an utterance, the likeliest first; nothing, if noise."""
+    """The hypotheses about an utterance, the most probable first; none for a noise."""
 
     perhaps: tuple[Perhaps, ...]
 
     @property
     def text(self) -> str:
-        """How it is shown."""
+        """How the utterance is shown."""
         return self.perhaps[0].text if self.perhaps else "…"
 
 
 class Ears:
-    """Ears for a conversation; `SoundError` where they cannot hear, in one line.
+    """Ears for a conversation; a `SoundError` says in one line why they cannot hear.
 
     What they listen for follows what the robot knows: each word that it learns is
     expected from the next utterance on.
@@ -63,12 +63,12 @@ class Ears:
         self._expected: tuple[object, ...] | None = None
 
     def lines(self, robot: Agent) -> Iterator[Heard | str]:
-        """What the tutor says, each utterance by itself; what he types, as text."""
+        """The tutor's utterances, one by one, and as text what they type."""
         if self._source == DEVICE:
             yield from self._after_enter(robot)
             return
         for sound in self._sounds():
-            yield self._heard(robot, sound)
+            yield self._recognise(robot, sound)
 
     def _sounds(self) -> Iterator[bytes]:
         while self._source == ALWAYS:
@@ -82,33 +82,33 @@ class Ears:
         yield from waiting
 
     def _after_enter(self, robot: Agent) -> Iterator[Heard | str]:
-        """What is typed or spoken; without a microphone one may still type."""
+        """What is typed or spoken; without a microphone one can still type."""
         while True:
             try:
                 typed = input("U> (Enter to speak, or type) ").strip()
-                yield typed or self._heard(robot, from_microphone(_SILENCE))
+                yield typed or self._recognise(robot, from_microphone(_SILENCE))
             except EOFError:
                 console().print("")
                 return
             except SoundError as error:
                 complain(error)
 
-    def _heard(self, robot: Agent, sound: bytes) -> Heard:
-        """What a sound is heard as, by the words that the robot knows by now."""
+    def _recognise(self, robot: Agent, sound: bytes) -> Heard:
+        """Recognise a sound by the words that the robot knows at present."""
         known = tuple(words(robot.state))
         if known != self._expected:
             self._recogniser.expect(expected_speech(known, self._language))
             self._expected = known
         found = self._recogniser.hear(sound)
         return Heard(
-            tuple(Perhaps(written(it.text, self._language), it.p) for it in found)
+            tuple(Perhaps(punctuate(it.text, self._language), it.p) for it in found)
         )
 
 
-def written(text: str, language: str = "en") -> str:
-    """A text that was heard, with a capital letter, and a question with its mark.
+def punctuate(text: str, language: str = "en") -> str:
+    """Write heard text with a capital letter, and a question with its mark.
 
-    >>> written("this is a cup"), written("what is this")
+    >>> punctuate("this is a cup"), punctuate("what is this")
     ('This is a cup.', 'What is this?')
     """
     asks = text.partition(" ")[0].partition("'")[0] in speech(language).asking

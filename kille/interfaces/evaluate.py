@@ -1,4 +1,4 @@
-"""`kille evaluate`: protocols run, their tables printed, their report written."""
+"""`kille evaluate`: run protocols, print their tables, write their report."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _PACKAGES = ("kille", "numpy", "opencv-contrib-python-headless", "scikit-learn")
 
 @dataclass(frozen=True)
 class Request:
-    """What is to be measured, as the user typed it."""
+    """The measurement to make, as the user typed it."""
 
     what: str
     data: str | None
@@ -61,12 +61,12 @@ class Request:
 
     @property
     def title(self) -> str:
-        """What the report is called."""
+        """The title of the report."""
         return f"How well are {self.what} learned?"
 
 
 class _Tables:
-    """Prints each result when it is there."""
+    """Prints each result as soon as it is there."""
 
     def result(self, plan: Plan, result: Result) -> None:
         out = _console()
@@ -84,7 +84,7 @@ class _Tables:
 
 
 class _Json:
-    """Prints all at the end as one object."""
+    """Prints all results at the end as one object."""
 
     def result(self, plan: Plan, result: Result) -> None:
         pass
@@ -108,7 +108,7 @@ as_tables, as_json = _Tables, _Json
 
 
 def evaluate(request: Request, told: _Tables | _Json) -> int:
-    """Runs the protocols; the exit code, 1 if a method failed."""
+    """Run the protocols; returns the exit code, 1 if a method failed."""
     failures: list[str] = []
 
     def failed(failure: MethodFailedError) -> None:
@@ -117,9 +117,9 @@ def evaluate(request: Request, told: _Tables | _Json) -> int:
 
     found: dict[str, Result] = {}
     try:
-        methods, plans = _prepared(request)
+        methods, plans = _prepare(request)
         for plan in plans:
-            result, methods = _measured(plan, methods, request.seed, failed)
+            result, methods = _measure(plan, methods, request.seed, failed)
             if result is None:
                 break
             found[plan.name] = result
@@ -132,15 +132,15 @@ def evaluate(request: Request, told: _Tables | _Json) -> int:
     return FAILED if failures else FINE
 
 
-def _prepared(request: Request) -> tuple[Methods, list[Plan]]:
-    """Who takes part, and in what; ExperimentError where that cannot be told."""
+def _prepare(request: Request) -> tuple[Methods, list[Plan]]:
+    """The methods and plans that take part; ExperimentError if they cannot be found."""
     try:
-        return _planned(request)
+        return _plan(request)
     except OSError as error:
         raise ExperimentError(why_unread(error.filename, error)) from error
 
 
-def _planned(request: Request) -> tuple[Methods, list[Plan]]:
+def _plan(request: Request) -> tuple[Methods, list[Plan]]:
     from kille.perception import methods as known
 
     _check_report(request)
@@ -154,7 +154,7 @@ def _planned(request: Request) -> tuple[Methods, list[Plan]]:
 
 
 def _check_report(request: Request) -> None:
-    """Refuses a report that cannot be written before anything is measured."""
+    """Refuse a report that cannot be written before anything is measured."""
     if request.report is None:
         return
     check_outputs([Path(request.data)] if request.data else [], [request.report])
@@ -174,13 +174,13 @@ def _check_report(request: Request) -> None:
         )
 
 
-def _measured(
+def _measure(
     plan: Plan,
     methods: Methods,
     seed: int,
     failed: Callable[[MethodFailedError], None],
 ) -> tuple[Result | None, Methods]:
-    """Runs a protocol; on a terminal a bar shows how far it has come."""
+    """Run a protocol; on a terminal a bar shows the progress."""
     err = console(stderr=True)
     bar = Progress(
         BarColumn(bar_width=24),
@@ -218,7 +218,7 @@ def _write(
 
 
 def _about(request: Request, plans: Sequence[Plan]) -> dict[str, Any]:
-    """How this was made; the methods are those that took part in any of the plans."""
+    """How the report was made, with the methods that took part in any plan."""
     took_part = dict.fromkeys(
         name for plan in plans for name in plan.compares or request.who
     )
@@ -271,7 +271,7 @@ def _facts(name: str, result: Result) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """The value as JSON knows it; what is no number is null."""
+    """The value as JSON has it; NaN and infinity become null."""
     match value:
         case None | str() | bool() | int():
             return value
@@ -288,7 +288,7 @@ def _plain(value: Any) -> Any:
 
 
 def _console() -> Console:
-    """Where results go; a pipe counts as 100 columns wide."""
+    """The console for results; a pipe counts as 100 columns wide."""
     out = console()
     if not out.is_terminal and "COLUMNS" not in os.environ:
         out.width = 100

@@ -1,4 +1,4 @@
-"""Tables in a terminal: each as it is, or on its side, or in parts, as it fits."""
+"""Tables in a terminal: as they are, transposed, or in parts, whichever fits."""
 
 from __future__ import annotations
 
@@ -20,35 +20,35 @@ _NUMBERS = int | float | Estimate
 
 
 def print_table(out: Console, table: Table) -> None:
-    """The table: as it is, or on its side, or in parts, or row by row, as it fits."""
+    """Print the table as it is, transposed, in parts, or row by row, as it fits."""
     table = replace(table, columns=tuple(map(terminal_line, table.columns)))
     out.print(Text(f"\n{table.title}", style="italic"), soft_wrap=False)
-    for number, part in enumerate(_fitting(table, out.width)):
+    for number, part in enumerate(_fit_table(table, out.width)):
         out.print("\n" * bool(number), end="")
         out.print(_grid(part, out.width), soft_wrap=False)
     if table.note:
         out.print(Text(table.note, style="dim"), soft_wrap=False)
 
 
-def _shown(cell: Cell) -> str:
+def _format_cell(cell: Cell) -> str:
     return terminal_line(shown(cell))
 
 
-def _fitting(table: Table, width: int) -> Sequence[Table]:
+def _fit_table(table: Table, width: int) -> Sequence[Table]:
     if _width(table) <= width:
         return [table]
-    turned = _turned(table)
+    turned = _transpose(table)
     if _width(turned) <= width:
         return [turned]
     parts = _parts(table, width)
     if all(_width(part) <= width for part in parts):
         return parts
-    return [_turned(replace(table, rows=(row,))) for row in table.rows] or [turned]
+    return [_transpose(replace(table, rows=(row,))) for row in table.rows] or [turned]
 
 
 def _parts(table: Table, width: int) -> list[Table]:
-    """The columns parted so that each part fits, with those that name the rows."""
-    count, names = len(table.columns), [*range(_naming(table))]
+    """Split the columns so that each part fits, with those that name the rows."""
+    count, names = len(table.columns), [*range(_count_naming_columns(table))]
     parts = [[*range(min(len(names) + 1, count))]]
     for column in range(len(names) + 1, count):
         if _width(_some(table, [*parts[-1], column])) <= width:
@@ -58,8 +58,8 @@ def _parts(table: Table, width: int) -> list[Table]:
     return [_some(table, part) for part in parts]
 
 
-def _naming(table: Table) -> int:
-    """How many columns say what a row is of: those before the first of numbers."""
+def _count_naming_columns(table: Table) -> int:
+    """How many columns name the row: those before the first of numbers."""
     columns = range(len(table.columns))
     return max(next((it for it in columns if _is_of_numbers(table, it)), 1), 1)
 
@@ -76,41 +76,48 @@ def _some(table: Table, places: Sequence[int]) -> Table:
     return replace(table, columns=columns, rows=rows)
 
 
-def _turned(table: Table) -> Table:
-    """The table with its rows for columns."""
-    columns = zip(table.columns, *(map(_shown, row) for row in table.rows), strict=True)
+def _transpose(table: Table) -> Table:
+    """The table with rows and columns exchanged."""
+    columns = zip(
+        table.columns, *(map(_format_cell, row) for row in table.rows), strict=True
+    )
     heads, *rows = columns
     return replace(table, columns=heads, rows=tuple(rows))
 
 
 def _widths(table: Table, lines: int) -> list[int]:
-    """How wide each column is whose head may take so many lines."""
+    """The width of each column if its head may take this many lines."""
     return [
         max(
-            [_narrowest(head, lines), *(cell_len(_shown(row[i])) for row in table.rows)]
+            [
+                _narrowest(head, lines),
+                *(cell_len(_format_cell(row[i])) for row in table.rows),
+            ]
         )
         for i, head in enumerate(table.columns)
     ]
 
 
 def _narrowest(head: str, lines: int) -> int:
-    """The least width at which the head takes no more lines, no word being broken."""
+    """The least width at which the head takes at most this many lines, unbroken."""
     least = max(map(cell_len, head.split()), default=1)
     whole = max(cell_len(head), 1)
-    return next(it for it in range(least, whole + 1) if len(_broken(head, it)) <= lines)
+    return next(
+        it for it in range(least, whole + 1) if len(_break_head(head, it)) <= lines
+    )
 
 
-def _broken(head: str, width: int) -> list[str]:
+def _break_head(head: str, width: int) -> list[str]:
     return wrap(head, width, break_long_words=False, break_on_hyphens=False)
 
 
 def _height(table: Table) -> int:
-    """How many lines the highest head has when it is as narrow as can be."""
+    """The number of lines of the highest head at its least width."""
     return max(len(head.split()) for head in table.columns) or 1
 
 
 def _width(table: Table, lines: int | None = None) -> int:
-    """How many columns of a terminal it takes; at the least, if lines do not matter."""
+    """The columns of a terminal that it takes; the least, if lines do not matter."""
     widths = _widths(table, lines or _height(table))
     return sum(widths) + _GAP * (len(widths) - 1)
 
@@ -133,11 +140,11 @@ def _grid(table: Table, width: int) -> Grid:
     widths = _widths(table, _flattest(table, width))
     for place, (head, room) in enumerate(zip(table.columns, widths, strict=True)):
         grid.add_column(
-            Text("\n".join(_broken(head, room))),
+            Text("\n".join(_break_head(head, room))),
             justify="right" if _is_of_numbers(table, place) else "left",
             vertical="top",
             overflow="fold",
         )
     for row in table.rows:
-        grid.add_row(*(Text(_shown(cell)) for cell in row))
+        grid.add_row(*(Text(_format_cell(cell)) for cell in row))
     return grid

@@ -57,7 +57,7 @@ def record_sensor(
         source = raw_source(sensor)
         # While the sensor was opened, something may have got there.
         may_write(out)
-        return _recorded(source, out, limits, disk)
+        return _record(source, out, limits, disk)
     except SensorError as error:
         return complain(error, FAILED)
     except OSError as error:
@@ -66,7 +66,7 @@ def record_sensor(
         sensor.close()
 
 
-def _recorded(source: RawSource, out: Path, limits: Limits, disk: Disk) -> int:
+def _record(source: RawSource, out: Path, limits: Limits, disk: Disk) -> int:
     screen = console()
     with set_aside(out), screen.status("waiting for the first frame") as status:
         line = _Line(status)

@@ -1,4 +1,4 @@
-"""`kille replay`: plays dialogue files and says where the robot differs from them."""
+"""`kille replay`: play dialogue files and report where the robot differs from them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Report = Callable[[Plan], Iterator[Outcome]]
 
 
 def replay(files: Sequence[Path], report: Report, report_file: Path | None) -> int:
-    """Plays the stories in these files; the exit code.
+    """Play the stories in these files; returns the exit code.
 
     With a report file, what became of them is also written for CI, as JUnit does.
     """

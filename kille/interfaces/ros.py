@@ -93,7 +93,7 @@ def run_nodes(
         bus = opened("kille" if part == ALL else f"kille_{part}", arguments)
         with _ended_by_terminate(), ExitStack() as running:
             running.callback(bus.close)
-            bus.subscribe(PROBLEMS, _told)
+            bus.subscribe(PROBLEMS, _print_event)
             for one in PARTS if part == ALL else (part,):
                 running.callback(_STARTS[one](bus, _setting(bus, options)))
             console().print(f"{bus.node} is running; Ctrl-C ends it.", markup=False)
@@ -191,7 +191,7 @@ def _setting(bus: NodeBus, options: Mapping[str, Any]) -> Setting:
     return setting
 
 
-def _told(problem: Text) -> None:
+def _print_event(problem: Text) -> None:
     complain(problem.text)
 
 

@@ -44,7 +44,7 @@ def talk_over(bus: Bus, patience: float = _PATIENCE) -> int:
     try:
         for line in _lines():
             try:
-                for told in _told(line, calling, staging):
+                for told in _take_line(line, calling, staging):
                     console().print(told, markup=False)
             except BusError as error:
                 complain(error)
@@ -53,7 +53,9 @@ def talk_over(bus: Bus, patience: float = _PATIENCE) -> int:
     return FINE
 
 
-def _told(line: str, calling: Asking[Facts], staging: Asking[Facts]) -> Iterator[str]:
+def _take_line(
+    line: str, calling: Asking[Facts], staging: Asking[Facts]
+) -> Iterator[str]:
     """What comes of a line that the tutor types."""
     if line.replace(" ", "") == "@things":
         yield f"You can show: {', '.join(staging.ask({'command': 'things'})['things'])}"

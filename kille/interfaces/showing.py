@@ -1,4 +1,4 @@
-"""How turns, judgements and things in view are written for people."""
+"""Format turns, judgements and things in view for people."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ Account = Callable[[Exchange], Iterable[tuple[str, str]]]
 _TOLD_APART = ("shared.latest", "private.beliefs")
 
 
-def nothing(turn: Exchange) -> Iterator[tuple[str, str]]:
-    """No account at all."""
+def show_nothing(turn: Exchange) -> Iterator[tuple[str, str]]:
+    """Give no account at all."""
     yield from ()
 
 
@@ -50,7 +50,7 @@ def derivation(turn: Exchange) -> Iterator[tuple[str, str]]:
 
 
 def explained(account: Iterable[tuple[str, str]]) -> Iterator[str]:
-    """An account as lines, in a column beside the dialogue."""
+    """Format an account as lines, in a column beside the dialogue."""
     for kind, text in account:
         yield hanging_type(f"     {kind:>6}  ", text)
 
@@ -64,7 +64,8 @@ def _judged_and_said(turn: Exchange) -> Iterator[tuple[str, str]]:
 
 
 def _changes(step: Step) -> Iterator[str]:
-    """What a rule changed, but for the moves and beliefs, which have their own lines.
+    """The changes made by a rule, without moves and beliefs, which have their own
+    lines.
 
     What was taken off a list was told when it came on.
     """
@@ -75,7 +76,8 @@ def _changes(step: Step) -> Iterator[str]:
 
 
 def in_short(value: Object) -> Object:
-    """A state for people: a word is its form, a planned move only what it will say.
+    """Shorten a state for people: a word to its form, a planned move to what it will
+    say.
 
     What the words mean was told when they were heard.
     """
@@ -87,12 +89,12 @@ def in_short(value: Object) -> Object:
         case tuple():
             return tuple(map(in_short, value))
         case RecordType() if "teaches" in value and "signs" in value:
-            return _planned(value)
+            return _planned_move(value)
     return value
 
 
-def _planned(T: RecordType) -> RecordType:
-    """A planned move without the fields that are empty, or left to be filled."""
+def _planned_move(T: RecordType) -> RecordType:
+    """A planned move without its empty fields and those still to be filled."""
     told = {
         label: Singleton(field.base, in_short(field.value))
         for label, field in T.fields
@@ -112,7 +114,7 @@ def _move(who: str, judgement: Judgement) -> Iterator[tuple[str, str]]:
 
 
 def _beliefs(turn: Exchange) -> tuple[Record, ...]:
-    """What the robot came to believe in this turn, the most probable first."""
+    """The beliefs that the robot formed in this turn, the most probable first."""
     if not turn.steps:
         return ()
     beliefs: tuple[Record, ...] = turn.steps[-1].after.private.beliefs
@@ -129,7 +131,7 @@ def _belief(belief: Record) -> str:
 
 
 def things_in_view(view: View) -> str:
-    """The numbered things, where each is, and which is in focus, in a line or more."""
+    """The numbered things, the place of each, and which one is in focus."""
     percepts = view.look.percepts
     if not percepts:
         return "Nothing is in view."

@@ -1,4 +1,4 @@
-"""The streams of a command, as it is started and when nobody takes what it writes."""
+"""The standard streams of a command: prepare them, write to them, and drop output."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ttr.escapes import terminal_text
 
 
 def prepare_streams() -> None:
-    """Have something to read and write even where a caller has closed it.
+    """Make sure that there are streams, even if the caller has closed them.
 
     Bytes that are no characters, and characters that cannot be shown, are replaced.
     """
@@ -26,25 +26,25 @@ def prepare_streams() -> None:
 
 
 class _Visible(logging.Formatter):
-    """What a part of the program logs, and nobody else takes, as it may be printed."""
+    """Formats log records of the program with invisible characters made visible."""
 
     def format(self, record: logging.LogRecord) -> str:
         return _as_shown(super().format(record))
 
 
 def write(text: str) -> None:
-    """Prints a line on the output; what cannot be seen is made visible."""
+    """Print a line; invisible characters are made visible."""
     sys.stdout.write(f"{_as_shown(text)}\n")
 
 
 def write_error(text: str) -> None:
-    """Prints a line on the error stream, at once."""
+    """Print a line on the error stream, at once."""
     sys.stderr.write(f"{_as_shown(text)}\n")
     sys.stderr.flush()
 
 
 def end_line() -> None:
-    """Begins a new line on the error stream, as after a Ctrl-C that is echoed."""
+    """Begin a new line on the error stream, as after a Ctrl-C that is echoed."""
     write_error("")
 
 
@@ -55,5 +55,5 @@ def _as_shown(text: str) -> str:
 
 
 def drop_output() -> None:
-    """Let go of what was not written: Python would complain when it flushes at exit."""
+    """Discard what was not written: Python would complain when it flushes at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

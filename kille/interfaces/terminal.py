@@ -1,7 +1,7 @@
-"""What the commands have in common: saying something, complaining, choosing a file.
+"""Common to all commands: printing, complaining, choosing a memory file.
 
-All that they print goes through here, where what cannot be seen is made visible: no
-word, file or device can speak to the terminal in escape codes, or in rich's markup.
+All that they print goes through here, where invisible characters are made visible: no
+word, file or device can send escape codes or rich's markup to the terminal.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _FIRM = "\N{NO-BREAK SPACE}"
 
 
 class _Console(Console):
-    """A console that prints words as they are, and makes visible what cannot be seen.
+    """A console that prints words as they are, and makes invisible characters visible.
 
     It leaves it to `main` what a closed pipe comes to.
     """
@@ -53,14 +53,14 @@ class _Console(Console):
 
 
 def console(*, stderr: bool = False) -> Console:
-    """Where output goes: plain text in a pipe, colours in a terminal."""
+    """A console for output: plain text in a pipe, colours in a terminal."""
     return _Console(
         stderr=stderr, markup=False, emoji=False, highlight=False, soft_wrap=True
     )
 
 
 def print_json(value: Any, **settings: Any) -> None:
-    """Prints a value for machines; the settings are those of `json.dumps`."""
+    """Print a value for machines; the settings are those of `json.dumps`."""
     text = Text(json_text(value, indent=2, **settings))
     console().print(JSONHighlighter()(text))
 
@@ -79,39 +79,39 @@ def labelled_bar(out: Console) -> Progress:
 
 
 def ask(prompt: str) -> str:
-    """A line that is typed after a prompt; raises `EOFError` where there is none."""
+    """Read a line after a prompt; raises `EOFError` if there is none."""
     return input(terminal_line(prompt))
 
 
 def complain(problem: object, code: int = WRONG_USE) -> int:
-    """Says in one line what is wrong, after all that was said before; the exit code."""
+    """Print in one line what is wrong, after earlier output; the exit code."""
     sys.stdout.flush()
     write_error(f"kille: {' '.join(str(problem).split())}")
     return code
 
 
 def memory_path(given: Path | None) -> Path:
-    """The memory file to use: the one that was named, else the user's own."""
+    """The memory file to use: the one named, or else the user's own."""
     from kille.memory import default_path
 
     return default_path() if given is None else given
 
 
-def hanging(mark: str, text: str) -> str:
-    """The text after a mark, wrapped to the terminal, further lines under the first.
+def hang_text(mark: str, text: str) -> str:
+    """Wrap text to the terminal, with a mark before the first line and others indented.
 
     A pipe counts as 100 columns wide.
     """
-    return _filled(terminal_line(mark), terminal_text(text))
+    return _fill(terminal_line(mark), terminal_text(text))
 
 
 def hanging_type(mark: str, text: str) -> str:
-    """The same for a type or a record: it is broken only between its parts."""
+    """Wrap a type or a record likewise, breaking it only between its parts."""
     whole = re.sub(r"(?<!,) ", _FIRM, terminal_text(text))
-    return _filled(terminal_line(mark), whole).replace(_FIRM, " ")
+    return _fill(terminal_line(mark), whole).replace(_FIRM, " ")
 
 
-def _filled(mark: str, text: str) -> str:
+def _fill(mark: str, text: str) -> str:
     return textwrap.fill(
         text,
         max(_columns(), len(mark) + 20),

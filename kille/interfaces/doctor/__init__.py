@@ -11,13 +11,13 @@ from kille.interfaces.doctor.kinect import kinect
 from kille.interfaces.doctor.packages import extras, packages
 from kille.interfaces.doctor.ros import ros
 from kille.interfaces.doctor.speech import speech
-from kille.interfaces.terminal import FAILED, FINE, console, hanging, print_json
+from kille.interfaces.terminal import FAILED, FINE, console, hang_text, print_json
 
 Report = Callable[[Sequence[Finding]], None]
 """How findings are printed."""
 
 Search = Callable[[], Iterator[Finding]]
-"""Finds out how a part is."""
+"""Finds out the state of a part."""
 
 _PARTS: tuple[tuple[str, bool, Search], ...] = (
     ("Python", True, python),
@@ -30,25 +30,25 @@ _PARTS: tuple[tuple[str, bool, Search], ...] = (
     ("line editing", False, line_editing),
     ("extras", False, extras),
 )
-"""What is looked at, and whether it is needed."""
+"""The parts to look at, and whether each is needed."""
 
 _MARGIN = 7
 
 
 def doctor(report: Report) -> int:
-    """Prints the findings; the exit code is 1 if a needed part does not work."""
-    findings = [finding for part in _PARTS for finding in _found(*part)]
+    """Print the findings; the exit code is 1 if a needed part does not work."""
+    findings = [finding for part in _PARTS for finding in _search_part(*part)]
     report(findings)
-    return FAILED if _broken(findings) else FINE
+    return FAILED if _has_broken_part(findings) else FINE
 
 
 def as_json(findings: Sequence[Finding]) -> None:
-    """The findings as a list of objects, for machines."""
+    """Print the findings as a list of objects, for machines."""
     print_json([asdict(finding) for finding in findings])
 
 
 def as_text(findings: Sequence[Finding]) -> None:
-    """A line or two for each finding, and what they come to, for people."""
+    """Print each finding in a line or two, and a conclusion, for people."""
     width = max(len(finding.part) for finding in findings)
     out = console()
     for finding in findings:
@@ -62,8 +62,8 @@ def as_text(findings: Sequence[Finding]) -> None:
     out.print(f"\n{_upshot(findings)}", markup=False)
 
 
-def _found(part: str, needed: bool, search: Search) -> Iterator[Finding]:
-    """What is found; a part that fails in a way of its own is a finding, too."""
+def _search_part(part: str, needed: bool, search: Search) -> Iterator[Finding]:
+    """Search for a part; an unexpected failure becomes a finding, too."""
     try:
         yield from search()
     except Exception as error:
@@ -71,29 +71,29 @@ def _found(part: str, needed: bool, search: Search) -> Iterator[Finding]:
         yield Finding(part, False, needed, told)
 
 
-def _broken(findings: Sequence[Finding]) -> bool:
+def _has_broken_part(findings: Sequence[Finding]) -> bool:
     return any(finding.needed and not finding.works for finding in findings)
 
 
 def _mark(finding: Finding) -> tuple[str, str]:
-    """The word for how it is, and its colour."""
+    """The word for the state, and its colour."""
     if finding.works:
         return "ok", "green"
     return ("FAILS", "red") if finding.needed else ("no", "yellow")
 
 
 def _with_room(head: str, finding: Finding) -> tuple[str, str]:
-    """The state and its remedy in one line, or parted if there is no room for both.
+    """The state and its remedy in one line, or in two if there is no room for both.
 
     A command in a line of its own is not wrapped, so that it can be copied.
     """
-    whole = hanging(head, ": ".join(filter(None, (finding.state, finding.remedy))))
+    whole = hang_text(head, ": ".join(filter(None, (finding.state, finding.remedy))))
     if not finding.remedy or "\n" not in whole:
         return whole, ""
-    return hanging(head, finding.state), finding.remedy
+    return hang_text(head, finding.state), finding.remedy
 
 
 def _upshot(findings: Sequence[Finding]) -> str:
-    if _broken(findings):
+    if _has_broken_part(findings):
         return "What FAILS has to be mended before the robot works here."
     return 'All that is needed works; "no" marks what only some uses need.'

@@ -1,4 +1,4 @@
-"""Whether what everyone needs works here: Python, the simulated Kinect, the memory."""
+"""Check what everyone needs: Python, the simulated Kinect, and the memory."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
-from kille.interfaces.doctor.finding import Finding, failed
+from kille.interfaces.doctor.finding import Finding, failed_part
 
 
 def python() -> Iterator[Finding]:
@@ -19,7 +19,7 @@ def python() -> Iterator[Finding]:
 
 
 def synthetic() -> Iterator[Finding]:
-    """The simulated Kinect, by a look at an empty table."""
+    """The simulated Kinect, checked by a look at an empty table."""
     from kille.sensors.sources import open_sensor
 
     sensor = open_sensor("synthetic:empty")
@@ -29,7 +29,7 @@ def synthetic() -> Iterator[Finding]:
 
 
 def memory() -> Iterator[Finding]:
-    """The memory that `kille talk` uses: it is read, or could be made, and written."""
+    """The memory that `kille talk` uses: can it be read, or made, and written?"""
     from kille.memory import Memory, MemoryFileError, default_path
 
     path = default_path()
@@ -40,7 +40,7 @@ def memory() -> Iterator[Finding]:
         with Memory.reading(path) as opened:
             words = len(opened.words())
     except MemoryFileError as error:
-        yield failed("memory", True, error)
+        yield failed_part("memory", True, error)
         return
     state = f"{words} word{'s' * (words != 1)} in {path}"
     if _writable(path) and _writable(path.parent):
@@ -66,7 +66,7 @@ def line_editing() -> Iterator[Finding]:
 
 
 def _to_be_made(path: Path) -> Finding:
-    """A memory that is not there yet, in folders that may not be there yet."""
+    """A memory that does not exist yet, in folders that may not exist yet."""
     there = next(it for it in path.absolute().parents if os.path.exists(it))
     if there.is_dir() and _writable(there):
         return Finding("memory", True, True, f"none yet; it will be {path}")

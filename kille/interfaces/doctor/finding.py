@@ -1,4 +1,4 @@
-"""What is found of one part of the robot or of this machine."""
+"""A finding about one part of the robot or of this machine."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ class Finding:
     remedy: str = ""
 
 
-def failed(part: str, needed: bool, complaint: Exception) -> Finding:
-    """A part that complains: what is the matter, and after `: ` or `; ` what to do.
+def failed_part(part: str, needed: bool, complaint: Exception) -> Finding:
+    """The finding for an error: what is wrong, and after `: ` or `; ` what to do.
 
-    >>> failed("lamp", False, OSError("the lamp is dark: light it")).remedy
+    >>> failed_part("lamp", False, OSError("the lamp is dark: light it")).remedy
     'light it'
     """
     state, *remedy = re.split("[:;] ", str(complaint), maxsplit=1)

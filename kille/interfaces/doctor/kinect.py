@@ -1,11 +1,11 @@
-"""Whether a Kinect is there and gives pictures."""
+"""Check whether a Kinect is plugged in and gives pictures."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from kille.interfaces.doctor.finding import Finding, failed
+from kille.interfaces.doctor.finding import Finding, failed_part
 
 if TYPE_CHECKING:
     from kille.sensors.kinect.devices import Kinect
@@ -13,18 +13,18 @@ if TYPE_CHECKING:
     from kille.sensors.kinect.transport import Bus
 
 _PATIENCE = 5.0
-"""Seconds in which the first picture has come."""
+"""Seconds to wait for the first picture."""
 
 
 def kinect() -> Iterator[Finding]:
-    """What is plugged into this computer's USB, and whether pictures come from it."""
+    """The Kinects on this computer's USB, and whether they give pictures."""
     from kille.sensors.kinect import usb_driver
     from kille.sensors.kinect.transport import TransportError
 
     try:
         yield from plugged_in(usb_driver())
     except TransportError as error:
-        yield _refused("Kinect", error)
+        yield _failed_kinect("Kinect", error)
 
 
 def plugged_in(bus: Bus | Driver) -> Iterator[Finding]:
@@ -38,15 +38,15 @@ def plugged_in(bus: Bus | Driver) -> Iterator[Finding]:
         devices = driver.devices()
         chosen(devices, None)
         for each in kinects(devices):
-            yield _tried(driver, each)
+            yield _try_kinect(driver, each)
     except SensorError as error:
-        yield failed("Kinect", False, error)
+        yield failed_part("Kinect", False, error)
     finally:
         driver.close()
 
 
-def _tried(driver: Driver, found: Kinect) -> Finding:
-    """Whether this one gives pictures: found out as the robot would, by looking."""
+def _try_kinect(driver: Driver, found: Kinect) -> Finding:
+    """Check whether this Kinect gives pictures, by looking as the robot would."""
     from kille.sensors.kinect.commands import BadReplyError
     from kille.sensors.kinect.devices import again
     from kille.sensors.kinect.streams import COLOUR
@@ -62,13 +62,13 @@ def _tried(driver: Driver, found: Kinect) -> Finding:
         finally:
             streams.close()
     except (TransportError, BadReplyError, SensorError) as error:
-        return _refused(part, error)
+        return _failed_kinect(part, error)
     named = f":{found.serial}" if found.serial else ""
     return Finding(part, True, False, f"try kille talk --sensor kinect{named}{head}")
 
 
 def _head(streams: Streams) -> str:
-    """What is to be said of its motor: nothing if it answers."""
+    """A remark on its motor; empty if the motor answers."""
     from kille.sensors.kinect.commands import BadReplyError
     from kille.sensors.kinect.devices import Model
     from kille.sensors.kinect.motor import Tilt
@@ -87,7 +87,7 @@ def _head(streams: Streams) -> str:
     return ""
 
 
-def _refused(part: str, error: Exception) -> Finding:
+def _failed_kinect(part: str, error: Exception) -> Finding:
     from kille.sensors.kinect.troubles import trouble
 
     state, remedy = trouble(error)

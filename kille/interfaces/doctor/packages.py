@@ -1,4 +1,4 @@
-"""Whether the packages are there that this distribution requires, and its extras."""
+"""Check the packages that this distribution and its extras require."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ _USES = {
 
 def packages() -> Iterator[Finding]:
     """The packages that are always needed: those that are missing, or all."""
-    wanted = {_name(requirement): requirement for requirement in _required("")}
-    found = {name: _installed(name) for name in wanted}
+    wanted = {_name(requirement): requirement for requirement in _requirements("")}
+    found = {name: _installed_version(name) for name in wanted}
     for name, requirement in wanted.items():
         if found[name] is None:
             yield Finding(name, False, True, "not installed", pip(requirement))
@@ -47,7 +47,7 @@ def extras() -> Iterator[Finding]:
 
 
 def pip(wanted: str) -> str:
-    """The command that brings a package to the Python that runs now.
+    """The command that installs a package for the Python that is running.
 
     That is another one than plain `pip` serves where no environment is activated.
     """
@@ -60,43 +60,45 @@ def pip(wanted: str) -> str:
 
 def _extra(extra: str) -> Finding:
     part, use = f"extra [{extra}]", _USES.get(extra, "")
-    wanted = [_name(it) for it in _required(extra)]
-    missing = [it for it in wanted if _installed(it) is None]
+    wanted = [_name(it) for it in _requirements(extra)]
+    missing = [it for it in wanted if _installed_version(it) is None]
     if not missing:
-        return Finding(part, True, False, _told(use, ", ".join(wanted)))
-    state = _told(use, f"lacks {', '.join(missing)}")
+        return Finding(part, True, False, _describe_use(use, ", ".join(wanted)))
+    state = _describe_use(use, f"lacks {', '.join(missing)}")
     return Finding(part, False, False, state, pip(f"kille[{extra}]"))
 
 
-def _told(use: str, packages: str) -> str:
+def _describe_use(use: str, packages: str) -> str:
     return f"{use} ({packages})" if use else packages
 
 
-def _required(extra: str) -> list[str]:
-    """What this distribution requires, plainly or for an extra, as pip writes it."""
+def _requirements(extra: str) -> list[str]:
+    """The requirements of this distribution, or of one of its extras, as pip writes
+    them.
+    """
     parted = [line.partition(";") for line in requires("kille") or ()]
     return [
         unfolded
         for requirement, _, marker in parted
         if re.findall(r"extra == ['\"](\w+)['\"]", marker) == ([extra] if extra else [])
-        for unfolded in _unfolded(requirement.strip())
+        for unfolded in _unfold(requirement.strip())
     ]
 
 
-def _unfolded(requirement: str) -> list[str]:
-    """What is required instead of other extras of our own."""
+def _unfold(requirement: str) -> list[str]:
+    """Replace a requirement of another extra of ours by that extra's requirements."""
     if _name(requirement) != "kille":
         return [requirement]
     others = re.findall(r"\w+", requirement.partition("[")[2])
-    return [required for extra in others for required in _required(extra)]
+    return [required for extra in others for required in _requirements(extra)]
 
 
 def _name(requirement: str) -> str:
     return re.split(r"[^\w.-]", requirement, maxsplit=1)[0]
 
 
-def _installed(name: str) -> str | None:
-    """The version of a package, or None."""
+def _installed_version(name: str) -> str | None:
+    """The version of an installed package, or None."""
     try:
         return version(name)
     except PackageNotFoundError:

@@ -1,17 +1,17 @@
-"""Whether ROS is there, and its master."""
+"""Check whether ROS and its master are there."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kille.interfaces.doctor.finding import Finding, failed
+from kille.interfaces.doctor.finding import Finding, failed_part
 
 _PATIENCE = 1.0
-"""Seconds for a master that is on another machine."""
+"""Seconds to wait for a master, which may be on another machine."""
 
 
 def ros() -> Iterator[Finding]:
-    """What `kille ros` and sensors of ROS need."""
+    """The requirements of `kille ros` and of ROS sensors."""
     from kille.bus import BusError
     from kille.ros.bus import reach_master
     from kille.ros.modules import REMEDY, place_of
@@ -24,6 +24,6 @@ def ros() -> Iterator[Finding]:
     try:
         address = reach_master(_PATIENCE)
     except BusError as error:
-        yield failed("ROS master", False, error)
+        yield failed_part("ROS master", False, error)
     else:
         yield Finding("ROS master", True, False, f"answers at {address}")

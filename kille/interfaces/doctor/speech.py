@@ -1,4 +1,4 @@
-"""Whether the robot can hear and speak."""
+"""Check whether the robot can hear and speak."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ from kille.interfaces.doctor.finding import Finding
 from kille.interfaces.doctor.packages import pip
 
 _LIMIT = 10
-"""Seconds in which a sound device is opened, or never."""
+"""Seconds to wait until a sound device is open."""
 
 _SAMPLE = ("-q", "-t", "raw", "-f", "S16_LE", "-r", "16000", "-c", "1", "-s", "1")
 
 
 def speech() -> Iterator[Finding]:
-    """What `kille talk --speech` needs."""
-    yield _hearing()
-    yield _speaking()
+    """The requirements of `kille talk --speech`."""
+    yield _check_hearing()
+    yield _check_speaking()
     heard, played = ("arecord", *_SAMPLE, "/dev/null"), ("aplay", *_SAMPLE, "/dev/zero")
     yield _sound("microphone", heard, "records with --hear device")
     yield _sound("loudspeaker", played, "plays what is spoken")
 
 
-def _hearing() -> Finding:
+def _check_hearing() -> Finding:
     if find_spec("pocketsphinx") is not None:
         return Finding("hearing", True, False, "pocketsphinx understands English")
     remedy = pip("kille[speech]")
     return Finding("hearing", False, False, "pocketsphinx is not installed", remedy)
 
 
-def _speaking() -> Finding:
+def _check_speaking() -> Finding:
     if shutil.which("espeak-ng") is not None:
         return Finding("speaking", True, False, "espeak-ng speaks with --say espeak")
     remedy = "sudo apt install espeak-ng"
@@ -41,7 +41,7 @@ def _speaking() -> Finding:
 
 
 def _sound(part: str, command: Sequence[str], use: str) -> Finding:
-    """A sound device, by recording or playing one sample."""
+    """Check a sound device by recording or playing one sample."""
     program = command[0]
     if shutil.which(program) is None:
         remedy = "sudo apt install alsa-utils"

@@ -1,1 +1,1 @@
-"""`kille experiment`: studies checked, run, shown, replayed, reported and compared."""
+"""`kille experiment`: check, run, show, replay, report and compare studies."""

@@ -1,4 +1,4 @@
-"""A bar that shows on a terminal how far a study has come, and how long it takes."""
+"""A progress bar for a study on a terminal, with the time left."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from kille.interfaces.terminal import console
 from kille.studies.running import Progress
 
 PACE_SECONDS = 300
-"""The time left is reckoned from the pace of so long."""
+"""The time left is estimated from the pace over this many seconds."""
 
 
 @contextmanager
 def bar() -> Iterator[Callable[[Progress], None]]:
-    """On a terminal a bar shows how far it has come, and how long it will take."""
+    """On a terminal, show a bar with the progress and the time left."""
     err = console(stderr=True)
     shown = Bar(
         BarColumn(bar_width=24),

@@ -1,11 +1,11 @@
-"""`kille experiment check`: what is wrong with studies, before anything is played."""
+"""`kille experiment check`: find what is wrong with studies before they are played."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
 
-from kille.interfaces.experiment.people import told_people
+from kille.interfaces.experiment.people import people_summary
 from kille.interfaces.terminal import FINE, WRONG_USE, complain, console
 from kille.studies.errors import StudyError
 from kille.studies.reading import checked
@@ -15,11 +15,11 @@ from ttr import TTRError
 from ttr.safety.consent import Consent
 
 MISTAKES = StudyError, TTRError
-"""What is told in a line, or in some, and is no fault of the program."""
+"""Errors of the user, reported in a line or a few."""
 
 
 def check_files(files: Sequence[Path], consent: Consent) -> int:
-    """Says of each file what it would play, or all that is wrong with it."""
+    """Report for each file what it would play, or all that is wrong with it."""
     codes = [_check_file(path, consent) for path in files]
     return max(codes, default=FINE)
 
@@ -30,40 +30,40 @@ def _check_file(path: Path, consent: Consent) -> int:
     except MISTAKES as error:
         return complain_all(error)
     tell_doubts(study)
-    told = f"{path}: fine, {in_numbers(study)}{told_people(study)}"
+    told = f"{path}: fine, {in_numbers(study)}{people_summary(study)}"
     console().print(told, markup=False)
     return FINE
 
 
 def tell_doubts(study: Study) -> None:
-    """Says what is no mistake, but probably not meant."""
+    """Report what is no mistake, but probably not intended."""
     for it in doubts(study):
         complain(f"{it} (this can be played)")
 
 
 def complain_all(error: StudyError | TTRError) -> int:
-    """Says all that is wrong, each in a line; the exit code."""
+    """Report everything that is wrong, each in a line; returns the exit code."""
     for fault in getattr(error, "faults", [error]):
         complain(fault)
     return WRONG_USE
 
 
 def in_numbers(study: Study) -> str:
-    """What a study combines.
+    """Summarise in numbers what a study combines.
 
     >>> from kille.studies.study import Named, Theory
     >>> in_numbers(Study("", {"a": Theory("a")}, {}, {}, (), (1, 2)))
     '0 dialogues: 1 theory × 0 tutors × 0 scenes × 2 seeds'
     """
     parts = (
-        _counted(len(study.theories), "theory", "theories"),
-        _counted(len(study.tutors), "tutor", "tutors"),
-        _counted(len(study.scenes), "scene", "scenes"),
-        _counted(len(study.seeds), "seed", "seeds"),
+        _count_of(len(study.theories), "theory", "theories"),
+        _count_of(len(study.tutors), "tutor", "tutors"),
+        _count_of(len(study.scenes), "scene", "scenes"),
+        _count_of(len(study.seeds), "seed", "seeds"),
     )
     count = sum(1 for _ in study.runs())
-    return f"{_counted(count, 'dialogue', 'dialogues')}: {' × '.join(parts)}"
+    return f"{_count_of(count, 'dialogue', 'dialogues')}: {' × '.join(parts)}"
 
 
-def _counted(count: int, one: str, many: str) -> str:
+def _count_of(count: int, one: str, many: str) -> str:
     return f"{count:,} {one if count == 1 else many}"

@@ -14,8 +14,8 @@ from kille.studies.study import Study
 from ttr.safety.consent import Consent
 
 
-def logged(folder: Path, consent: Consent, trusts: bool) -> Study:
-    """The study of the log in a folder, to be played; `StudyError` where it may not be.
+def study_of_log(folder: Path, consent: Consent, trusts: bool) -> Study:
+    """The study of the log in a folder; `StudyError` if it may not be played.
 
     What it runs of Python is said, if the user trusts it; else it may name none.
     """
@@ -31,12 +31,12 @@ def logged(folder: Path, consent: Consent, trusts: bool) -> Study:
 
 
 def consent_to(consent: Consent, trusts: bool) -> Consent:
-    """The consent to show what logs name: Python only if the user trusts them."""
+    """The consent for showing what logs name: Python only if the user trusts them."""
     return replace(consent, python=consent.python and trusts)
 
 
 def _unrun(study: Study, consent: Consent) -> str:
-    """Why the Python that a log names is not run, and the ways on."""
+    """Explain why Python named by a log is not run, and what to do."""
     if not consent.python:
         return "and --no-python refuses it"
     return (

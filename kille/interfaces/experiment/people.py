@@ -1,4 +1,4 @@
-"""Studies in which somebody at this terminal takes part: who then plays them, and how.
+"""Studies in which a person at this terminal takes part: who plays them, and how.
 
 People are asked dialogue by dialogue, before all that is played without them. They are
 not told which theory they talk to, and meet theories in an order that does not tell it:
@@ -30,13 +30,13 @@ _NEXT = "It is another robot now, and was taught nothing yet."
 
 
 def has_people(study: Study) -> bool:
-    """Whether a person types what a tutor or the robot says."""
+    """Does a person type what a tutor or the robot says?"""
     tutors = any(it.kind == "keyboard" for it in study.tutors.values())
     return tutors or any(it.mode == PERSON for it in study.theories.values())
 
 
 def crew_for(study: Study, workers: int | None, scheduler: Scheduler | None) -> Crew:
-    """Those who play a study: with a person, the process in front of them alone.
+    """The crew that plays a study; with a person, only this process.
 
     RunError where others were asked for that cannot be had.
     """
@@ -50,14 +50,14 @@ def crew_for(study: Study, workers: int | None, scheduler: Scheduler | None) -> 
     return in_person
 
 
-def told_people(study: Study) -> str:
-    """In how many dialogues of a study people take part, to be told after them all."""
+def people_summary(study: Study) -> str:
+    """How many dialogues of a study people take part in, for the end of a message."""
     count = len(in_turn(study))
     return f", a person takes part in {count:,}" if count else ""
 
 
 def people_in(study: Study, run: Run) -> tuple[str, ...]:
-    """Who types in a dialogue, and as what, as it is told them."""
+    """Who types in a dialogue, and in which role, in the words shown to them."""
     tutors = dict.fromkeys(_tutors(study, run))
     typing = [f"{it} is the tutor" for it in tutors if _types(study, it)]
     plays = study.theories[run.theory].mode == PERSON
@@ -69,7 +69,7 @@ def _types(study: Study, tutor: str) -> bool:
 
 
 def _tutors(study: Study, run: Run) -> Iterator[str]:
-    """All who are the tutor in a dialogue, one after the other."""
+    """The tutors of a dialogue, one after the other."""
     name = run.tutor
     yield from study.tutors[name].settings.get("of", (name,))
     for phase in study.phases:
@@ -87,21 +87,21 @@ def in_turn(study: Study) -> list[Run]:
     return [
         Run(theory, tutor, scene, seed)
         for tutor in study.tutors
-        for met in [_met(study, tutor)]
+        for met in [_theories_met(study, tutor)]
         for place, (seed, scene) in enumerate(scenes)
-        for theory in _mixed(met, tutor, place)
+        for theory in _mix(met, tutor, place)
     ]
 
 
-def _met(study: Study, tutor: str) -> list[str]:
+def _theories_met(study: Study, tutor: str) -> list[str]:
     """The theories that people meet, or play, in the dialogues of a tutor."""
     scene, seed = next(iter(study.scenes)), study.seeds[0]
     runs = (Run(theory, tutor, scene, seed) for theory in study.theories)
     return [it.theory for it in runs if people_in(study, it)]
 
 
-def _mixed(names: Sequence[str], tutor: str, place: int) -> list[str]:
-    """Theories in the order in which they are met at a place in the study.
+def _mix(names: Sequence[str], tutor: str, place: int) -> list[str]:
+    """Mix theories for a place in the study, in the order in which they are met.
 
     They are drawn by chance, and then each is the first once, the second once …
     """
@@ -113,7 +113,7 @@ def _mixed(names: Sequence[str], tutor: str, place: int) -> list[str]:
 
 @contextmanager
 def in_person(study: Study, play: Play) -> Iterator[PlayAll]:
-    """This process plays: with people first, when they are ready, and then the rest."""
+    """Play in this process: first with people, when they are ready, then the rest."""
     with alone(study, play) as play_each:
 
         def play_all(runs: Sequence[Run]) -> Generator[Outcome, None, None]:
@@ -122,7 +122,7 @@ def in_person(study: Study, play: Play) -> Iterator[PlayAll]:
                 if run in left:
                     _begin(study, run, number, len(theirs))
                     (outcome,) = play_each([run])
-                    yield _numbered(outcome, number)
+                    yield _number_outcome(outcome, number)
                     _end(outcome, number)
             others = [it for it in runs if not people_in(study, it)]
             if others:
@@ -137,7 +137,7 @@ def _more(count: int) -> str:
 
 
 def _begin(study: Study, run: Run, number: int, count: int) -> None:
-    """Says what comes, and nothing of the theory; goes on when they are ready."""
+    """Announce a dialogue without naming the theory; wait until they are ready."""
     steps = sum(1 for _ in tasks(study, run, opened(study, run)))
     who = ", and ".join(people_in(study, run))
     long = f"{steps:,} step{'s' * (steps != 1)}"
@@ -147,8 +147,8 @@ def _begin(study: Study, run: Run, number: int, count: int) -> None:
     ready(told)
 
 
-def _numbered(outcome: Outcome, number: int) -> Outcome:
-    """What became of a dialogue, with which one it was for the people in it."""
+def _number_outcome(outcome: Outcome, number: int) -> Outcome:
+    """Add to an outcome the number of the dialogue for the people in it."""
     if isinstance(outcome, Broken):
         return outcome
     facts = {**outcome.played.facts, "order": float(number)}
@@ -156,6 +156,6 @@ def _numbered(outcome: Outcome, number: int) -> Outcome:
 
 
 def _end(outcome: Outcome, number: int) -> None:
-    """Says that a dialogue is over, after it was written to the log."""
+    """Announce the end of a dialogue, after it was written to the log."""
     became = "broke off" if isinstance(outcome, Broken) else "is over, and kept"
     console().print(f"\nDialogue {number:,} {became}.")

@@ -1,4 +1,4 @@
-"""`kille experiment replay`: dialogues played again: do they go as they went?"""
+"""`kille experiment replay`: play dialogues again and compare."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from kille.interfaces.experiment.bars import bar
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
 from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.experiment.people import people_in
-from kille.interfaces.experiment.running import Request, studied
-from kille.interfaces.terminal import FAILED, FINE, complain, console, hanging
+from kille.interfaces.experiment.running import Request, study_for_folder
+from kille.interfaces.terminal import FAILED, FINE, complain, console, hang_text
 from kille.studies import log
 from kille.studies.log import Broken, Outcome, RunError
 from kille.studies.log.sources import changed, sources
@@ -19,27 +19,27 @@ from kille.studies.study import Run
 
 
 def replay_all(folder: Path, names: Sequence[str], request: Request) -> int:
-    """Plays dialogues of a folder again, all if none is named; 1 where one differs."""
+    """Replay dialogues of a folder, all if none is named; returns 1 if any differs."""
     try:
         befores = [log.named(folder, it) for it in names] or [*log.outcomes(folder)]
-        found = _replayed(folder, befores, request)
+        found = _replay(folder, befores, request)
     except MISTAKES as error:
         return complain_all(error)
     out = console()
     for it in befores:
         if names or found[it.run]:
-            out.print(_told(it, found[it.run]), markup=False)
+            out.print(_describe_difference(it, found[it.run]), markup=False)
     same = sum(differs is None for differs in found.values())
     if not names:
         out.print(f"{same:,} of {len(found):,} dialogues go as they went", markup=False)
     return FINE if same == len(found) else FAILED
 
 
-def _replayed(
+def _replay(
     folder: Path, befores: Sequence[Outcome], request: Request
 ) -> dict[Run, Difference | None]:
-    """What each dialogue differs in now."""
-    study = studied(folder, request)
+    """The first difference of each dialogue when played again."""
+    study = study_for_folder(folder, request)
     for it in befores:
         if people_in(study, it.run):
             raise RunError(
@@ -58,12 +58,12 @@ def _replayed(
     return found
 
 
-def _told(before: Outcome, found: Difference | None) -> str:
+def _describe_difference(before: Outcome, found: Difference | None) -> str:
     if found is None:
         went = "breaks as it did" if isinstance(before, Broken) else _size(before)
         return f"{before.run}: the same, {went}"
     told = f"{found.where} was {found.before!r} and is {found.now!r}"
-    return hanging(f"{before.run}: ", told)
+    return hang_text(f"{before.run}: ", told)
 
 
 def _size(before: Outcome) -> str:

@@ -1,4 +1,4 @@
-"""`kille experiment report` and `compare`: what was found, here and on a page."""
+"""`kille experiment report` and `compare`: print the results and write the page."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ttr.safety.consent import Consent
 
 
 def report(folder: Path, command: str, consent: Consent) -> int:
-    """Writes the tables and the page of a folder of results, and prints it.
+    """Write and print the tables and the page of a folder of results.
 
     To show its theories, Python is run only where there is consent to that.
     """
@@ -36,7 +36,7 @@ def report(folder: Path, command: str, consent: Consent) -> int:
 def compare(
     one: Path, other: Path, page: Path | None, command: str, consent: Consent
 ) -> int:
-    """Prints how two folders of results differ, and writes a page if one is named."""
+    """Print how two folders of results differ; write a page if one is named."""
     try:
         if page is None:
             print_results(reporting.compared(one, other, consent))
@@ -50,7 +50,7 @@ def compare(
 
 
 def print_results(results: Sequence[Result]) -> None:
-    """Prints tables, and what there is to see in them."""
+    """Print tables, and the findings in them."""
     out = _wide_console()
     for result in filter(lambda it: it.tables, results):
         out.print(Text(f"\n{result.title}", style="bold"), soft_wrap=False)
@@ -60,7 +60,7 @@ def print_results(results: Sequence[Result]) -> None:
 
 
 def print_summary(results: Sequence[Result]) -> None:
-    """Prints the first table, and what there is to see in the others."""
+    """Print the first table, and the findings in the others."""
     out = _wide_console()
     for table in results[0].tables[:1] if results else ():
         print_table(out, table)
@@ -74,7 +74,7 @@ def _print_text(out: Console, result: Result) -> None:
 
 
 def _wide_console() -> Console:
-    """A pipe counts as 100 columns wide."""
+    """A console; a pipe counts as 100 columns wide."""
     out = console()
     if not out.is_terminal:
         out.width = 100

@@ -1,4 +1,4 @@
-"""`kille experiment run` and `resume`: dialogues played, with a bar, until stopped."""
+"""`kille experiment run` and `resume`: play dialogues, with a bar, until stopped."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from kille.interfaces.experiment.checking import (
     in_numbers,
     tell_doubts,
 )
-from kille.interfaces.experiment.logs import logged
+from kille.interfaces.experiment.logs import study_of_log
 from kille.interfaces.experiment.people import crew_for, has_people
 from kille.interfaces.experiment.reporting import print_summary
 from kille.interfaces.experiment.stopping import stoppable
@@ -31,32 +31,32 @@ from kille.studies.study import Study
 from ttr.safety.consent import OWN_FOLDER, Consent
 
 SHOWN = 10
-"""So many broken dialogues are told; the table of runs has them all."""
+"""The most broken dialogues that are listed; the table of runs has them all."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """By whom a study is to be played, and how the user said so."""
+    """Who is to play a study, and the options as the user gave them."""
 
     workers: int | None
     scheduler: Scheduler | None
     command: str
     consent: Consent = OWN_FOLDER
     trusts: bool = False
-    """Whether Python may run that a log names."""
+    """May Python that a log names be run?"""
     study: Path | None = None
-    """The study, in the place of that of a log."""
+    """A study to use instead of that of the log."""
 
 
 First: TypeAlias = Callable[[Study, Path], object]
 
 
-def as_it_is(study: Study, folder: Path) -> None:
-    """What broke is not played again."""
+def keep_as_is(study: Study, folder: Path) -> None:
+    """Do nothing first: broken dialogues are not played again."""
 
 
 def run_study(path: Path, folder: Path | None, request: Request) -> int:
-    """Plays a study into a folder, or goes on with it; the exit code."""
+    """Play a study into a folder, or go on with it; returns the exit code."""
     folder = folder or Path(f"{path.stem}.results")
     try:
         study = checked(path, request.consent)
@@ -66,10 +66,10 @@ def run_study(path: Path, folder: Path | None, request: Request) -> int:
         return complain_all(error)
 
 
-def resume_study(folder: Path, request: Request, first: First = as_it_is) -> int:
-    """Goes on with the study in a folder, after something was done to it first."""
+def resume_study(folder: Path, request: Request, first: First = keep_as_is) -> int:
+    """Go on with the study in a folder, after calling `first` on it."""
     try:
-        study = studied(folder, request)
+        study = study_for_folder(folder, request)
         if faults := check(study):
             raise StudyError(faults)
         first(study, folder)
@@ -78,13 +78,13 @@ def resume_study(folder: Path, request: Request, first: First = as_it_is) -> int
         return complain_all(error)
 
 
-def studied(folder: Path, request: Request) -> Study:
+def study_for_folder(folder: Path, request: Request) -> Study:
     """The study that the user names for a folder, or else that of its log."""
     if request.study is not None:
         study = read(request.study, request.consent)
         check_allowed(study)
         return study
-    return logged(folder, request.consent, request.trusts)
+    return study_of_log(folder, request.consent, request.trusts)
 
 
 def _run(study: Study, folder: Path, request: Request) -> int:
@@ -100,7 +100,7 @@ def _run(study: Study, folder: Path, request: Request) -> int:
         try:
             summary = run(study, folder, by=by, told=heard)
         except KeyboardInterrupt:
-            return _stopped(study, folder, stop.code)
+            return _report_stop(study, folder, stop.code)
     write_tables(folder)
     page, results = reporting.report(folder, command=request.command, study=study)
     print_summary(results)
@@ -108,16 +108,16 @@ def _run(study: Study, folder: Path, request: Request) -> int:
     return FAILED if summary.broken else FINE
 
 
-def _stopped(study: Study, folder: Path, code: int) -> int:
+def _report_stop(study: Study, folder: Path, code: int) -> int:
     over, planned = log.over(folder), log.about(folder).planned
     return complain(
         f"stopped with {over:,} of {planned:,} dialogues over; go on with: "
-        f"{_resuming(study, folder)}",
+        f"{_resume_command(study, folder)}",
         code,
     )
 
 
-def _resuming(study: Study, folder: Path) -> str:
+def _resume_command(study: Study, folder: Path) -> str:
     """The command to go on with; a log by itself runs none of the Python it names."""
     if not python_in(study):
         return f"kille experiment resume {quote(str(folder))}"
@@ -148,4 +148,4 @@ def _tell(study: Study, folder: Path, page: Path, summary: Summary) -> None:
 
 
 def _untold(it: Progress) -> None:
-    """Where people type, nothing moves."""
+    """Ignore progress: where people type, nothing moves."""

@@ -1,4 +1,4 @@
-"""`kille experiment show`: what is in a folder of results, and any dialogue of it."""
+"""`kille experiment show`: list a folder of results, or show one of its dialogues."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from typing import Any, TypeAlias
 from kille.experiments.results import Table
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
 from kille.interfaces.grids import print_table
-from kille.interfaces.terminal import FAILED, FINE, console, hanging, print_json
+from kille.interfaces.terminal import FAILED, FINE, console, hang_text, print_json
 from kille.simulation.worlds import World
 from kille.studies import log
 from kille.studies.log.outcomes import Broken, Finished, Outcome
 from kille.studies.played import Answer, Turn
 
 SHOWN = 10
-"""So many broken dialogues are listed."""
+"""The most broken dialogues that are listed."""
 
 Report: TypeAlias = Callable[[Outcome], None]
 """How a dialogue is printed."""
 
 
 def show(folder: Path, name: str | None, report: Report) -> int:
-    """Prints a dialogue, or of which there are some; the exit code."""
+    """Print a dialogue, or list those there are; returns the exit code."""
     try:
         if name is None:
             _show_all(folder)
@@ -46,14 +46,14 @@ def _show_all(folder: Path) -> None:
     out = console()
     if not out.is_terminal:
         out.width = 100
-    rows = tuple(_counted(folder))
+    rows = tuple(_count_by_theory(folder))
     over = sum(row[1] for row in rows)
     heads = "theory", "dialogues", "broken", "turns", "answers", "seconds each"
     note = f"{over:,} of {about.planned:,} dialogues are over"
     print_table(out, Table(about.title, heads, rows, note))
     broken = log.broken(folder)
     for it in broken[:SHOWN]:
-        out.print(hanging(f"{it.run}  ", f"broken: {it.reason}"), markup=False)
+        out.print(hang_text(f"{it.run}  ", f"broken: {it.reason}"), markup=False)
     if more := len(broken) - len(broken[:SHOWN]):
         out.print(f"and {more:,} more that broke: runs.csv has them", markup=False)
     first = next(log.outcomes(folder), None)
@@ -62,8 +62,8 @@ def _show_all(folder: Path) -> None:
         out.print(f"see one: {join(words)}", markup=False)
 
 
-def _counted(folder: Path) -> Iterator[tuple[Any, ...]]:
-    """How many dialogues with what in them each theory has."""
+def _count_by_theory(folder: Path) -> Iterator[tuple[Any, ...]]:
+    """The number of dialogues of each theory, by what happened in them."""
     found: dict[str, list[Outcome]] = {}
     for it in log.outcomes(folder):
         found.setdefault(it.run.theory, []).append(it)
@@ -83,7 +83,7 @@ def _counted(folder: Path) -> Iterator[tuple[Any, ...]]:
 
 
 def as_json(it: Outcome) -> None:
-    """The dialogue as an object, for machines."""
+    """Print the dialogue as an object, for machines."""
     told: dict[str, Any] = {"run": str(it.run), "seconds": it.seconds}
     match it:
         case Broken(_, reason, trace, _):
@@ -104,7 +104,7 @@ def _plain(answer: Answer) -> dict[str, Any]:
 
 
 def as_text(it: Outcome) -> None:
-    """The dialogue as it went, phase by phase; the answers marked that were tested."""
+    """Print the dialogue phase by phase, and mark the answers that were tested."""
     out = console()
     if isinstance(it, Broken):
         out.print(f"{it.run} broke: {it.reason}\n\n{it.trace.rstrip()}", markup=False)
@@ -124,16 +124,16 @@ def as_text(it: Outcome) -> None:
 
 def _lines(turn: Turn, answers: Sequence[Answer]) -> Iterator[str]:
     number = f"{turn.number:>5}  "
-    yield hanging(f"{number}{turn.tutor:<8} ", _given(turn))
+    yield hang_text(f"{number}{turn.tutor:<8} ", _describe_input(turn))
     blank = " " * len(number)
     for line in turn.answer.splitlines():
-        yield hanging(f"{blank}{'robot':<8} ", line)
+        yield hang_text(f"{blank}{'robot':<8} ", line)
     for answer in answers:
-        yield hanging(f"{blank}{'':<8} ", _judged(answer))
+        yield hang_text(f"{blank}{'':<8} ", _describe_judgement(answer))
 
 
-def _given(turn: Turn) -> str:
-    """What he said or did; of a look at a simulated world, only what is in view."""
+def _describe_input(turn: Turn) -> str:
+    """What the tutor said or did; of a simulated look, only the things in view."""
     world = World.named(turn.given)
     if world is None and turn.given:
         return turn.given if turn.words else f"({turn.act}: {turn.given})"
@@ -146,7 +146,7 @@ def _given(turn: Turn) -> str:
     return f"({turn.act}: {'; '.join(things) or 'nothing'})"
 
 
-def _judged(it: Answer) -> str:
+def _describe_judgement(it: Answer) -> str:
     said = it.said or "nothing"
     degree = "" if math.isnan(it.degree) else f", {it.degree:.2f}"
     verdict = "right" if it.is_right else f"not right, it is {it.right}"

@@ -1,4 +1,4 @@
-"""Being stopped while a study is played: by Ctrl-C, or by the system."""
+"""Stop a study while it is played, by Ctrl-C or by the system."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 class Stop:
-    """What said to stop, if anything did."""
+    """The signal that asked to stop, if any did."""
 
     def __init__(self) -> None:
         self._heard: signal.Signals | None = None
@@ -23,12 +23,12 @@ class Stop:
         return 128 + (self._heard or signal.SIGINT)
 
     def check(self) -> None:
-        """KeyboardInterrupt where a stop was heard, but dropped."""
+        """Raise KeyboardInterrupt if a stop was heard but dropped."""
         if self._heard:
             raise KeyboardInterrupt
 
     def drop(self, found: sys.UnraisableHookArgs) -> None:
-        """Says nothing of a stop that is heard while Python clears an object away.
+        """Ignore a stop that is heard while Python finalises an object.
 
         It drops what is raised there.
         """
@@ -36,7 +36,7 @@ class Stop:
             sys.__unraisablehook__(found)
 
     def hear(self, number: int, _: FrameType | None = None) -> None:
-        """KeyboardInterrupt, and from now on no other."""
+        """Raise KeyboardInterrupt, only once."""
         self._heard = signal.Signals(number)
         for it in SIGNALS:
             signal.signal(it, signal.SIG_IGN)
@@ -45,7 +45,7 @@ class Stop:
 
 @contextmanager
 def stoppable() -> Iterator[Stop]:
-    """Ctrl-C and the system's wish to end are a KeyboardInterrupt, once."""
+    """Turn Ctrl-C, and the system's request to end, into one KeyboardInterrupt."""
     stop = Stop()
     dropped, sys.unraisablehook = sys.unraisablehook, stop.drop
     before = {it: signal.signal(it, stop.hear) for it in SIGNALS}

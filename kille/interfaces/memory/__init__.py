@@ -1,1 +1,1 @@
-"""`kille memory`: what the robot was taught, to list, show, forget and move."""
+"""`kille memory`: list, show, forget and move what the robot was taught."""

@@ -1,4 +1,4 @@
-"""Pictures in a terminal: half blocks, each with two pixels in colours of its own."""
+"""Pictures in a terminal, in half blocks, each of which shows two pixels."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ _UPPER_HALF = "\N{UPPER HALF BLOCK}"
 
 
 def shows_pictures(console: Console) -> bool:
-    """Can colours and blocks be seen where this console writes?"""
+    """Does this console show colours and blocks?"""
     if not console.is_terminal or console.no_color or console.color_system is None:
         return False
     return console.encoding.lower().startswith("utf")
 
 
 def half_blocks(picture: Colour, columns: int, rows: int) -> Text:
-    """The picture (H, W, 3), as large as fits into so many columns and rows.
+    """The picture (H, W, 3), as large as fits into these columns and rows.
 
     >>> red = np.full((2, 1, 3), (255, 0, 0), np.uint8)
     >>> block = half_blocks(red, 10, 1)
     >>> block.plain, str(block.spans[0].style)
     ('▀', '#ff0000 on #ff0000')
     """
-    small = _fitted(picture, columns, 2 * rows)
+    small = _fit_picture(picture, columns, 2 * rows)
     text = Text(no_wrap=True)
     for upper, lower in zip(small[::2], small[1::2], strict=True):
         if text:
@@ -41,18 +41,18 @@ def half_blocks(picture: Colour, columns: int, rows: int) -> Text:
     return text
 
 
-def _fitted(picture: Colour, width: int, height: int) -> Colour:
-    """The picture scaled to fit; as many rows as make whole blocks."""
+def _fit_picture(picture: Colour, width: int, height: int) -> Colour:
+    """Scale the picture to fit, with an even number of rows."""
     high, wide = picture.shape[:2]
     scale = min(width / wide, height / high)
     columns = max(1, min(width, round(wide * scale)))
     rows = max(2, min(height, 2 * round(high * scale / 2)))
-    across = _averaged(picture.astype(np.float64), columns, 1)
-    return _averaged(across, rows, 0).round().astype(np.uint8)
+    across = _average_groups(picture.astype(np.float64), columns, 1)
+    return _average_groups(across, rows, 0).round().astype(np.uint8)
 
 
-def _averaged(pixels: Pixels, count: int, axis: int) -> Pixels:
-    """The pixels along an axis gathered into so many groups, or repeated."""
+def _average_groups(pixels: Pixels, count: int, axis: int) -> Pixels:
+    """Average the pixels along an axis in `count` groups, or repeat them."""
     n = pixels.shape[axis]
     starts = np.arange(count) * n // count
     if n < count:

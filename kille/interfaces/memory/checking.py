@@ -1,4 +1,4 @@
-"""`kille memory check`: what is wrong with a memory, and saving the rest of it."""
+"""`kille memory check`: report what is wrong with a memory, and salvage the rest."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
-from kille.interfaces.memory.moving import listed
+from kille.interfaces.memory.moving import list_amounts
 from kille.interfaces.terminal import FAILED, FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
 from kille.memory.checking import Health, check
 from kille.memory.salvaging import Salvage, salvage
 
 Report = Callable[[Path, Health, Path | None, Salvage | None], None]
-"""How it is told what is wrong with a file, and what was saved of it where."""
+"""Reports what is wrong with a file, and what was saved to where."""
 
 
 def check_memory(given: Path | None, target: Path | None, report: Report) -> int:
-    """Say what is wrong with a memory; 1 if anything is, or is not saved.
+    """Check a memory; returns 1 if anything is wrong, or is not saved.
 
     With a target, a new memory there gets what can be saved.
     """
@@ -34,7 +34,7 @@ def check_memory(given: Path | None, target: Path | None, report: Report) -> int
 
 
 def _health(path: Path, *, may_be_lost: bool) -> Health:
-    """What is wrong with a file; that it is no memory any more, if it may be so."""
+    """The health of a file, also of one that is no memory any more."""
     try:
         return check(path)
     except MemoryFileError as error:
@@ -47,7 +47,7 @@ def _health(path: Path, *, may_be_lost: bool) -> Health:
 def as_json(
     path: Path, health: Health, target: Path | None, saved: Salvage | None
 ) -> None:
-    """What is wrong and what was saved, for machines."""
+    """Print what is wrong and what was saved, for machines."""
     facts: dict[str, object] = {
         "file": str(path),
         "sound": not health.faults,
@@ -56,7 +56,7 @@ def as_json(
         "holds": None if health.amount is None else asdict(health.amount),
     }
     if saved is not None:
-        facts["salvaged"] = {"file": str(target), **_saved(saved)}
+        facts["salvaged"] = {"file": str(target), **_saved_counts(saved)}
         facts["losses"] = saved.losses
     console().print_json(json.dumps(facts))
 
@@ -64,12 +64,14 @@ def as_json(
 def as_text(
     path: Path, health: Health, target: Path | None, saved: Salvage | None
 ) -> None:
-    """What is wrong and what was saved, for people."""
+    """Print what is wrong and what was saved, for people."""
     _print(f"{path} {_in_brief(health)}")
     for line in (*health.faults, *health.notes):
         _print(f"  {line}")
     if saved is not None:
-        _print(f"{target} holds what could be saved: {listed(_saved(saved))}")
+        _print(
+            f"{target} holds what could be saved: {list_amounts(_saved_counts(saved))}"
+        )
         for line in saved.losses:
             _print(f"  lost: {line}")
     elif health.faults:
@@ -79,11 +81,11 @@ def as_text(
 
 def _in_brief(health: Health) -> str:
     if health.amount is not None:
-        return f"is sound: {listed(asdict(health.amount))}"
+        return f"is sound: {list_amounts(asdict(health.amount))}"
     return f"has {len(health.faults)} fault{'s' * (len(health.faults) != 1)}:"
 
 
-def _saved(saved: Salvage) -> dict[str, int]:
+def _saved_counts(saved: Salvage) -> dict[str, int]:
     gained = saved.saved
     return {
         "dialogues": gained.dialogues,

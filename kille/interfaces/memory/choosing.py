@@ -1,4 +1,4 @@
-"""Which lessons a user means by a word or a number."""
+"""Find the lessons that a user means by a word or a number."""
 
 from __future__ import annotations
 
@@ -23,23 +23,24 @@ def lessons_named(memory: MemoryReader, named: str) -> tuple[Lesson, ...]:
     if not found and (number := _NUMBER.fullmatch(wanted)):
         found = [it for it in lessons if it.key == int(number[1])]
     if not found:
-        raise NoSuchLessonError(_nothing(memory.place, wanted, lessons))
+        raise NoSuchLessonError(_no_lesson_line(memory.place, wanted, lessons))
     return tuple(found)
 
 
 def latest(memory: MemoryReader) -> tuple[Lesson, ...]:
-    """The lesson that was learned last. Raises NoSuchLessonError if there is none."""
+    """The newest lesson. Raises NoSuchLessonError if there is none."""
     lessons = memory.lessons()
     if not lessons:
         raise NoSuchLessonError(f"{memory.place} holds no lessons")
     return lessons[-1:]
 
 
-def _nothing(place: str, wanted: str, lessons: Sequence[Lesson]) -> str:
+def _no_lesson_line(place: str, wanted: str, lessons: Sequence[Lesson]) -> str:
+    """The message that no lesson is named so, with a suggestion."""
     if _NUMBER.fullmatch(wanted):
         return (
             f"there is no lesson {wanted.lstrip('#')} in {place}: "
-            "kille memory show WORD tells the numbers of those in a word"
+            "kille memory show WORD lists the numbers of those in a word"
         )
     words = sorted({it.word.surface for it in lessons})
     near = difflib.get_close_matches(wanted, words, n=1)

@@ -1,4 +1,4 @@
-"""A lesson in words: who taught it when, and what there was to see."""
+"""Describe a lesson in words: who taught it, when, and what was to be seen."""
 
 from __future__ import annotations
 
@@ -33,24 +33,24 @@ def when(time: str) -> str:
     return time.replace("T", " ")[:16]
 
 
-def said(turn: Turn) -> str:
-    """Who said what when."""
+def describe_turn(turn: Turn) -> str:
+    """The speaker, the time and the text of a turn."""
     return terminal_word(f"{turn.speaker}, {when(turn.time)}: {turn.text}")
 
 
 def title(lesson: Lesson) -> str:
-    """Which lesson it is, and in which word, or in what it does not hold of."""
+    """The lesson's word, also if it is denied, its kind and its number."""
     word = lesson.word
     what = word.surface if lesson.holds else f"not {word.surface}"
     return terminal_word(f"{what} ({_KINDS[word.kind]}), lesson {lesson.key}")
 
 
-def seen(lesson: ObjectLesson | RelationLesson) -> Iterator[str]:
-    """What there was to see, a line for each thing to be told."""
+def describe_sight(lesson: ObjectLesson | RelationLesson) -> Iterator[str]:
+    """Describe what was to be seen, line by line."""
     yield f"dialogue {lesson.turn.dialogue}, turn {lesson.turn.number}"
     match lesson.seen:
         case Sighting() as sighting:
-            yield from _sighted(sighting)
+            yield from _describe_sighting(sighting)
         case Arrangement() as stand:
             yield f"seen through {terminal_word(stand.sensor)}"
             things = f"{_words(stand.target)} from {_words(stand.landmark)}"
@@ -58,15 +58,15 @@ def seen(lesson: ObjectLesson | RelationLesson) -> Iterator[str]:
 
 
 def looks(lesson: ObjectLesson | RelationLesson) -> str:
-    """The size and the colours of the thing, as far as they are known; "" if not."""
+    """The size and the colours of the thing, as far as they are known; else ""."""
     if isinstance(lesson.seen, Arrangement):
         return ""
     traits = lesson.seen.traits
-    return ", ".join(filter(None, (_listed(colours(traits)), _size(traits))))
+    return ", ".join(filter(None, (_list_words(colours(traits)), _size(traits))))
 
 
 def lengths(traits: Traits) -> tuple[float, ...] | None:
-    """How far a thing reaches in metres, longest first, by the cue of its size."""
+    """The extent of a thing in metres, longest first, by the cue `size`."""
     if "size" not in traits or len(traits["size"]) != len(Point._fields):
         return None
     found = np.exp(traits["size"].astype(np.float64)) - _NEARLY_NOTHING
@@ -74,7 +74,7 @@ def lengths(traits: Traits) -> tuple[float, ...] | None:
 
 
 def colours(traits: Traits) -> tuple[str, ...]:
-    """The words for the colours of a thing that hold of it, the best first."""
+    """The colour words that apply to a thing, the best first."""
     from kille.perception.colours import BASIC, colour_words, colours_in, xkcd
 
     if "colour" not in traits:
@@ -88,14 +88,14 @@ def colours(traits: Traits) -> tuple[str, ...]:
     return tuple(word for word in best if degrees[word] >= _HOLDS)
 
 
-def _sighted(sighting: Sighting) -> Iterator[str]:
+def _describe_sighting(sighting: Sighting) -> Iterator[str]:
     features = sum(len(scan.descriptors) for scan in sighting.scans)
     yield f"seen through {terminal_word(sighting.sensor)}, by {features} features"
     if sighting.place is not None:
         yield f"{math.hypot(*sighting.place):.2f} m from the camera"
 
 
-def _listed(words: Sequence[str]) -> str:
+def _list_words(words: Sequence[str]) -> str:
     """Words as a list in a sentence: red, grey and white."""
     *others, last = words or ("",)
     return f"{', '.join(others)} and {last}" if others else last
@@ -111,7 +111,7 @@ def _centimetres(metres: float) -> str:
 
 
 def _where(offset: Direction) -> str:
-    """An offset as a tutor would say it: 20 cm left and 10 cm nearer."""
+    """An offset in a tutor's words: 20 cm left and 10 cm nearer."""
     pairs = (("right", "left"), ("farther", "nearer"), ("up", "down"))
     moved = [
         f"{100 * abs(metres):.0f} cm {more if metres > 0 else less}"

@@ -1,4 +1,4 @@
-"""`kille memory forget`: unlearn a word or a lesson, for good."""
+"""`kille memory forget`: forget a word or a lesson for good."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from kille.interfaces.memory.choosing import latest, lessons_named
-from kille.interfaces.memory.describing import said, title
+from kille.interfaces.memory.describing import describe_turn, title
 from kille.interfaces.terminal import (
     FAILED,
     FINE,
     ask,
     complain,
     console,
-    hanging,
+    hang_text,
     memory_path,
     print_json,
 )
@@ -28,17 +28,17 @@ from kille.memory import (
 from ttr.escapes import terminal_word
 
 Choice = Callable[[MemoryReader], Sequence[Lesson]]
-"""Which lessons are to be forgotten."""
+"""Chooses the lessons to forget."""
 
 Consent = Callable[[Sequence[Lesson]], bool]
-"""May these be forgotten?"""
+"""May these lessons be forgotten?"""
 
 Report = Callable[[Sequence[Lesson], Sequence[str]], None]
-"""How it is told which lessons are gone, and which words with them."""
+"""Reports which lessons are gone, and which words with them."""
 
 
 def forget(given: Path | None, chosen: Choice, may: Consent, report: Report) -> int:
-    """Forgets the chosen lessons, all or none; the exit code."""
+    """Forget the chosen lessons, all or none; returns the exit code."""
     path = memory_path(given)
     try:
         # A memory that is not there is complained of, not made.
@@ -47,15 +47,15 @@ def forget(given: Path | None, chosen: Choice, may: Consent, report: Report) -> 
         with Memory.open(path) as memory:
             if not may(lessons):
                 return FAILED
-            gone = _forgotten(memory, lessons)
+            gone = _forget(memory, lessons)
     except (MemoryFileError, NoSuchLessonError, _NobodyToAsk) as error:
         return complain(error)
     report(lessons, gone)
     return FINE
 
 
-def _forgotten(memory: Memory, lessons: Sequence[Lesson]) -> list[str]:
-    """Forgets the lessons, all or none; the words that are gone with them."""
+def _forget(memory: Memory, lessons: Sequence[Lesson]) -> list[str]:
+    """Forget the lessons, all or none; returns the words that are gone with them."""
     before = memory.words()
     with memory.together():
         for lesson in lessons:
@@ -70,17 +70,17 @@ def of(named: str) -> Choice:
 
 
 def last(memory: MemoryReader) -> Sequence[Lesson]:
-    """The lesson that was learned last."""
+    """The newest lesson."""
     return latest(memory)
 
 
 def sure(_: Sequence[Lesson]) -> bool:
-    """Forgets without a question."""
+    """Consent without a question."""
     return True
 
 
-def asked(lessons: Sequence[Lesson]) -> bool:
-    """Asks the user in the terminal."""
+def ask_consent(lessons: Sequence[Lesson]) -> bool:
+    """Ask the user in the terminal."""
     if not sys.stdin.isatty():
         raise _NobodyToAsk("forgetting is for good: add --yes if you mean it")
     for lesson in lessons:
@@ -97,7 +97,7 @@ def asked(lessons: Sequence[Lesson]) -> bool:
 
 
 def as_json(lessons: Sequence[Lesson], gone: Sequence[str]) -> None:
-    """What is gone, for machines."""
+    """Print what is gone, for machines."""
     forgotten = [
         {"lesson": it.key, "word": it.word.surface, "kind": it.word.kind}
         for it in lessons
@@ -107,17 +107,17 @@ def as_json(lessons: Sequence[Lesson], gone: Sequence[str]) -> None:
 
 
 def as_text(lessons: Sequence[Lesson], gone: Sequence[str]) -> None:
-    """What is gone, for people."""
+    """Print what is gone, for people."""
     out = console()
     for lesson in lessons:
-        out.print(hanging("  ", f"Forgotten: {_line(lesson)}").lstrip(), markup=False)
+        out.print(hang_text("  ", f"Forgotten: {_line(lesson)}").lstrip(), markup=False)
     for word in gone:
         out.print(f"The word {terminal_word(word)} is gone.", markup=False)
 
 
 def _line(lesson: Lesson) -> str:
-    return f"{title(lesson)}; {said(lesson.turn)}"
+    return f"{title(lesson)}; {describe_turn(lesson.turn)}"
 
 
 class _NobodyToAsk(Exception):
-    """A question had to be asked, and nobody is there to answer."""
+    """A question is needed, but there is nobody to answer it."""

@@ -1,4 +1,4 @@
-"""`kille memory list`: the words of a memory, and how often each was taught."""
+"""`kille memory list`: list the words of a memory, and how often each was taught."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Report = Callable[[Path, Sequence[_Entry]], None]
 
 
 def list_words(given: Path | None, report: Report) -> int:
-    """Prints the words of the memory; the exit code."""
+    """Print the words of the memory; returns the exit code."""
     path = memory_path(given)
     try:
         with Memory.reading(path) as memory:
@@ -42,12 +42,12 @@ def list_words(given: Path | None, report: Report) -> int:
 
 
 def as_json(_: Path, entries: Sequence[_Entry]) -> None:
-    """The words as a list of objects, for machines."""
+    """Print the words as a list of objects, for machines."""
     print_json([asdict(entry) for entry in entries])
 
 
 def as_table(path: Path, entries: Sequence[_Entry]) -> None:
-    """The words in a table, for people."""
+    """Print the words in a table, for people."""
     if not entries:
         console().print(
             f"{path} holds no words yet: teach some with kille talk", markup=False

@@ -1,4 +1,4 @@
-"""`kille memory export` and `import`: a memory as files, and back."""
+"""`kille memory export` and `import`: write a memory to files, and read it back."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from kille.memory.importing import open_package
 from kille.memory.packages import PackageError
 
 Report = Callable[[str, Mapping[str, int]], None]
-"""How it is told what was done, with how much of what."""
+"""Reports what was done, with the amounts."""
 
 
 def export_memory(given: Path | None, target: Path, report: Report) -> int:
-    """Writes the memory as a zip or a folder; the exit code."""
+    """Write the memory as a zip or a folder; returns the exit code."""
     path = memory_path(given)
     try:
         with Memory.reading(path) as memory:
@@ -29,7 +29,7 @@ def export_memory(given: Path | None, target: Path, report: Report) -> int:
 
 
 def import_memory(given: Path | None, source: Path, report: Report) -> int:
-    """Adds what is new in an exported memory; the exit code."""
+    """Add what is new in an exported memory; returns the exit code."""
     path = memory_path(given)
     try:
         with open_package(source) as package, Memory.open(path) as memory:
@@ -43,16 +43,16 @@ def import_memory(given: Path | None, source: Path, report: Report) -> int:
 
 
 def as_json(_: str, amounts: Mapping[str, int]) -> None:
-    """The amounts, for machines."""
+    """Print the amounts, for machines."""
     print_json(dict(amounts))
 
 
 def as_text(done: str, amounts: Mapping[str, int]) -> None:
-    """The amounts, for people."""
-    console().print(f"{done}: {listed(amounts)}", markup=False)
+    """Print the amounts, for people."""
+    console().print(f"{done}: {list_amounts(amounts)}", markup=False)
 
 
-def listed(amounts: Mapping[str, int]) -> str:
+def list_amounts(amounts: Mapping[str, int]) -> str:
     """The amounts as a list: 1 dialogue, 6 turns."""
     return ", ".join(_amount(what, count) for what, count in amounts.items())
 

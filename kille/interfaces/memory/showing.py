@@ -13,17 +13,17 @@ from rich.console import Console
 from kille.interfaces.memory.choosing import lessons_named
 from kille.interfaces.memory.describing import (
     colours,
+    describe_sight,
+    describe_turn,
     lengths,
     looks,
-    said,
-    seen,
     title,
 )
 from kille.interfaces.terminal import (
     FINE,
     complain,
     console,
-    hanging,
+    hang_text,
     memory_path,
     print_json,
 )
@@ -46,18 +46,18 @@ _NAME = 50  # characters of a word in the name of a file
 
 @dataclass(frozen=True)
 class Shown:
-    """A lesson to be shown, and where its pictures were written."""
+    """A lesson to show, and where its pictures were written."""
 
     lesson: ObjectLesson | RelationLesson
     files: Mapping[str, Path]
 
 
 Report = Callable[[Iterable[Shown]], None]
-"""How lessons are shown."""
+"""Shows lessons."""
 
 
 def show(given: Path | None, named: str, out: Path | None, report: Report) -> int:
-    """Shows the lessons in a word, or the one with a number; the exit code.
+    """Show the lessons in a word, or the one with a number; returns the exit code.
 
     Their pictures go into a folder, if one is given.
     """
@@ -65,7 +65,7 @@ def show(given: Path | None, named: str, out: Path | None, report: Report) -> in
     try:
         with Memory.reading(path) as memory, memory.at_one_moment():
             keys = [lesson.key for lesson in lessons_named(memory, named)]
-            report(_written(memory.lesson(key), out) for key in keys)
+            report(_write_lesson(memory.lesson(key), out) for key in keys)
     except (MemoryFileError, NoSuchLessonError, _Unwritable) as error:
         return complain(error)
     return FINE
@@ -88,15 +88,15 @@ def as_text(shown: Iterable[Shown]) -> None:
 def _tell(out: Console, shown: Shown) -> None:
     out.print(title(shown.lesson), style="bold", markup=False)
     for line in _lines(shown):
-        out.print(hanging("  ", line), markup=False)
+        out.print(hang_text("  ", line), markup=False)
     picture = shown.lesson.seen.picture
     if picture is not None:
         _draw(out, picture)
 
 
 def _lines(shown: Shown) -> Iterator[str]:
-    yield said(shown.lesson.turn)
-    yield ", ".join(seen(shown.lesson))
+    yield describe_turn(shown.lesson.turn)
+    yield ", ".join(describe_sight(shown.lesson))
     if looked := looks(shown.lesson):
         yield looked
     if shown.lesson.seen.picture is None:
@@ -130,8 +130,8 @@ class _Unwritable(Exception):
     """Pictures that cannot be written where the user wants them."""
 
 
-def _written(lesson: ObjectLesson | RelationLesson, out: Path | None) -> Shown:
-    """The lesson to be shown, once its pictures are in the folder."""
+def _write_lesson(lesson: ObjectLesson | RelationLesson, out: Path | None) -> Shown:
+    """Write the pictures of a lesson into the folder; returns the lesson to show."""
     picture = lesson.seen.picture
     if out is None or picture is None:
         return Shown(lesson, {})
@@ -178,13 +178,13 @@ def _facts(shown: Shown) -> dict[str, Any]:
         "pictures": {kind: str(file) for kind, file in shown.files.items()},
     }
     if isinstance(lesson.seen, Sighting):
-        return facts | _sighted(lesson.seen)
+        return facts | _sighting_fields(lesson.seen)
     stand = lesson.seen
     things = {"target": stand.target, "landmark": stand.landmark}
     return facts | things | {"configuration": configuration_json(stand.configuration)}
 
 
-def _sighted(sighting: Sighting) -> dict[str, Any]:
+def _sighting_fields(sighting: Sighting) -> dict[str, Any]:
     return {
         "place": sighting.place,
         "metres": lengths(sighting.traits),

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from kille import Agent
 from kille.gaze import Gaze
-from kille.interfaces.showing import claims, derivation, nothing, things_in_view
-from kille.interfaces.terminal import hanging, hanging_type
+from kille.interfaces.showing import claims, derivation, show_nothing, things_in_view
+from kille.interfaces.terminal import hang_text, hanging_type
 
 WIDTH = 100
 
@@ -18,7 +18,7 @@ WORDS = st.lists(st.from_regex(r"[a-z]{1,12},?", fullmatch=True), min_size=1)
 
 @given(WORDS)
 def test_wrapping_keeps_every_word_and_the_width(words: list[str]) -> None:
-    lines = hanging("S> ", " ".join(words)).splitlines()
+    lines = hang_text("S> ", " ".join(words)).splitlines()
     assert lines[0].startswith("S> ")
     assert all(line.startswith("   ") for line in lines[1:])
     assert all(len(line) <= WIDTH for line in lines)
@@ -37,7 +37,7 @@ def test_a_type_is_broken_only_between_its_parts() -> None:
 def test_a_terminal_says_how_wide_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stdout.isatty", lambda: True, raising=False)
     monkeypatch.setenv("COLUMNS", "44")
-    lines = hanging("", "so many words " * 20).splitlines()
+    lines = hang_text("", "so many words " * 20).splitlines()
     assert max(map(len, lines)) <= 44
 
 
@@ -52,7 +52,7 @@ def test_claims_are_what_was_heard_judged_and_said() -> None:
         told = dict(claims(turn))
         assert told["heard"].endswith(" : ask_name(tutor, robot)")
         assert ": cup(o1, look" in told["judged"]
-        assert list(nothing(turn)) == []
+        assert list(show_nothing(turn)) == []
 
 
 def test_a_derivation_names_each_rule_that_ran() -> None:

@@ -14,7 +14,7 @@ from select import select
 import pytest
 
 from kille.interfaces.cli import main
-from kille.interfaces.ears import Ears, written
+from kille.interfaces.ears import Ears, punctuate
 from kille.speech.sound import RATE, Sound, SoundError, WavFile, read_wav
 
 Lesson = Callable[..., bytes]
@@ -194,8 +194,8 @@ def test_a_recording_is_not_overwritten_by_the_answers(
 
 
 def test_what_is_heard_is_written_as_a_sentence() -> None:
-    assert written("isn't this a cup") == "Isn't this a cup?"
-    assert written("no it is a mug") == "No it is a mug."
+    assert punctuate("isn't this a cup") == "Isn't this a cup?"
+    assert punctuate("no it is a mug") == "No it is a mug."
 
 
 def test_ears_hear_only_what_there_is_a_model_for() -> None:
