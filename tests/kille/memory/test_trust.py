@@ -21,7 +21,7 @@ from kille.memory import (
     schema,
 )
 from kille.memory.checking import check
-from kille.memory.errors import explained
+from kille.memory.errors import explain_failures
 from kille.memory.exporting import export
 from kille.memory.files import open_to_read
 
@@ -515,7 +515,7 @@ def test_what_is_no_fault_of_the_file_is_not_blamed_on_it() -> None:
     stopped.sqlite_errorcode = sqlite3.SQLITE_INTERRUPT
     with (
         pytest.raises(sqlite3.OperationalError, match="interrupted"),
-        explained("memory.db"),
+        explain_failures("memory.db"),
     ):
         raise stopped
 
