@@ -112,7 +112,7 @@ def test_a_study_without_mistakes_is_fine(tmp_path: Path) -> None:
         ("strategy.bands.sure = true", 4, "from 0 to 2, found true"),
         ("strategy.bands.sure = 95", 4, "expected a number from 0 to 2, found 95"),
         ("strategy.hearing.strange = -1", 4, "hearing.strange of a strategy: expecte"),
-        ("strategy.wants.asking = [1, 2]", 4, "found a list in a list"),
+        ("strategy.wants.asking = [1, 2]", 4, "found a list"),
         ("strategy.wants.learning = true", 4, "a table of right, wrong, found true"),
         ("strategy.bands.sure = nan", 4, "bands.sure of a strategy: expected a number"),
         (
