@@ -29,7 +29,7 @@ REFERENTS = ("AskReferent", "AskReferentAgain")
 @rule(answers="Mention")
 def take_described(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says which one: "the red one", "the second", "this one"."""
-    options = _described(s, model, types=types)
+    options = _fitting_options(s, model, types=types)
     return taken(s, options[0], types=types) if len(options) == 1 else None
 
 
@@ -49,7 +49,7 @@ def take_none(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Mention")
 def ask_fewer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The answer leaves some of the things open: it asks about those."""
-    options = _described(s, model, types=types)
+    options = _fitting_options(s, model, types=types)
     if not 1 < len(options) < len(_options(s)):
         return None
     return asking(_dropped(s), model, options, s.shared.qud[0].ask, types=types)
@@ -95,7 +95,9 @@ def asked_which(s: Record) -> bool:
     return bool(s.shared.qud) and s.shared.qud[0].ask in REFERENTS
 
 
-def _described(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Record]:
+def _fitting_options(
+    s: Record, model: Model, *, types: DialogueTypes
+) -> Sequence[Record]:
     """The options about a thing that the tutor's phrase is true of."""
     if not asked_which(s):
         return ()

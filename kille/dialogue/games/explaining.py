@@ -39,7 +39,7 @@ def miss_certain(s: Record, *, types: DialogueTypes) -> Record | None:
 def tell_certainty(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It says how certain the claim is, and what else it might be."""
     claim = _asked_about(s)
-    return None if claim is None else _told(s, model, claim, types=types)
+    return None if claim is None else _plan_certainty(s, model, claim, types=types)
 
 
 @rule(answers="AskWhy")
@@ -76,7 +76,7 @@ def explain(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
 def doubt(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It does not think so: it says how certain it is instead."""
     claim = _asked_about(s)
-    return None if claim is None else _told(s, model, claim, types=types)
+    return None if claim is None else _plan_certainty(s, model, claim, types=types)
 
 
 @rule(answers="AskCertainty")
@@ -123,7 +123,7 @@ def _still_claimed(s: Record, claim: RecordType) -> Sequence[RecordType]:
     return pending if any(same(asked, affirmed(it)) for it in pending) else ()
 
 
-def _told(
+def _plan_certainty(
     s: Record, model: Model, claim: RecordType, *, types: DialogueTypes
 ) -> Update:
     """The plan to say how certain a claim is."""

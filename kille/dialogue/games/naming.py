@@ -36,8 +36,8 @@ def hedge_name(s: Record, *, types: DialogueTypes) -> Record | None:
     if certainty(s, s.private.beliefs) != "Hedge":
         return None
     (content, sign), (rival, other) = (
-        _named(s, 0, types=types),
-        _named(s, 1, types=types),
+        _naming_by_rank(s, 0, types=types),
+        _naming_by_rank(s, 1, types=types),
     )
     claims = [content, rival]
     return plan(
@@ -67,11 +67,13 @@ def _said(s: Record, how: str, *, types: DialogueTypes) -> Record | None:
     """The plan to say its first belief in this way, if it is that certain."""
     if certainty(s, s.private.beliefs) != how:
         return None
-    content, sign = _named(s, 0, types=types)
+    content, sign = _naming_by_rank(s, 0, types=types)
     return plan(s, f"{how}Name", content, signs=[sign], pending=[content], types=types)
 
 
-def _named(s: Record, rank: int, *, types: DialogueTypes) -> tuple[RecordType, Record]:
+def _naming_by_rank(
+    s: Record, rank: int, *, types: DialogueTypes
+) -> tuple[RecordType, Record]:
     """What it says of the thing by its belief of this rank, and the sign it uses."""
     belief = s.private.beliefs[rank]
     return said_of(s, belief.sign, belief.sit.x, types=types), belief.sign

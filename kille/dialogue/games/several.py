@@ -33,7 +33,9 @@ def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | 
     """The tutor says what the things in view are: it is a lesson about each of them."""
     sign = _noun(s)
     things = [
-        x for x in _described(s, model, types=types) if not _is_other(s, model, x, sign)
+        x
+        for x in _fitting_things(s, model, types=types)
+        if not _is_other(s, model, x, sign)
     ]
     if len(things) < 2:
         return None
@@ -114,7 +116,7 @@ def _noun(s: Record) -> Record:
     return noun
 
 
-def _described(s: Record, model: Model, *, types: DialogueTypes) -> list[str]:
+def _fitting_things(s: Record, model: Model, *, types: DialogueTypes) -> list[str]:
     """The things in view of which the adjectives are true: "These are red cups."."""
     said = phrase_at(content_of(s), "counted")
     rest = rectype({label: T for label, T in said.fields if label != "c"})
@@ -124,13 +126,13 @@ def _described(s: Record, model: Model, *, types: DialogueTypes) -> list[str]:
 
 def _is_other(s: Record, model: Model, x: str, noun: Record) -> bool:
     """Whether a thing is known not to be what a noun says: it is something else."""
-    if any(is_denial(it) == claims(it, noun) for it in _told(s, x)):
+    if any(is_denial(it) == claims(it, noun) for it in _lessons_about(s, x)):
         return True
     beliefs = believed(s, model, s.private.nouns, x)
     return is_sure(s, beliefs) and not knows([beliefs[0].sign], noun)
 
 
-def _told(s: Record, x: str) -> Iterator[RecordType]:
+def _lessons_about(s: Record, x: str) -> Iterator[RecordType]:
     """What the tutor has said that a thing in view is, or is not."""
     for lesson in s.private.lessons:
         it = lesson.content

@@ -45,7 +45,7 @@ def described(theory: Theory) -> Mapping[str, Shown]:
         "language": _language(theory),
         "strategy": strategy() if by_person else strategy_of(theory),
         "learners": record(learners),
-        **{kind: _meaning(theory.language, kind, types) for kind in KINDS},
+        **{kind: _example_meaning(theory.language, kind, types) for kind in KINDS},
         "meanings": _meanings(types),
         "state": types.record_type("State"),
         "rules": {} if by_person else _rules(theory),
@@ -70,7 +70,7 @@ def _rules(theory: Theory) -> Mapping[str, str]:
     return {rule.name: told(rule, packaged) for rule in rules_of(algorithm_of(theory))}
 
 
-def _meaning(language: str, kind: str, types: DialogueTypes) -> TypeNode:
+def _example_meaning(language: str, kind: str, types: DialogueTypes) -> TypeNode:
     words, name = _EXAMPLES.get(kind, _PLACE)
     meaning = getattr(vocabulary(language, types), words)[name].meaning
     assert isinstance(meaning, TypeNode)
