@@ -22,7 +22,7 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from kille.agent import Agent
+from kille.agent.agent import Agent
 from kille.dialogue.describing import Description, describe
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import word_of

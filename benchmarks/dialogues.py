@@ -16,10 +16,10 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 
-from kille.simulation.properties import OF_TUTORING
-from kille.simulation.robots import ROBOTS, Robot
-from kille.simulation.tutoring import roles_in
-from kille.simulation.tutors import tutoring
+from kille.lab.tutors.exploring import tutoring
+from kille.lab.tutors.tested_game import roles_in
+from kille.lab.worlds.dialogue_properties import OF_TUTORING
+from kille.lab.worlds.robot_profiles import ROBOTS, Robot
 from ttr.testing import ALL, Report, Suite
 
 BATCH = 40

@@ -22,12 +22,12 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
-from kille.studies.log import write_tables
-from kille.studies.played import Answer, Played, Turn
-from kille.studies.reading import parsed
-from kille.studies.reporting import report
-from kille.studies.running import Crew, alone, crew, run
-from kille.studies.study import Run, Study
+from kille.lab.dialogues import Answer, Played, Turn
+from kille.lab.log import write_tables
+from kille.lab.reports import report
+from kille.lab.running import Crew, alone, crew, run
+from kille.lab.study import Run, Study
+from kille.lab.study_files import parsed
 
 TURNS, THEORIES = 40, 2
 STUDY = """

@@ -330,8 +330,8 @@ def _fracas(folder: Path) -> Reader:
 
 
 def _study(folder: Path) -> Reader:
-    from kille.studies.errors import StudyError
-    from kille.studies.reading.file import read
+    from kille.lab.errors import StudyError
+    from kille.lab.study_files.file import read
 
     seeds = [*_texts("examples/**/*.toml"), *_texts("tests/**/*.toml")]
     seeds += _texts("docs/**/*.toml")
@@ -340,8 +340,8 @@ def _study(folder: Path) -> Reader:
 
 def _lexicon(folder: Path) -> Reader:
     from kille.dialogue.lexicon import lexicon
-    from kille.studies.reading.languages import _of_lexicon
-    from kille.studies.study import Theory
+    from kille.lab.study import Theory
+    from kille.lab.study_files.languages import _of_lexicon
 
     def read(path: Path) -> object:
         lexicon.cache_clear()
@@ -623,8 +623,8 @@ def _sound(folder: Path) -> Reader:
 
 
 def _judged(folder: Path) -> Reader:
-    from kille.experiments.judged import read
-    from kille.experiments.results import ExperimentError
+    from kille.lab.results import ExperimentError
+    from kille.lab.scenes.published_judgements import read
 
     head = b"preposition,dx_right,dy_up,rating_1_9\n"
     seed = head + b"left,-1,0,9\nabove,0,2,8.5\n" * 20

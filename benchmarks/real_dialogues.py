@@ -24,10 +24,10 @@ from functools import cache, lru_cache
 from pathlib import Path
 from random import Random
 
-from kille.agent import Agent
+from kille.agent.agent import Agent
+from kille.agent.attention import Attention
 from kille.dialogue.commitments import affirmed
 from kille.dialogue.meanings import is_denial, named, predicate_at, word_of
-from kille.gaze import Attention
 from kille.perception.look import Sighting, look
 from kille.scene import Frame, Look
 from kille.sensors.sensor import SensorError

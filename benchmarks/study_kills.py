@@ -31,8 +31,8 @@ from typing import NoReturn
 import cv2
 
 from kille.interfaces.cli import main as kille
-from kille.studies import log, playing  # noqa: F401  # loaded once for all runs
-from kille.studies.errors import StudyError
+from kille.lab import log
+from kille.lab.errors import StudyError
 
 STUDY = """
 title = "What is killed goes on"

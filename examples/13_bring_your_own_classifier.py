@@ -9,8 +9,8 @@ data: the things stand on a simulated table. The same class takes part in whatev
 
 import math
 
-from kille.experiments.candidates import candidates
-from kille.experiments.objects import paper
+from kille.lab.protocols.objects import paper
+from kille.lab.theories.candidates import candidates
 from kille.perception.methods import OBJECTS
 
 

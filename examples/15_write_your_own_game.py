@@ -13,9 +13,9 @@ from kille.dialogue.games import TUTORING
 from kille.dialogue.meanings import noun
 from kille.dialogue.moves import answering, content_of, plan, said_of
 from kille.dialogue.reference import thing_at
-from kille.simulation.perceiving import glanced
-from kille.simulation.playing import simulated
-from kille.simulation.worlds import Thing, World
+from kille.lab.worlds.games import simulated
+from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.worlds import Thing, World
 from ttr.updates import replace_rules, rule
 
 CHANCE = Random(7)

@@ -10,14 +10,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from kille.aliases import FORMER_MODULES
+from ttr.aliases import find_former_modules
+
 if TYPE_CHECKING:
-    from kille.agent import Agent
+    from kille.agent.agent import Agent
     from kille.dialogue import games
     from kille.memory import Memory
 
 __all__ = ["Agent", "Memory", "games"]
 
-_LATER = {"Agent": "kille.agent", "Memory": "kille.memory"}
+_LATER = {"Agent": "kille.agent.agent", "Memory": "kille.memory"}
+
+find_former_modules(FORMER_MODULES)
 
 
 def __getattr__(name: str) -> Any:

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from kille.agent import Agent
+from kille.agent.agent import Agent
+from kille.agent.attention import View
+from kille.agent.exchanges import Exchange
 from kille.dialogue.lexicon import lexicon
-from kille.exchange import Exchange
-from kille.gaze import View
 
 OBJECTS = (
     "apple",

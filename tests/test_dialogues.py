@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
+from kille.agent.story_replay import play
 from kille.dialogue.meanings import named
 from kille.perception.look import look
-from kille.replay import play
 from kille.scene import Look
 from kille.sensors.sensor import Sensor
 from kille.sensors.synthetic import Synthetic
@@ -66,7 +66,7 @@ def _shared_looks(monkeypatch: pytest.MonkeyPatch) -> None:
 
     The n-th frame of a seed and a sequence of changes is always the same.
     """
-    monkeypatch.setattr("kille.gaze.look", shared_look)
+    monkeypatch.setattr("kille.agent.attention.look", shared_look)
 
 
 def shared_look(sensor: Sensor, scans: int, pointed: Any = None) -> Look:

@@ -409,46 +409,47 @@ def talking() -> dict[str, set[str]]:
     """The public names of what a game of one's own is made of, and played with."""
     dialogue = ("tutoring", "moves", "rules", "meanings", "reference", "describing")
     more = ("language", "strategies")
-    simulation = ("worlds", "perceiving", "playing", "schooling")
+    worlds = ("worlds", "perception", "games", "schooling")
     named = [f"kille.dialogue.{module}" for module in (*dialogue, *more)]
-    named += [f"kille.simulation.{module}" for module in simulation]
+    named += [f"kille.lab.worlds.{module}" for module in worlds]
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 
 def measuring() -> dict[str, set[str]]:
     """The modules that have protocols; the public names of what these give and take."""
-    modules = ("results", "candidates", "metrics", "report", "figures")
-    named = [f"kille.experiments.{module}" for module in modules]
+    modules = ("results", "theories.candidates", "measures.statistics")
+    more = ("reports.result_pages", "reports.drawing")
+    named = [f"kille.lab.{module}" for module in (*modules, *more)]
     found = {name: set(importlib.import_module(name).__all__) for name in named}
-    package = importlib.import_module("kille.experiments")
+    package = importlib.import_module("kille.lab.protocols")
     inner = [it.name for it in pkgutil.iter_modules(package.__path__) if not it.ispkg]
-    return found | {"kille.experiments": {it for it in inner if has_protocol(it)}}
+    return found | {"kille.lab.protocols": {it for it in inner if has_protocol(it)}}
 
 
 def studying() -> dict[str, set[str]]:
     """The public names of what studies are made of, and are read and played by."""
     modules = (
         "study",
-        "played",
-        "reading",
+        "dialogues",
+        "study_files",
         "theories",
         "running",
         "log",
-        "measuring",
-        "reporting",
+        "measures",
+        "reports",
         "playing",
         "scenes",
         "robots",
         "tutors.tutor",
         "tutors.words",
     )
-    named = [f"kille.studies.{module}" for module in modules]
+    named = [f"kille.lab.{module}" for module in modules]
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 
 def has_protocol(module: str) -> bool:
-    """Whether a module of the experiments has a public function that gives a result."""
-    found = importlib.import_module(f"kille.experiments.{module}")
+    """Whether a module of the protocols has a public function that gives a result."""
+    found = importlib.import_module(f"kille.lab.protocols.{module}")
     public = [what for name, what in vars(found).items() if not name.startswith("_")]
     functions = [
         what

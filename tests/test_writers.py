@@ -25,7 +25,7 @@ WRITERS = {
     "ttr/testing/hash_seeds.py": "digests, read by the process that asked for them",
     "kille/interfaces/streams.py": "what the commands of kille complain of",
     "kille/interfaces/terminal.py": "what the commands of kille print",
-    "kille/studies/persons/lines.py": "what people in a study are shown",
+    "kille/lab/people/typed_lines.py": "what people in a study are shown",
     "kille/sensors/kinect/serving.py": "what it found when nobody is left to be told",
 }
 """The modules that may write to a stream, and what it is that they write."""
@@ -34,8 +34,8 @@ ESCAPES = "ttr/escapes.py"
 UNSEEN_IN_JSON = {
     "kille/bus/packing.py",  # messages between nodes
     "kille/memory/exporting.py",  # files, by a package that cannot know `ttr`
-    "kille/studies/log/cells.py",  # cells of a database
-    "kille/studies/log/writing.py",
+    "kille/lab/log/cells.py",  # cells of a database
+    "kille/lab/log/writing.py",
 }
 """Where JSON goes to neither a terminal nor a file of `ttr`."""
 

@@ -227,8 +227,8 @@ class _Renamed(Loader):
         sys.modules[module.__name__] = import_module(self.now)
 
 
-def find_former_modules() -> None:
-    """From now on, imports of `FORMER_MODULES` find them, with a warning.
+def find_former_modules(names: Mapping[str, str] = FORMER_MODULES) -> None:
+    """From now on, imports of modules by their former names find them, with a warning.
 
     >>> import warnings
     >>> find_former_modules()
@@ -238,5 +238,6 @@ def find_former_modules() -> None:
     >>> print(said[-1].message)
     ttr.quantifiers.truth is now ttr.semantics.quantifiers.truth
     """
-    if not any(isinstance(one, _FormerModules) for one in sys.meta_path):
-        sys.meta_path.insert(0, _FormerModules(FORMER_MODULES))
+    finders = [one for one in sys.meta_path if isinstance(one, _FormerModules)]
+    if all(one.names is not names for one in finders):
+        sys.meta_path.insert(0, _FormerModules(names))

@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import Any
 
 from kille.interfaces.showing import in_short
-from kille.simulation.perceiving import seen
-from kille.simulation.playing import simulated
-from kille.simulation.worlds import Thing, World
+from kille.lab.worlds.games import simulated
+from kille.lab.worlds.perception import seen
+from kille.lab.worlds.worlds import Thing, World
 from ttr import Record
 from ttr.types.records import differences
 from ttr.updates import Game, Run, Turn

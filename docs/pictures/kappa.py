@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from kille.experiments.causes import CAUSES, played
-from kille.experiments.metrics import bootstrap
+from kille.lab.measures.statistics import bootstrap
+from kille.lab.protocols.causes import CAUSES, played
 from kille.perception.relations import PaperRelations, RelationMemory
 
 HERE = Path(__file__).parent

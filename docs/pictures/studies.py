@@ -11,14 +11,14 @@ from collections.abc import Iterable
 from itertools import chain
 from pathlib import Path
 
-from kille.experiments.figures import drawing
-from kille.experiments.results import Figure
-from kille.studies import log
-from kille.studies.measuring import Dialogue, kappas, scored, vocabulary
-from kille.studies.measuring.measures import ACCURACY
-from kille.studies.reporting.asked import in_phase
-from kille.studies.reporting.findings import Theories, estimated, grouped
-from kille.studies.reporting.rows import as_drawn
+from kille.lab import log
+from kille.lab.measures import Dialogue, kappas, scored, vocabulary
+from kille.lab.measures.measures import ACCURACY
+from kille.lab.reports.drawing import drawing
+from kille.lab.reports.findings import Theories, estimated, grouped
+from kille.lab.reports.repeated_tests import in_phase
+from kille.lab.reports.row_figures import as_drawn
+from kille.lab.results import Figure
 
 HERE = Path(__file__).parent
 

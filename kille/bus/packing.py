@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from kille.archives import read_arrays
 from kille.bus.messages import Bundle, BusError
+from kille.safety.archives import read_arrays
 from ttr.safety.inputs import parse_json
 
 _FACTS = "facts"

@@ -493,7 +493,7 @@ def _talk(options: argparse.Namespace) -> int:
 
         from kille.interfaces.experiment.checking import MISTAKES, complain_all
         from kille.interfaces.theories import robot_of, theory_named
-        from kille.studies.theories import language_of
+        from kille.lab.theories import language_of
 
         try:
             theory = theory_named(
@@ -624,7 +624,7 @@ def _experiment_run(options: argparse.Namespace) -> int:
 
 def _experiment_resume(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.running import keep_as_is, resume_study
-    from kille.studies.running.runner import forget_broken
+    from kille.lab.running.runner import forget_broken
 
     first = forget_broken if options.again else keep_as_is
     return resume_study(options.folder, _request(options), first)

@@ -9,9 +9,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from kille.agent import Agent
+from kille.agent.agent import Agent
+from kille.agent.attention import View
 from kille.demo import Answer, Event, demonstration
-from kille.gaze import View
 from kille.interfaces.showing import claims, explained
 from kille.interfaces.terminal import FINE, complain, console
 from kille.perception.picture_sheet import picture_sheet, write_picture

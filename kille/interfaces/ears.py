@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from kille.agent import Agent
+from kille.agent.agent import Agent
 from kille.dialogue.language import understand
 from kille.dialogue.state import words
 from kille.interfaces.terminal import complain, console

@@ -16,9 +16,9 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
-from kille.experiments.candidates import MethodFailedError, Methods, candidates
-from kille.experiments.figures import MISSING, can_draw
-from kille.experiments.plans import (
+from kille.interfaces.grids import print_table
+from kille.interfaces.terminal import FAILED, FINE, complain, console, print_json
+from kille.lab.protocols.plans import (
     OBJECTS,
     RELATIONS,
     Plan,
@@ -27,10 +27,10 @@ from kille.experiments.plans import (
     relation_plans,
     run,
 )
-from kille.experiments.report import page
-from kille.experiments.results import ExperimentError, Result
-from kille.interfaces.grids import print_table
-from kille.interfaces.terminal import FAILED, FINE, complain, console, print_json
+from kille.lab.reports.drawing import MISSING, can_draw
+from kille.lab.reports.result_pages import page
+from kille.lab.results import ExperimentError, Result
+from kille.lab.theories.candidates import MethodFailedError, Methods, candidates
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
 from ttr.safety.files import check_outputs, why_unread, write_whole

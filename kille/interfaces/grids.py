@@ -11,8 +11,8 @@ from rich.console import Console
 from rich.table import Table as Grid
 from rich.text import Text
 
-from kille.experiments.report import shown
-from kille.experiments.results import Cell, Estimate, Table
+from kille.lab.reports.result_pages import shown
+from kille.lab.results import Cell, Estimate, Table
 from ttr.escapes import terminal_line
 
 _GAP = 2  # columns between those of a table

@@ -8,6 +8,7 @@ from time import perf_counter
 
 from rich.console import Console
 
+from kille.agent.story_replay import Echo, play
 from kille.interfaces.terminal import (
     FAILED,
     FINE,
@@ -17,7 +18,6 @@ from kille.interfaces.terminal import (
     print_json,
 )
 from kille.memory import MemoryFileError
-from kille.replay import Echo, play
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
 from ttr.dialogues.stories import Outcome, Story, facts, junit, read_stories, summary

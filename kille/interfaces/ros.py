@@ -150,7 +150,7 @@ def _perception(bus: Bus, setting: Setting) -> Callable[[], None]:
 
 def _dialogue(bus: Bus, setting: Setting) -> Callable[[], None]:
     """Starts the dialogue node; what ends it."""
-    from kille.agent import Agent
+    from kille.agent.agent import Agent
     from kille.nodes.dialogue import Talking
     from kille.nodes.remote_sensor import Eyes
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
+from kille.agent.attention import View
+from kille.agent.exchanges import Exchange
 from kille.dialogue.meanings import predicate_at
-from kille.exchange import Exchange
-from kille.gaze import View
 from kille.interfaces.terminal import hanging_type
 from ttr import Rec, Record, RecordType, record, rectype
 from ttr.judging import Judgement

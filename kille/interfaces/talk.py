@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from kille.agent import Agent
+from kille.agent.agent import Agent
 from kille.dialogue.sources import plain
 from kille.interfaces.ears import Ears, Heard, answered
 from kille.interfaces.showing import Account, explained, things_in_view
@@ -17,7 +17,7 @@ from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
 from kille.perception.picture_sheet import overview, write_picture
 from kille.perception.thumbnails import outline_things
-from kille.private import create_private_file
+from kille.safety.private_files import create_private_file
 from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
 from kille.speech.synthesis import Voice, voice

@@ -12,16 +12,16 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from kille.agent import Agent
+from kille.agent.agent import Agent
 from kille.dialogue.sources import FILES, STRATEGIES
 from kille.dialogue.theory_files import SOURCE
-from kille.studies.errors import StudyError
-from kille.studies.reading import read
-from kille.studies.reading.consenting import check_allowed
-from kille.studies.reading.trying import troubles
-from kille.studies.settings import unknown
-from kille.studies.study import PERSON, Theory
-from kille.studies.theories import agent_of
+from kille.lab.errors import StudyError
+from kille.lab.settings import unknown
+from kille.lab.study import PERSON, Theory
+from kille.lab.study_files import read
+from kille.lab.study_files.consent import check_allowed
+from kille.lab.study_files.theory_trials import troubles
+from kille.lab.theories import agent_of
 from ttr.safety.consent import Consent
 
 

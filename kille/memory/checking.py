@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from kille.databases import has_strange_journal, printable_name
 from kille.memory import files, reading, schema
 from kille.memory.errors import DAMAGE, STRANGE_JOURNAL, explain_failures, primary_code
 from kille.memory.exporting import Amount
+from kille.safety.databases import has_strange_journal, printable_name
 
 MOST_FAULTS = 20
 """How many faults of one sort are reported."""

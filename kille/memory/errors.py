@@ -8,7 +8,7 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from kille.databases import printable_name
+from kille.safety.databases import printable_name
 
 
 class MemoryFileError(Exception):

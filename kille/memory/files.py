@@ -14,7 +14,6 @@ from typing import Literal
 
 from platformdirs import user_data_dir
 
-from kille.databases import has_strange_journal, restrict
 from kille.memory import schema
 from kille.memory.errors import (
     ELSEWHERE,
@@ -25,7 +24,8 @@ from kille.memory.errors import (
     primary_code,
     untrusted_file_error,
 )
-from kille.private import create_private_file
+from kille.safety.databases import has_strange_journal, restrict
+from kille.safety.private_files import create_private_file
 
 # A reader that comes or goes locks the file for an instant; an owner stays.
 PATIENCE_SECONDS = 0.2

@@ -15,9 +15,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Protocol
 
-from kille.archives import check_sizes, open_zip, read_member
-from kille.databases import printable_name
-from kille.private import FOLDER_MODE, open_private
+from kille.safety.archives import check_sizes, open_zip, read_member
+from kille.safety.databases import printable_name
+from kille.safety.private_files import FOLDER_MODE, open_private
 from ttr.safety.inputs import read_bytes
 from ttr.safety.limits import MEMBER, PACKAGE
 

@@ -15,7 +15,6 @@ from typing import Any, get_args
 
 import numpy as np
 
-from kille.archives import read_arrays
 from kille.memory.configurations import as_json, from_json
 from kille.memory.lessons import (
     Arrangement,
@@ -29,6 +28,7 @@ from kille.memory.lessons import (
     Word,
 )
 from kille.memory.pictures import JPEG, Crop, Picture
+from kille.safety.archives import read_arrays
 from kille.scene import Box, Intrinsics, Point
 from ttr.safety.limits import MEMBER
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from mmap import mmap
 from typing import TypeAlias
 
-from kille.databases import LARGEST_VALUE
+from kille.safety.databases import LARGEST_VALUE
 
 Content: TypeAlias = bytes | mmap
 Value: TypeAlias = int | float | str | bytes | None

@@ -18,13 +18,13 @@ from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import NamedTuple
 
-from kille.databases import has_strange_journal, printable_name, restrict
 from kille.memory import reading, schema
 from kille.memory.errors import ELSEWHERE, MemoryFileError, explain_failures
 from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
 from kille.memory.memory import Memory
 from kille.memory.merging import Merged
 from kille.memory.pages import Row, Rows, Value, rows_in
+from kille.safety.databases import has_strange_journal, printable_name, restrict
 
 UNKNOWN = "unknown"
 """The time of a lost dialogue, and the speaker of a lost turn."""

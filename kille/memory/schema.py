@@ -13,7 +13,13 @@ import struct
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 
-from kille.databases import Schema, row_faults, schema_faults, schema_made_by, schema_of
+from kille.safety.databases import (
+    Schema,
+    row_faults,
+    schema_faults,
+    schema_made_by,
+    schema_of,
+)
 
 # "KILL" in ASCII: tells our files from any other SQLite database.
 APPLICATION_ID = 0x4B494C4C

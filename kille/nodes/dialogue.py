@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from kille.agent import Agent
+from kille.agent.agent import Agent
+from kille.agent.exchanges import Exchange
 from kille.bus import Bus, BusError, Facts, Subscription, Text, serve
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import predicate_at
-from kille.exchange import Exchange
 from kille.memory import MemoryFileError
 from kille.nodes.program_calls import text_of
 from kille.nodes.topics import (

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_info
 
-from kille.studies.played import Answer, Played, Turn
-from kille.studies.study import Named, Phase, Run, Study, Theory
+from kille.lab.dialogues import Answer, Played, Turn
+from kille.lab.study import Named, Phase, Run, Study, Theory
 
 GOOD, BAD, DEADLY = "good", "bad", "deadly"
 

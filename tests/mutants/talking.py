@@ -43,7 +43,7 @@ from kille.dialogue.games.referring import REFERRING
 from kille.dialogue.meanings import noun, predicate_at, relation, theory, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
-from kille.simulation.properties import RETRACTED
+from kille.lab.worlds.dialogue_properties import RETRACTED
 from ttr import Model, Record, RecordType, record
 from ttr.judging import Judgement
 from ttr.testing import ALL, Roles, Tutor

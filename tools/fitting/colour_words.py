@@ -25,8 +25,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.experiments.metrics import auroc
-from kille.experiments.results import Table
+from kille.lab.measures.statistics import auroc
+from kille.lab.results import Table
 from kille.perception.colours import borders
 from kille.perception.colours.borders import AXES, along
 from kille.perception.colours.space import even

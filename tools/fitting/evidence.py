@@ -25,7 +25,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.experiments.metrics import auroc
+from kille.lab.measures.statistics import auroc
 from kille.perception import evidence
 from kille.perception.cues import CUES, Cue, measured, with_embedding
 from kille.perception.evidence import SIZE, Weighing, unlike_in_size

@@ -36,7 +36,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.experiments.regions import Score, captures, score
+from kille.lab.protocols.regions import Score, captures, score
 from kille.perception.segment import merging_by
 from kille.perception.surfaces import merging
 from kille.perception.surfaces.merging import (

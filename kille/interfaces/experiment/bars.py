@@ -9,7 +9,7 @@ from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bar
 
 from kille.interfaces.terminal import console
-from kille.studies.running import Progress
+from kille.lab.running import Progress
 
 PACE_SECONDS = 300
 """The time left is estimated from the pace over this many seconds."""

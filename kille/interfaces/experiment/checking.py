@@ -7,10 +7,10 @@ from pathlib import Path
 
 from kille.interfaces.experiment.people import people_summary
 from kille.interfaces.terminal import FINE, WRONG_USE, complain, console
-from kille.studies.errors import StudyError
-from kille.studies.reading import checked
-from kille.studies.reading.doubts import doubts
-from kille.studies.study import Study
+from kille.lab.errors import StudyError
+from kille.lab.study import Study
+from kille.lab.study_files import checked
+from kille.lab.study_files.warnings import doubts
 from ttr import TTRError
 from ttr.safety.consent import Consent
 
@@ -51,7 +51,7 @@ def complain_all(error: StudyError | TTRError) -> int:
 def in_numbers(study: Study) -> str:
     """Summarise in numbers what a study combines.
 
-    >>> from kille.studies.study import Named, Theory
+    >>> from kille.lab.study import Named, Theory
     >>> in_numbers(Study("", {"a": Theory("a")}, {}, {}, (), (1, 2)))
     '0 dialogues: 1 theory × 0 tutors × 0 scenes × 2 seeds'
     """

@@ -7,10 +7,10 @@ from pathlib import Path
 from shlex import quote
 
 from kille.interfaces.terminal import console
-from kille.studies import log
-from kille.studies.errors import StudyError
-from kille.studies.reading.consenting import check_allowed, python_in
-from kille.studies.study import Study
+from kille.lab import log
+from kille.lab.errors import StudyError
+from kille.lab.study import Study
+from kille.lab.study_files.consent import check_allowed, python_in
 from ttr.safety.consent import Consent
 
 

@@ -17,13 +17,13 @@ from random import Random
 
 from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.terminal import console
-from kille.studies.log import Broken, Finished, Outcome, RunError
-from kille.studies.log.outcomes import Play, PlayAll
-from kille.studies.persons.lines import ready
-from kille.studies.protocols import CHANGING, successor, tasks
-from kille.studies.running import Crew, Scheduler, alone
-from kille.studies.scenes import opened
-from kille.studies.study import PERSON, Run, Study
+from kille.lab.log import Broken, Finished, Outcome, RunError
+from kille.lab.log.outcomes import Play, PlayAll
+from kille.lab.people.typed_lines import ready
+from kille.lab.protocols.phases import CHANGING, successor, tasks
+from kille.lab.running import Crew, Scheduler, alone
+from kille.lab.scenes import opened
+from kille.lab.study import PERSON, Run, Study
 
 _FIRST = "The robot was taught nothing yet."
 _NEXT = "It is another robot now, and was taught nothing yet."

@@ -11,11 +11,11 @@ from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.experiment.people import people_in
 from kille.interfaces.experiment.running import Request, study_for_folder
 from kille.interfaces.terminal import FAILED, FINE, complain, console, hang_text
-from kille.studies import log
-from kille.studies.log import Broken, Outcome, RunError
-from kille.studies.log.sources import changed, sources
-from kille.studies.running import Difference, Progress, replay
-from kille.studies.study import Run
+from kille.lab import log
+from kille.lab.log import Broken, Outcome, RunError
+from kille.lab.log.sources import changed, sources
+from kille.lab.running import Difference, Progress, replay
+from kille.lab.study import Run
 
 
 def replay_all(folder: Path, names: Sequence[str], request: Request) -> int:

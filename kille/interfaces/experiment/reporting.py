@@ -8,12 +8,12 @@ from pathlib import Path
 from rich.console import Console
 from rich.text import Text
 
-from kille.experiments.results import Result
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
 from kille.interfaces.grids import print_table
 from kille.interfaces.terminal import FINE, console
-from kille.studies import log, reporting
-from kille.studies.log import write_tables
+from kille.lab import log, reports
+from kille.lab.log import write_tables
+from kille.lab.results import Result
 from ttr.safety.consent import Consent
 
 
@@ -25,7 +25,7 @@ def report(folder: Path, command: str, consent: Consent) -> int:
     try:
         write_tables(folder)
         study = log.study(folder, consent)
-        page, results = reporting.report(folder, command=command, study=study)
+        page, results = reports.report(folder, command=command, study=study)
         print_results(results)
     except MISTAKES as error:
         return complain_all(error)
@@ -39,9 +39,9 @@ def compare(
     """Print how two folders of results differ; write a page if one is named."""
     try:
         if page is None:
-            print_results(reporting.compared(one, other, consent))
+            print_results(reports.compared(one, other, consent))
             return FINE
-        found = reporting.compare(one, other, page, command=command, consent=consent)
+        found = reports.compare(one, other, page, command=command, consent=consent)
         print_results(found.results)
         console().print(f"\nreport: {page}", markup=False)
     except MISTAKES as error:

@@ -21,13 +21,13 @@ from kille.interfaces.experiment.people import crew_for, has_people
 from kille.interfaces.experiment.reporting import print_summary
 from kille.interfaces.experiment.stopping import stoppable
 from kille.interfaces.terminal import FAILED, FINE, complain, console
-from kille.studies import log, reporting
-from kille.studies.errors import StudyError
-from kille.studies.log import write_tables
-from kille.studies.reading import check, checked, read
-from kille.studies.reading.consenting import check_allowed, python_in
-from kille.studies.running import Progress, Scheduler, Summary, run
-from kille.studies.study import Study
+from kille.lab import log, reports
+from kille.lab.errors import StudyError
+from kille.lab.log import write_tables
+from kille.lab.running import Progress, Scheduler, Summary, run
+from kille.lab.study import Study
+from kille.lab.study_files import check, checked, read
+from kille.lab.study_files.consent import check_allowed, python_in
 from ttr.safety.consent import OWN_FOLDER, Consent
 
 SHOWN = 10
@@ -102,7 +102,7 @@ def _run(study: Study, folder: Path, request: Request) -> int:
         except KeyboardInterrupt:
             return _report_stop(study, folder, stop.code)
     write_tables(folder)
-    page, results = reporting.report(folder, command=request.command, study=study)
+    page, results = reports.report(folder, command=request.command, study=study)
     print_summary(results)
     _tell(study, folder, page, summary)
     return FAILED if summary.broken else FINE

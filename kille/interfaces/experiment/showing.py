@@ -9,14 +9,14 @@ from pathlib import Path
 from shlex import join
 from typing import Any, TypeAlias
 
-from kille.experiments.results import Table
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
 from kille.interfaces.grids import print_table
 from kille.interfaces.terminal import FAILED, FINE, console, hang_text, print_json
-from kille.simulation.worlds import World
-from kille.studies import log
-from kille.studies.log.outcomes import Broken, Finished, Outcome
-from kille.studies.played import Answer, Turn
+from kille.lab import log
+from kille.lab.dialogues import Answer, Turn
+from kille.lab.log.outcomes import Broken, Finished, Outcome
+from kille.lab.results import Table
+from kille.lab.worlds.worlds import World
 
 SHOWN = 10
 """The most broken dialogues that are listed."""

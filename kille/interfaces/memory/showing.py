@@ -38,7 +38,7 @@ from kille.memory import (
 )
 from kille.memory.configurations import as_json as configuration_json
 from kille.memory.pictures import JPEG
-from kille.private import open_private
+from kille.safety.private_files import open_private
 
 _COLUMNS, _ROWS = 40, 12
 _NAME = 50  # characters of a word in the name of a file

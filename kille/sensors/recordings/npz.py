@@ -21,7 +21,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.archives import (
+from kille.safety.archives import (
     DamagedArchiveError,
     open_zip,
     read_array,

@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.meanings import named
-from kille.simulation.perceiving import glanced
-from kille.simulation.playing import simulated, words, world_of
-from kille.simulation.properties import OF_TUTORING
-from kille.simulation.robots import ROBOTS
-from kille.simulation.tutoring import roles_in
-from kille.simulation.tutors import NONSENSE, tutoring
-from kille.simulation.worlds import drawn
+from kille.lab.tutors.exploring import NONSENSE, tutoring
+from kille.lab.tutors.tested_game import roles_in
+from kille.lab.worlds.dialogue_properties import OF_TUTORING
+from kille.lab.worlds.games import simulated, words, world_of
+from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.robot_profiles import ROBOTS
+from kille.lab.worlds.worlds import drawn
 from ttr.testing import ALL, Suite
 from ttr.testing.strategies import play
 from ttr.updates.checks import faults_of

@@ -13,17 +13,17 @@ from typing import Any
 import pytest
 
 import kille
-from kille.agent import Agent
+from kille.agent.agent import Agent
+from kille.agent.story_replay import play
 from kille.dialogue import meanings
 from kille.dialogue.games import TUTORING
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import DialogueTypes, named, packaged_types
 from kille.dialogue.rules import NamedRule, bind, rule
 from kille.dialogue.tutoring import tutoring
-from kille.replay import play
-from kille.simulation.perceiving import glanced, seen
-from kille.simulation.playing import simulated
-from kille.simulation.worlds import Thing, World
+from kille.lab.worlds.games import simulated
+from kille.lab.worlds.perception import glanced, seen
+from kille.lab.worlds.worlds import Thing, World
 from ttr import Model, Rec, Theory, record
 from ttr.dialogues.stories import read_stories
 from ttr.errors import UpdateError

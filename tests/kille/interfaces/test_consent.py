@@ -11,12 +11,12 @@ import pytest
 
 from kille.dialogue.meanings import named
 from kille.dialogue.theory_files import theory_of_file
-from kille.studies import log
-from kille.studies.reading import checked, read
-from kille.studies.reading.consenting import unallowed
-from kille.studies.study import Theory
-from kille.studies.theories.describing import described
-from kille.studies.theories.judging import learners_of
+from kille.lab import log
+from kille.lab.study import Theory
+from kille.lab.study_files import checked, read
+from kille.lab.study_files.consent import unallowed
+from kille.lab.theories.classifiers import learners_of
+from kille.lab.theories.descriptions import described
 from ttr.safety.consent import NotAllowedError
 
 Run = Callable[..., Any]
@@ -44,7 +44,7 @@ from pathlib import Path
 Path(__file__).with_name("ran").touch()
 
 from kille.dialogue.games import TUTORING
-from kille.studies.tutors.tutor import Shows
+from kille.lab.tutors.tutor import Shows
 from ttr.updates import rules_of
 
 (rule,) = [it for it in rules_of(TUTORING) if it.name == "admit_name"]

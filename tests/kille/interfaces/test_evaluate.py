@@ -17,10 +17,10 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from kille.experiments import figures
-from kille.experiments.results import Figure, Result, Table
 from kille.interfaces import evaluate as interface
 from kille.interfaces.grids import print_table
+from kille.lab.reports import drawing
+from kille.lab.results import Figure, Result, Table
 
 from .conftest import COMMAND, Run
 
@@ -253,7 +253,7 @@ def test_the_same_seed_writes_the_same_report(kille: Run, place: Path) -> None:
 def test_without_matplotlib_tables_still_come(
     kille: Run, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(figures, "find_spec", lambda name: None)
+    monkeypatch.setattr(drawing, "find_spec", lambda name: None)
     outcome = kille(*MINE, "--protocol", "halves", "--report", "a.html")
     assert outcome.code == 0
     assert "4 of 4" in outcome.out
@@ -349,8 +349,8 @@ FIGURES = {
 def test_every_kind_of_figure_is_drawn(kind: str) -> None:
     pytest.importorskip("matplotlib")
     figure = Figure(kind, "title", FIGURES[kind])  # type: ignore[arg-type]
-    text = figures.svg(figure, 3)
-    assert text == figures.svg(figure, 3)
+    text = drawing.svg(figure, 3)
+    assert text == drawing.svg(figure, 3)
     assert text.startswith("<svg")
     assert "currentColor" in text
     assert not re.search(r"<!DOCTYPE|<metadata|id=\"figure", text)
@@ -359,7 +359,7 @@ def test_every_kind_of_figure_is_drawn(kind: str) -> None:
 def test_a_curve_without_a_point_is_drawn_as_nothing() -> None:
     pytest.importorskip("matplotlib")
     series = {"a": {"mean": []}, "b": {"mean": [None, 0.5], "x": [1, 3]}}
-    text = figures.svg(Figure("curves", "title", {"x": [], "series": series}))
+    text = drawing.svg(Figure("curves", "title", {"x": [], "series": series}))
     assert text.startswith("<svg")
 
 
@@ -367,7 +367,7 @@ def test_words_of_any_kind_are_drawn_as_they_are() -> None:
     pytest.importorskip("matplotlib")
     words = ["$\\bad{$", "<b>&", "日本語 \x1b[31m", "", "long " * 60]
     counts = np.eye(len(words)).tolist()
-    text = figures.svg(Figure("confusion", "odd", {"labels": words, "counts": counts}))
+    text = drawing.svg(Figure("confusion", "odd", {"labels": words, "counts": counts}))
     assert "$\\bad{$" in text
     assert "<b>" not in text
     assert "\x1b" not in text

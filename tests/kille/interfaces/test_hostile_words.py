@@ -15,15 +15,15 @@ from typing import Any
 import pytest
 from rich.cells import cell_len
 
-from kille.experiments.results import Table
 from kille.interfaces.doctor import as_json, as_text
 from kille.interfaces.doctor.finding import Finding
 from kille.interfaces.grids import print_table
 from kille.interfaces.replay import in_brief, replay
 from kille.interfaces.streams import prepare_streams
 from kille.interfaces.terminal import console
+from kille.lab.people.typed_lines import typed
+from kille.lab.results import Table
 from kille.memory import Memory, Sighting, Turn
-from kille.studies.persons.lines import typed
 
 Run = Callable[..., Any]
 

@@ -21,9 +21,9 @@ from typing import Any
 import pytest
 
 from kille.interfaces.experiment.people import in_turn, people_in
-from kille.studies import log
-from kille.studies.reading.file import parsed
-from kille.studies.study import Run
+from kille.lab import log
+from kille.lab.study import Run
+from kille.lab.study_files.file import parsed
 
 pytestmark = pytest.mark.slow
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille import Agent
-from kille.gaze import Gaze
+from kille.agent.attention import Gaze
 from kille.interfaces.showing import claims, derivation, show_nothing, things_in_view
 from kille.interfaces.terminal import hang_text, hanging_type
 

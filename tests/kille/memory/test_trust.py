@@ -300,7 +300,7 @@ def test_a_value_larger_than_any_is_one_line(
     seen: Sighting,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("kille.databases.LARGEST_VALUE", 100_000)
+    monkeypatch.setattr("kille.safety.databases.LARGEST_VALUE", 100_000)
     taught(path, said(1), seen)
     change(path, "UPDATE turns SET text = hex(zeroblob(60000))")
     assert "larger than any that kille keeps" in refusal(

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from tabletop import UP, Camera, Card, frame_of, share
 
-from kille.experiments.table import OnTable
+from kille.lab.scenes.shown_things import OnTable
 from kille.perception.features import features_of
 from kille.perception.look import look
 from kille.perception.pointing import region_at

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tabletop import LENS, SHAPE, UP, Card, frame_of, share
 
-from kille.experiments.regions import Score, captures, score
+from kille.lab.protocols.regions import Score, captures, score
 from kille.perception.geometry import CAMERA_UP, offset, table_axes
 from kille.perception.segment import (
     Segmentation,

@@ -1,0 +1,144 @@
+"""What the robot does when it makes a move: it learns, unlearns, recalls and points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from datetime import datetime
+
+from kille.agent.attention import Gaze
+from kille.agent.dialogue_log import Journal
+from kille.agent.explanations import Recollection, sign_of
+from kille.dialogue.meanings import DialogueTypes, claims, is_denial, value_at, word_of
+from kille.dialogue.reference import PARTS, phrase_at
+from kille.grounding.knowledge import Evidence, Knowledge, Named
+from kille.grounding.witness_functions import Witnesses, number_of
+from kille.memory import Word
+from kille.scene import Percept
+from ttr import Model, Record, RecordType, replace
+from ttr.types import PType, TypeNode
+
+
+class Body:
+    """Makes the moves of a game by what it knows and sees, and writes down from where.
+
+    A move is done before it is said. SensorError and MemoryFileError as gaze and memory
+    raise them.
+    """
+
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        witnesses: Witnesses,
+        gaze: Gaze,
+        journal: Journal,
+        now: Callable[[], datetime],
+        types: DialogueTypes,
+    ) -> None:
+        self._knowledge, self._witnesses = knowledge, witnesses
+        self._gaze, self._journal = gaze, journal
+        self._now, self._types = now, types
+
+    def act(self, planned: TypeNode, model: Model) -> tuple[Record, Model]:
+        """Make a planned move: the event, and the model in which it has been made."""
+        move, model = model.create(planned)
+        keys = tuple(str(self._learn(it, move.signs)) for it in move.teaches)
+        recollection = Recollection(
+            self._knowledge, self._witnesses, self._now(), self._types
+        )
+        dropped = recollection.dropped(move.drops)
+        undone = recollection.latest(len(move.undoes))
+        undone_keys = [it.key for it in undone]
+        lost = self._unlearned((*move.forgets, *dropped, *undone_keys))
+        if keys or move.forgets or dropped or undone:
+            self._witnesses.reconsider()
+            model = self._witnesses.in_model(model, move.signs, types=self._types)
+        for x in move.points:
+            self._gaze.point(str(number_of(x)))
+        done = {
+            "keys": keys,
+            "dropped": dropped,
+            "undone": undone or move.undone,
+            "lost": lost,
+            "reasons": [recollection.reason(it, move.signs) for it in move.explains],
+            "recalled": recollection.recalled(*move.recalls),
+        }
+        return replace(move, done), model
+
+    # --- learning --------------------------------------------------------------------
+
+    def _learn(self, content: RecordType, signs: Sequence[Record]) -> int:
+        """Learn that a content is so; the key of the lesson."""
+        learned = next(it for it in signs if claims(content, it))
+        match learned.kind:
+            case "relation":
+                return self._learn_relation(content, learned)
+            case "noun":
+                learn = self._knowledge.learn_noun
+            case _:
+                learn = self._knowledge.learn_attribute
+        return learn(
+            word_of(learned).name,
+            learned.form,
+            self._percept(content, "target"),
+            self._evidence(value_at(content, "look")),
+            article=learned.article,
+            holds=not is_denial(content),
+        )
+
+    def _learn_relation(self, content: RecordType, learned: Record) -> int:
+        look, front = value_at(content, "look"), value_at(content, "frame")
+        x, y = (value_at(phrase_at(content, part), "x") for part in PARTS)
+        stand = self._witnesses.configuration(x, y, look, front)
+        if stand is None:
+            raise _let_go(look)
+        return self._knowledge.learn_relation(
+            word_of(learned).name,
+            learned.form,
+            (self._named(content, "target"), self._named(content, "landmark")),
+            stand,
+            self._evidence(look),
+            article=learned.article,
+            holds=not is_denial(content),
+        )
+
+    def _named(self, content: RecordType, part: str) -> Named:
+        """A thing in a look, by the word that is said of it there."""
+        claim = phrase_at(content, part).get("c")
+        name = claim.pred.name if isinstance(claim, PType) else ""
+        return name, self._percept(content, part)
+
+    def _percept(self, content: RecordType, part: str) -> Percept:
+        x, look = value_at(phrase_at(content, part), "x"), value_at(content, "look")
+        percept = self._witnesses.percept(x, look)
+        if percept is None:
+            raise _let_go(look)
+        return percept
+
+    def _evidence(self, handle: str) -> Evidence:
+        look = self._witnesses.look(handle)
+        time = 0.0 if look is None else look.frame.time
+        return Evidence(self._journal.source(), self._gaze.sensor.name, time)
+
+    # --- unlearning ------------------------------------------------------------------
+
+    def _unlearned(self, keys: Collection[str]) -> tuple[Record, ...]:
+        """Unlearn these lessons; the words of which there are none left."""
+        if not keys:
+            return ()
+        before = self._knowledge.memory.words()
+        for key in keys:
+            self._knowledge.forget(int(key))
+        left = {
+            word_of(sign_of(it, self._types)) for it in self._knowledge.memory.words()
+        }
+        gone = [sign_of(it, self._types) for it in before if not self._is_known(it)]
+        return tuple(it for it in gone if word_of(it) not in left)
+
+    def _is_known(self, word: Word) -> bool:
+        """Whether it knows a word without having been taught it: that of a colour."""
+        colour = word.name.removeprefix("is_").replace("_", " ")
+        return word.kind == "attribute" and colour in self._knowledge.colours.labels
+
+
+def _let_go(look: str) -> RuntimeError:
+    return RuntimeError(f"{look} was let go before its lesson")

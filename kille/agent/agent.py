@@ -1,0 +1,423 @@
+"""The robot: it looks, hears, updates its state, learns for good, and speaks."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack
+from datetime import UTC, datetime
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from kille.agent.actions import Body
+from kille.agent.attention import Gaze, View
+from kille.agent.dialogue_log import Journal
+from kille.agent.exchanges import Exchange, Said
+from kille.agent.explanations import sign_of
+from kille.dialogue.games.clarifying import asked_which
+from kille.dialogue.language import Sentence, understand
+from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import DialogueTypes, set_to, types_of, word_of
+from kille.dialogue.state import blank_model
+from kille.dialogue.tutoring import heard, tutoring
+from kille.dialogue.wording import did_not_understand
+from kille.grounding.knowledge import Knowledge, Learners
+from kille.grounding.witness_functions import Witnesses, thing
+from kille.grounding.word_meanings import Vocabulary
+from kille.memory import Memory, MemoryFileError
+from kille.perception.look import SCANS
+from kille.sensors.sensor import Sensor, SensorError
+from ttr import Model, Record, RecType, Theory, TTRError, record
+from ttr.errors import UpdateError
+from ttr.judging import Judgement
+from ttr.probability import CERTAIN
+from ttr.semantics.perceptual import Meaning, Speaker
+from ttr.types import Singleton
+from ttr.updates import Game, Run, Step
+
+_POINTING = re.compile(r"#([0-9]{1,6})\b")
+
+TUTOR = "tutor"
+
+Played = tuple[Exchange, Run]
+"""A turn, and the state and model that it leads to."""
+
+
+class Agent:
+    """A robot that looks through a sensor and keeps what it learns in a memory.
+
+    It is its own context manager. `hear` takes what the tutor says, `do` changes the
+    scene, and both give the robot's answer. SensorError and MemoryFileError come as the
+    sensor and the memory raise them: the state is then as it was before the turn.
+
+    >>> with Agent(sensor="synthetic:empty") as robot:
+    ...     robot.hear("This is a cup.")
+    'I see nothing on the table.'
+    """
+
+    def __init__(
+        self,
+        sensor: str | Sensor = "synthetic",
+        memory: Memory | Path | str | None = None,
+        *,
+        language: str = "en",
+        mode: str = "",
+        wording: str = "",
+        scans: int = SCANS,
+        now: Callable[[], datetime] = lambda: datetime.now(UTC),
+        learners: Learners | None = None,
+        theory: Theory | DialogueTypes | None = None,
+        change: Callable[[Game], Game] | None = None,
+    ) -> None:
+        """A robot that is awake; other `learners` may judge its words.
+
+        Its games, its language and its meanings are made of the `theory`, by default
+        the packaged one. `change` makes another game of the one that it would play.
+        """
+        self.types = types_of(theory)
+        self.gaze = Gaze(sensor, scans)
+        self.language, self._mode, self._wording = language, mode, wording
+        self._now = now
+        self._learners, self._change = learners, change
+        self._lexicon = lexicon(language)
+        self.exchanges: list[Exchange] = []
+        with ExitStack() as failing:
+            failing.callback(self.gaze.close)
+            opened = _opened(memory)
+            failing.callback(opened.close)
+            self._wake(opened)
+            failing.pop_all()
+
+    def _wake(self, memory: Memory) -> None:
+        """Begin a dialogue, knowing what the memory holds."""
+        knowledge = Knowledge(memory, self._learners)
+        witnesses = Witnesses.of(knowledge)
+        colours = tuple(self._colour_words(knowledge.colours.labels))
+        counts = memory.counts()
+        taught = [
+            record(
+                sign=sign_of(it, self.types), lessons=float(counts[it.kind, it.name])
+            )
+            for it in memory.words()
+        ]
+        signs = (*colours, *(it.sign for it in taught))
+        known = list({word_of(it): it for it in signs}.values())
+        self._looks = 0
+        self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
+        self._journal = Journal(memory, self._now)
+        body = Body(
+            knowledge, witnesses, self.gaze, self._journal, self._now, self.types
+        )
+        game = tutoring(
+            known,
+            language=self.language,
+            mode=self._mode,
+            wording=self._wording,
+            model=witnesses.in_model(blank_model(self.types), known, types=self.types),
+            act=body.act,
+            colours=colours,
+            taught=taught,
+            types=self.types,
+        )
+        self.game: Game = game if self._change is None else self._change(game)
+        self._now_at = self.game.begin()
+
+    def _colour_words(self, known: Iterable[str]) -> Iterator[Record]:
+        """The words of its language for colours that people have named for it."""
+        by_meaning = {means: form for form, means in self._lexicon.means.items()}
+        for name in known:
+            form = by_meaning.get(name, "" if by_meaning else name)
+            if form:
+                yield self.types.sign(form, "adjective", means=name)
+
+    @property
+    def state(self) -> Record:
+        """The information state: all that it knows of the dialogue."""
+        return self._now_at.state
+
+    @property
+    def model(self) -> Model:
+        """The model in which its judgements are made."""
+        return self._now_at.model
+
+    # --- what a user does ------------------------------------------------------------
+
+    def hear(self, text: str) -> str:
+        """Take in what the tutor says; the robot's answer, a sentence a line.
+
+        `#2` in the text points at the thing with that number. Who says nothing leaves
+        the floor to the robot. What is not understood leaves the state as it was.
+        """
+        return self._taking(lambda: self._hearing(_legible(text)))
+
+    def hear_perhaps(self, *texts: tuple[str, float]) -> str:
+        """Take in what the tutor perhaps says: one of these texts, each so probable.
+
+        Each is one move. What was not heard well enough, the robot asks about. Raises
+        `UpdateError` for probabilities that are none, or come to more than 1.
+        """
+        _check_probable(texts)
+        return self._taking(lambda: self._overhearing(texts))
+
+    def look(self) -> str:
+        """Look at the scene of one's own accord; what the robot then says, if anything.
+
+        It may ask about what it sees.
+        """
+        return self._taking(self._looking)
+
+    def do(self, command: str) -> str:
+        """Change what there is to see, and look; what the robot then says, if anything.
+
+        Commands are those of `kille.sensors.stage`, and `look`, `point 2`,
+        `point 320 240`, `scene SENSOR`, `restart`. Pointing and restarting take no
+        look.
+        """
+        verb, _, rest = command.strip().partition(" ")
+        match verb:
+            case "point":
+                self.gaze.point(rest)
+                return ""
+            case "restart":
+                self._wake(self.memory)
+                return ""
+            case "scene":
+                self.gaze.turn_to(rest)
+            case "look":
+                pass
+            case _:
+                self.gaze.change(command)
+        return self.look()
+
+    def words(self) -> Speaker:
+        """Its words as perceptual meanings, as it knows them now.
+
+        They judge what is in the looks that it remembers. What they learn is learned by
+        new meanings: it is neither kept nor known to the robot.
+        """
+        known = self._knowledge
+        vocabulary = Vocabulary(self._witnesses, known.objects, known.relations)
+        private = self.state.private
+        return vocabulary.speaker("robot", private.nouns, private.relations)
+
+    def meaning(self, word: str) -> Meaning:
+        """One of its words as a perceptual meaning; `TTRError` if it knows none such.
+
+        >>> with Agent(sensor="synthetic:empty?seed=7") as robot:
+        ...     _ = robot.do("show cup")
+        ...     _ = robot.hear("This is a cup.")
+        ...     print(robot.meaning("cup").params)
+        {labels = [cup], learner = <Handle ObjectMemory>}
+        """
+        return self.words()[word]
+
+    @property
+    def view(self) -> View | None:
+        """The latest view of the scene, with the numbers of the things in it."""
+        return self.gaze.attention.view
+
+    @property
+    def trace(self) -> tuple[Step, ...]:
+        """Every rule that ran, in order, with the states before and after it."""
+        return tuple(step for exchange in self.exchanges for step in exchange.steps)
+
+    def close(self) -> None:
+        """Let go of the sensor and the memory."""
+        self.gaze.close()
+        self.memory.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    # --- taking turns ----------------------------------------------------------------
+
+    def _taking(self, turn: Callable[[], Played]) -> str:
+        """Take a turn, and keep it for good; or, if anything fails, none of it.
+
+        The state is taken over, and the answer given, when all of it is on disk.
+        """
+        attention = self.gaze.attention
+        try:
+            with self._knowledge.together(), self._journal.whole():
+                exchange, after = turn()
+        except BaseException as error:
+            self.gaze.attention = attention
+            self._witnesses.reconsider()
+            cause = _cause(error)
+            if cause is None:
+                raise
+            raise cause from cause.__cause__
+        self._now_at = after
+        self.exchanges.append(exchange)
+        return exchange.answer
+
+    def _hearing(self, text: str) -> Played:
+        """Take in all that a text says, move by move."""
+        numbers = _POINTING.findall(text)
+        for number in numbers:
+            self.gaze.point(number)
+        words = _POINTING.sub(" ", text)
+        if not words.strip():
+            if not numbers or not self.state.shared.qud:
+                return self._looking()
+            words = self._lexicon.pointing
+        exchange, now = Exchange(text, None, (), ()), self._now_at
+        for said in self._sentences(words, text if len(numbers) == 1 else ""):
+            sentence = self._in_full(said, now.state)
+            exchange, now = self._answering(sentence, heard(sentence), exchange, now)
+        return exchange, now
+
+    def _overhearing(self, texts: Sequence[tuple[str, float]]) -> Played:
+        """Take in a move that may have been said in one of several ways."""
+        sentences = [
+            understand(_legible(text), self.language, types=self.types)[0]
+            for text, _ in texts
+        ]
+        ways = tuple(reading for it in sentences for reading in it.readings)
+        text = " | ".join(f"{text} {p:g}" for text, p in texts)
+        text = text if ways else max(texts, key=lambda it: it[1])[0]
+        event = heard(*sentences, p=[p for _, p in texts])
+        so_far = Exchange(text, None, (), ())
+        return self._answering(Sentence(text, ways), event, so_far, self._now_at)
+
+    def _answering(
+        self, sentence: Sentence, event: object, so_far: Exchange, now: Run
+    ) -> Played:
+        """Take in one move of the tutor's, and answer it."""
+        self._journal.heard(sentence.text)
+        if not sentence.readings:
+            sorry = Said(
+                did_not_understand(self._lexicon, sentence.text, types=self.types), None
+            )
+            self._journal.said(sorry.text)
+            return so_far.then(None, (), (sorry,)), now
+        if any("look" in reading.content for reading in sentence.readings):
+            glance, now = self._seeing("Glance", "tutor", now)
+            so_far = so_far.then(None, glance.steps, ())
+        answered, after = self._played(now, event)
+        judged = _judged(sentence, answered.steps, after.model)
+        self._journal.understood(str(judged))
+        return so_far.then(judged, answered.steps, answered.said), after
+
+    def _looking(self) -> Played:
+        """A look of one's own accord, about which nothing can be learned yet."""
+        self._journal.looking()
+        return self._seeing("Seen", "robot", self._now_at)
+
+    def _played(self, now: Run, event: object) -> Played:
+        """Play an event, and what the robot says to it."""
+        assert self.game.say is not None
+        turn = self.game.take(now, event)
+        said = tuple(Said(self.game.say(move), move) for move in turn.said)
+        for it in said:
+            self._journal.said(it.text, str(it.judgement))
+        return Exchange("", None, turn.trace, said), turn.run
+
+    def _sentences(self, words: str, numbered: str) -> tuple[Sentence, ...]:
+        """The sentences of a text; its number, if need be, as "this": "What is #2?"."""
+        sentences = understand(words, self.language, types=self.types)
+        if not numbered or all(it.readings for it in sentences):
+            return sentences
+        this = self._lexicon.referring["shown"]
+        named = understand(
+            _POINTING.sub(f" {this} ", numbered), self.language, types=self.types
+        )
+        return named if all(it.readings for it in named) else sentences
+
+    def _in_full(self, sentence: Sentence, s: Record) -> Sentence:
+        """What is no sentence by itself, but answers which thing was meant: "Red."."""
+        if sentence.readings or not asked_which(s):
+            return sentence
+        text = self._lexicon.answering.replace("{text}", sentence.text)
+        first, *more = understand(text, self.language, types=self.types)
+        return sentence if more else Sentence(sentence.text, first.readings)
+
+    # --- seeing ----------------------------------------------------------------------
+
+    def _seeing(self, kind: str, floor: str, now: Run) -> Played:
+        """Take a look, and play it as an event."""
+        view = self.gaze.look()
+        self._looks += 1
+        handle = f"look{self._looks}"
+        self._witnesses.remember(handle, view.look, _looks_of(now.state))
+        things = [thing(number) for number in range(1, len(view.look.percepts) + 1)]
+        places = [percept.region.place for percept in view.look.percepts]
+        seen = record(
+            look=handle,
+            things=things,
+            placed=[x for x, place in zip(things, places, strict=True) if place],
+            focus=[] if view.focus is None else [thing(view.focus)],
+        )
+        model = now.model.given(handle, self.types["Look"])
+        for x in things:
+            model = model.given(x, self.types["Ind"])
+        kept = [thing(number) for number in view.kept]
+        event = record(view=seen, kept=kept, floor=floor)
+        return self._played(now._replace(model=model), event)
+
+
+def _opened(memory: Memory | Path | str | None) -> Memory:
+    match memory:
+        case None:
+            return Memory.transient()
+        case Memory():
+            return memory
+    return Memory.open(Path(memory))
+
+
+def _cause(error: BaseException) -> SensorError | MemoryFileError | None:
+    """What failed in the body, where a move of the game failed because of it."""
+    cause = error.__cause__ if isinstance(error, TTRError) else None
+    while cause is not None:
+        if isinstance(cause, SensorError | MemoryFileError):
+            return cause
+        cause = cause.__cause__
+    return None
+
+
+def _judged(sentence: Sentence, steps: Sequence[Step], model: Model) -> Judgement:
+    """The move that a sentence was taken to be, as a judgement.
+
+    An answer to a question of the robot's may make another move the latest one.
+    """
+    taken = [it.after.shared.latest for it in steps if it.after.shared.latest]
+    judged = (
+        model.judge(move, set_to(reading.type, content=RecType @ move.content))
+        for move in reversed(taken)
+        if move.spkr == TUTOR
+        for reading in sentence.readings
+    )
+    return next(it for it in judged if it.p == CERTAIN)
+
+
+def _looks_of(s: Record) -> set[str]:
+    """The looks that the tutor may still confirm or set right something about."""
+    open_ = [option.content for issue in s.shared.qud for option in issue.options]
+    taught = [it.content for it in s.private.lessons[-1:]]
+    looks = [it.get("look") for it in (*s.shared.pending, *open_, *taught)]
+    return {str(look.value) for look in looks if isinstance(look, Singleton)}
+
+
+def _check_probable(texts: Sequence[tuple[str, float]]) -> None:
+    if not texts:
+        raise UpdateError("nothing was perhaps said: give texts and probabilities")
+    for text, p in texts:
+        if not 0 < p <= 1:
+            raise UpdateError(
+                f"what was perhaps said has a probability above 0 and at most 1, but "
+                f"{text[:40]!r} has {p}"
+            )
+
+
+def _legible(text: str) -> str:
+    """The text without halves of characters, which no file can keep."""
+    return text.encode("utf-8", "replace").decode("utf-8")

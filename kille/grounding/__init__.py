@@ -1,0 +1,1 @@
+"""Grounding: what is seen and learned decides what the robot's words are true of."""

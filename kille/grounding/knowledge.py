@@ -1,0 +1,412 @@
+"""What the robot has learned: lessons kept for good, and learners made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from typing import Protocol, Self
+
+import numpy as np
+
+from kille.grounding.reasons import Reasons, Share, best_rival, shares_of
+from kille.memory import (
+    Arrangement,
+    Kind,
+    Lesson,
+    Memory,
+    ObjectLesson,
+    Picture,
+    RelationLesson,
+    Scan,
+    Sighting,
+    Turn,
+)
+from kille.perception.attributes import AttributeMemory
+from kille.perception.colours import ColourMemory, Palette, colours_of, xkcd
+from kille.perception.colours.palette import packed, unpacked
+from kille.perception.cues import CUES, measured
+from kille.perception.evidence import Evidence as Heard
+from kille.perception.features import NONE
+from kille.perception.index import Background, View
+from kille.perception.learners import Key
+from kille.perception.objects import ObjectMemory, kept_features
+from kille.perception.relations import RelationMemory
+from kille.perception.thumbnails import evidence_of, restore_crop
+from kille.scene import Configuration, Percept, Region, Traits
+
+SAID_OF_THINGS = "is_"
+"""How the predicates of words for how things are begin."""
+
+PALETTE = "palette"
+"""The trait in which the colours of a thing are kept, as they were in its light."""
+
+Named = tuple[str, Percept]
+"""A thing and the name of its word."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Where a lesson comes from: what was said, seen through which sensor, and when."""
+
+    turn: Turn
+    sensor: str
+    time: float
+
+
+def _unhurried(views: Iterable[View]) -> ObjectMemory:
+    """A memory that has its index built while it goes on, see `Background`."""
+    return ObjectMemory(views, builder=Background())
+
+
+@dataclass(frozen=True)
+class Learners:
+    """What makes the learners of nouns, from views, and of relations."""
+
+    objects: Callable[[Iterable[View]], ObjectMemory] = _unhurried
+    relations: Callable[[], RelationMemory] = RelationMemory
+
+
+class Knowledge:
+    """The learners of words, which know what the memory holds and nothing else.
+
+    What is learned inside `together` is on disk when that ends; if anything fails, the
+    memory and the learners are as they were. MemoryFileError as the memory raises it.
+    Others than its own `learners` may judge nouns and relations.
+    """
+
+    def __init__(self, memory: Memory, learners: Learners | None = None) -> None:
+        learners = Learners() if learners is None else learners
+        self.memory = memory
+        self._undoing: ExitStack | None = None
+        self.colours = ColourMemory(prior=xkcd())
+        self.attributes = AttributeMemory()
+        self.relations = learners.relations()
+        denied: list[View] = []
+        self.objects = learners.objects(_views(memory, denied))
+        for view in denied:
+            self.objects.deny(view)
+        for lesson in memory.attributes():
+            shown = _palette_in(lesson.seen.traits)
+            traits = _up_to_date(memory, lesson)
+            self._learn_attribute(
+                lesson.key, lesson.word.name, traits, shown, lesson.holds
+            )
+        for placed in memory.relations():
+            stand = placed.seen.configuration
+            self._learn_relation(placed.key, placed.word.name, stand, placed.holds)
+
+    @contextmanager
+    def together(self) -> Iterator[None]:
+        """All that is learned, forgotten and kept inside is so for good, or none of it.
+
+        It may be a part of a larger whole, with which it is undone.
+        """
+        outer = self._undoing
+        with ExitStack() as undoing:
+            self._undoing = undoing
+            try:
+                with self.memory.together():
+                    yield
+            finally:
+                self._undoing = outer
+            done = undoing.pop_all()
+        if outer is not None:
+            outer.callback(done.close)
+
+    def learn_noun(
+        self,
+        name: str,
+        surface: str,
+        percept: Percept,
+        evidence: Evidence,
+        *,
+        article: str = "",
+        holds: bool = True,
+    ) -> int:
+        """Learn that this is what the word is said of, or that it is not; the key."""
+        seen = self._sighting(percept, evidence, self.objects.traits_of(percept))
+        learn = self.objects.learn_one if holds else self.objects.deny_one
+        with self.together():
+            key = self.memory.learn_object(
+                evidence.turn, name, surface, seen, article=article, holds=holds
+            )
+            learn(percept, name, key=key)
+            self._undo(self.objects.forget, key)
+        return key
+
+    def learn_attribute(
+        self,
+        name: str,
+        surface: str,
+        percept: Percept,
+        evidence: Evidence,
+        *,
+        article: str = "",
+        holds: bool = True,
+    ) -> int:
+        """Learn that this is how the thing is, or that it is not so; the key.
+
+        A word for a colour that most people know is learned as one, any other as one of
+        the tutor's own.
+        """
+        traits = dict(self.objects.traits_of(percept))
+        palette = _palette_of(percept)
+        if palette is not None:
+            traits[PALETTE] = packed(palette)
+        seen = self._sighting(percept, evidence, traits)
+        shown = _palette_in(traits)
+        with self.together():
+            key = self.memory.learn_attribute(
+                evidence.turn, name, surface, seen, article=article, holds=holds
+            )
+            self._learn_attribute(key, name, _of_cues(traits), shown, holds)
+            learner = self._learner_of(name, shown)
+            self._undo(learner.forget, key)
+        return key
+
+    def learn_relation(
+        self,
+        name: str,
+        surface: str,
+        things: tuple[Named, Named],
+        stand: Configuration,
+        evidence: Evidence,
+        *,
+        article: str = "",
+        holds: bool = True,
+    ) -> int:
+        """Learn that the relation holds of a target that stands so to a landmark, or
+        that it does not; the key."""
+        (target, percept), (landmark, other) = things
+        picture = _picture(percept, other.region)
+        seen = Arrangement(
+            evidence.sensor, evidence.time, target, landmark, stand, picture
+        )
+        with self.together():
+            key = self.memory.learn_relation(
+                evidence.turn, name, surface, seen, article=article, holds=holds
+            )
+            self._learn_relation(key, name, stand, holds)
+            self._undo(self.relations.forget, key)
+        return key
+
+    def forget(self, key: int) -> None:
+        """Be as if this lesson had never been. NoSuchLessonError as the memory."""
+        with self.together():
+            lesson = self.memory.lesson(key)
+            self.memory.forget(key)
+            self._forget(lesson)
+
+    def forget_word(self, kind: Kind, name: str) -> tuple[int, ...]:
+        """Be as if the word had never been taught; the keys of its lessons.
+
+        NoSuchLessonError as the memory raises it.
+        """
+        with self.together():
+            keys = self.memory.keys_of(kind, name)
+            lessons = [self.memory.lesson(key) for key in keys]
+            self.memory.forget_word(kind, name)
+            self._forget(*lessons)
+        return keys
+
+    # --- why -------------------------------------------------------------------------
+
+    def reasons(
+        self,
+        word: str,
+        percept: Percept,
+        rival: str | None = None,
+        *,
+        heard: Heard | None = None,
+    ) -> Reasons:
+        """Why a noun is taken to hold of a thing, and not a rival.
+
+        The rival is the best one unless it is given; so is the evidence, unless it was
+        heard before. KeyError for a noun that was not learned.
+        """
+        evidence = self.objects.evidence(percept) if heard is None else heard
+        degrees = evidence.degrees()
+        rival, margin = best_rival(word, degrees, rival)
+        against = rival if rival in degrees else None
+        view = self.objects.nearest(percept, word)
+        cues = shares_of(evidence.reasons(word, against)) if word in degrees else ()
+        lesson = self._lesson(None if view is None else view.key)
+        return Reasons(word, degrees.get(word, 0.0), cues, lesson, rival, margin)
+
+    def attribute_reasons(self, word: str, percept: Percept) -> Reasons:
+        """Why a word for how things are is taken to hold of a thing.
+
+        KeyError for a word that is not known.
+        """
+        palette, colour = _palette_of(percept), colour_named(self.colours, word)
+        if colour is not None:
+            if palette is None:
+                return Reasons(word, 0.0, (), None, None, None)
+            degrees = self.colours.degrees(palette)
+            found = self._lesson(self.colours.nearest(palette, colour))
+            cues = (Share("colour", 1.0),)
+            return Reasons(word, degrees[colour], cues, found, None, None)
+        traits = self.objects.traits_of(percept)
+        spoken_of = self.attributes.speaks_of(word)
+        degree = self.attributes.degrees(traits)[word]
+        nearest = self._lesson(self.attributes.nearest(traits, word))
+        return Reasons(word, degree, shares_of(spoken_of), nearest, None, None)
+
+    def relation_reasons(
+        self, word: str, stand: Configuration, rival: str | None = None
+    ) -> Reasons:
+        """Why a relation is taken to hold of things that stand so.
+
+        KeyError for a relation that was not learned.
+        """
+        nearest = self._lesson(self.relations.nearest(stand, word))
+        degrees = self.relations.degrees(stand)
+        rival, margin = best_rival(word, degrees, rival)
+        cues = (Share("configuration", 1.0),)
+        return Reasons(word, degrees[word], cues, nearest, rival, margin)
+
+    # --- learners --------------------------------------------------------------------
+
+    def _undo(self, undo: Callable[..., object], *given: object) -> None:
+        """Have this done if the whole of which it is a part fails."""
+        if self._undoing is not None:
+            self._undoing.callback(undo, *given)
+
+    def _forget(self, *lessons: Lesson) -> None:
+        """Have the learners forget lessons; undone, they know all in its order."""
+        taught = [(self._taught_by(lesson), lesson.key) for lesson in lessons]
+        for learner in {id(learner): learner for learner, _ in taught}.values():
+            self._undo(learner.become, learner.copy())
+        for learner, key in taught:
+            learner.forget(key)
+
+    def _taught_by(self, lesson: Lesson) -> _Learner:
+        match lesson:
+            case RelationLesson():
+                return self.relations
+            case ObjectLesson() if lesson.word.kind == "attribute":
+                shown = _palette_in(lesson.seen.traits)
+                return self._learner_of(lesson.word.name, shown)
+        return self.objects
+
+    def _learner_of(self, name: str, shown: Palette | None) -> _Learner:
+        colour = colour_named(self.colours, name)
+        unknown = shown is None or colour is None
+        return self.attributes if unknown else self.colours
+
+    def _learn_attribute(
+        self, key: int, name: str, traits: Traits, shown: Palette | None, holds: bool
+    ) -> None:
+        colour = colour_named(self.colours, name)
+        if shown is not None and colour is not None:
+            learn = self.colours.learn_one if holds else self.colours.deny_one
+            learn(shown, colour, key=key)
+            return
+        teach = self.attributes.learn_one if holds else self.attributes.deny_one
+        teach(traits, name, key=key)
+
+    def _learn_relation(
+        self, key: int, name: str, stand: Configuration, holds: bool
+    ) -> None:
+        if holds:
+            self.relations.learn_one(stand, name, key=key)
+        else:
+            self.relations.judge_one(stand, name, 0.0, key=key)
+
+    def _lesson(self, key: Key | None) -> Lesson | None:
+        return self.memory.lesson(key) if isinstance(key, int) else None
+
+    def _sighting(
+        self, percept: Percept, evidence: Evidence, traits: Traits
+    ) -> Sighting:
+        features = kept_features(percept)
+        return Sighting(
+            evidence.sensor,
+            evidence.time,
+            (Scan(features.descriptors, features.points),),
+            percept.region.place,
+            traits,
+            _picture(percept),
+        )
+
+
+class _Learner(Protocol):
+    """What all learners have in common."""
+
+    def forget(self, key: Key) -> None: ...
+
+    def copy(self) -> Self: ...
+
+    def become(self, other: Self) -> None: ...
+
+
+def colour_named(colours: ColourMemory, word: str) -> str | None:
+    """The colour that the predicate of an adjective is named after, if it is known.
+
+    >>> colour_named(ColourMemory(prior=xkcd()), "is_light_blue")
+    'light blue'
+    """
+    colour = word.removeprefix(SAID_OF_THINGS).replace("_", " ")
+    return colour if colours.knows(colour) else None
+
+
+def _picture(percept: Percept, *others: Region) -> Picture | None:
+    """What is kept to show what was seen; nothing of what was only described."""
+    frame = percept.frame
+    return None if frame is None else evidence_of(frame, percept.region, *others)
+
+
+def _palette_of(percept: Percept) -> Palette | None:
+    """The colours of what is seen; None of what has none, or was only described."""
+    frame = percept.frame
+    return None if frame is None else colours_of(frame, percept.region)
+
+
+def _palette_in(traits: Traits) -> Palette | None:
+    """The colours that were kept with a lesson, if any were."""
+    try:
+        return unpacked(traits[PALETTE]) if PALETTE in traits else None
+    except ValueError:  # a memory may have been made by another program
+        return None
+
+
+def _of_cues(traits: Traits) -> Traits:
+    """The traits that cues of today have measured."""
+    return {
+        cue: vector
+        for cue, vector in traits.items()
+        if cue in CUES and len(vector) == CUES[cue].length
+    }
+
+
+def _views(memory: Memory, denied: list[View]) -> Iterator[View]:
+    """The views of the lessons in nouns; those denied are put into the list instead."""
+    for lesson in memory.objects():
+        view = _view(memory, lesson)
+        if lesson.holds:
+            yield view
+        else:
+            denied.append(view)
+
+
+def _view(memory: Memory, lesson: ObjectLesson) -> View:
+    descriptors = np.concatenate(
+        [NONE.descriptors, *(it.descriptors for it in lesson.seen.scans)]
+    )
+    traits = _up_to_date(memory, lesson)
+    return View(lesson.key, lesson.word.name, descriptors, traits)
+
+
+def _up_to_date(memory: Memory, lesson: ObjectLesson) -> Traits:
+    """The traits of a lesson; measured anew if one is of a cue that has changed."""
+    kept = _of_cues(lesson.seen.traits)
+    if kept and len(kept) == len(lesson.seen.traits.keys() - {PALETTE}):
+        return kept
+    picture = memory.picture(lesson.key)
+    if picture is None or picture.crop is None:
+        return kept
+    try:
+        return measured(*restore_crop(picture.crop))
+    except ValueError:  # a picture that another program made, and nobody can read
+        return kept

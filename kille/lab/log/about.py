@@ -1,0 +1,84 @@
+"""What a log is of: the study, what it names, and what its dialogues are played by."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import sqlite3
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+
+from kille.lab.log.outcomes import RunError
+from kille.lab.log.schema import check_ours
+from kille.lab.log.sources import changed, sources
+from kille.lab.study import Study
+
+
+@dataclass(frozen=True)
+class About:
+    """What a log is of: the study, how many dialogues it has, and what made them."""
+
+    title: str
+    source: str
+    """The text of the study."""
+    file: Path
+    """Where the text is from; the paths in it begin in its folder."""
+    planned: int
+    began: str
+    versions: Mapping[str, str]
+    sources: Mapping[str, str]
+    """The digests of the study and of the files that it names."""
+
+
+def facts(study: Study, folder: Path) -> dict[str, str]:
+    """What a new log keeps of a study, by name."""
+    return {
+        "title": study.title,
+        "source": study.source,
+        "folder": os.path.relpath(study.folder.resolve(), folder.resolve()),
+        "file": study.file.name,
+        "planned": str(sum(1 for _ in study.runs())),
+        "began": datetime.now(UTC).isoformat(timespec="seconds"),
+        "versions": json.dumps(versions()),
+        "sources": json.dumps(sources(study)),
+    }
+
+
+def versions() -> dict[str, str]:
+    """What dialogues are played by here."""
+    packages = ("kille", "numpy", "scikit-learn", "opencv-contrib-python-headless")
+    return {"python": platform.python_version(), **{it: version(it) for it in packages}}
+
+
+def about_in(connection: sqlite3.Connection, folder: Path) -> About:
+    """What is kept in a log; RunError where it is none."""
+    check_ours(connection, folder)
+    found = dict(connection.execute("SELECT name, value FROM about"))
+    return About(
+        found["title"],
+        found["source"],
+        Path(os.path.normpath(folder.resolve() / found["folder"]), found["file"]),
+        int(found["planned"]),
+        found["began"],
+        json.loads(found["versions"]),
+        json.loads(found["sources"]),
+    )
+
+
+def check_same(before: About, study: Study, folder: Path) -> None:
+    """Refuses what would mix dialogues that are not of one study."""
+    differs = changed(before.sources, sources(study))
+    if differs:
+        raise RunError(
+            f"{folder} has dialogues of another study: {differs[0]} has changed since; "
+            f"name another folder with --out, or put it back as it was"
+        )
+    if (found := version("kille")) != before.versions["kille"]:
+        raise RunError(
+            f"{folder} was begun with kille {before.versions['kille']}, and this is "
+            f"{found}: name another folder with --out, or go on with that one"
+        )

@@ -1,0 +1,100 @@
+"""What becomes of a run: a dialogue that was played, or why it could not be."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable, Generator, Sequence
+from pathlib import Path
+from typing import NamedTuple, TypeAlias
+
+from kille.lab.dialogues import Played
+from kille.lab.errors import StudyError
+from kille.lab.study import Run, Study
+
+Play: TypeAlias = Callable[[Study, Run], Played]
+"""What plays one dialogue of a study."""
+
+LONGEST = 300
+
+
+class RunError(StudyError):
+    """Dialogues that cannot be played, kept or found: one line, with a way out."""
+
+    def __init__(self, fault: str) -> None:
+        super().__init__([fault])
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return RunError, self.faults
+
+
+class Finished(NamedTuple):
+    """A dialogue as it went, and how many seconds it took."""
+
+    run: Run
+    played: Played
+    seconds: float
+
+
+class Broken(NamedTuple):
+    """A dialogue that could not be played to its end: why in one line, and where."""
+
+    run: Run
+    reason: str
+    trace: str
+    seconds: float
+
+
+Outcome: TypeAlias = Finished | Broken
+
+PlayAll: TypeAlias = Callable[[Sequence[Run]], Generator[Outcome, None, None]]
+"""Plays many dialogues; what became of them, as they end."""
+
+DEADLY = "every worker that played it died: is there memory enough?"
+"""Why a dialogue is broken that nobody lived through."""
+
+
+def outcome(study: Study, run: Run, play: Play) -> Outcome:
+    """What becomes of a run, whatever the theory or the tutor in it does.
+
+    >>> def play(study, run):
+    ...     return {}[run.theory]
+    >>> outcome(Study("", {}, {}, {}, (), ()), Run("a", "Ann", "table", 1), play).reason
+    "KeyError: 'a' (<doctest ...>, line 2, in play)"
+    """
+    start = time.perf_counter()
+    try:
+        played = play(study, run)
+    except (Exception, SystemExit) as error:
+        return broken(run, error, time.perf_counter() - start)
+    return Finished(run, played, time.perf_counter() - start)
+
+
+def broken(run: Run, error: BaseException, seconds: float) -> Broken:
+    """A run of which this error is the end, after so many seconds."""
+    trace = "".join(traceback.format_exception(error))
+    return Broken(run, _whole(reason_of(_root(error))), _whole(trace), seconds)
+
+
+def _whole(text: str) -> str:
+    """A text that can be kept: halves of characters are spelled out."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def _root(error: BaseException) -> BaseException:
+    """What was first to go wrong: what a learner of one's own raised, not who told."""
+    while error.__cause__ is not None:
+        error = error.__cause__
+    return error
+
+
+def reason_of(error: BaseException) -> str:
+    """What went wrong and where, in one line."""
+    told = " ".join(f"{type(error).__name__}: {error}".split()).rstrip(": ")
+    if len(told) > LONGEST:
+        told = f"{told[: LONGEST - 1]}…"
+    frames = traceback.extract_tb(error.__traceback__)
+    if not frames:
+        return told
+    last = frames[-1]
+    return f"{told} ({Path(last.filename).name}, line {last.lineno}, in {last.name})"

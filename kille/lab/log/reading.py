@@ -1,0 +1,147 @@
+"""Reading a log: its dialogues in the order of the study, however they ended.
+
+A log can be read while another writes to it, and where nothing can be written.
+"""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import Any, TypeVar
+
+from kille.lab.dialogues import Answer, Played, Turn
+from kille.lab.log.about import About, about_in
+from kille.lab.log.cells import of_cells
+from kille.lab.log.folders import FILE, connected, explained, reading_mode
+from kille.lab.log.outcomes import Broken, Finished, Outcome, RunError
+from kille.lab.log.schema import check_ours, check_rows, table
+from kille.lab.study import Run, Study
+from kille.safety.databases import printable_name
+from ttr.safety.consent import Consent
+
+NO_PYTHON = Consent(python=False)
+"""What a user consents to who names a log."""
+
+Row = TypeVar("Row", Turn, Answer)
+
+
+def read(folder: Path) -> Iterator[Finished]:
+    """All dialogues that were played to their end, in the order of the study.
+
+    RunError where there is no log.
+    """
+    for it in outcomes(folder):
+        if isinstance(it, Finished):
+            yield it
+
+
+def broken(folder: Path) -> tuple[Broken, ...]:
+    """All dialogues that were not, in the order of the study."""
+    with _reading(folder) as connection:
+        rows = connection.execute(f"{_RUNS} WHERE reason <> '' ORDER BY place")
+        return tuple(_broken(row) for row in rows)
+
+
+def outcomes(folder: Path) -> Iterator[Outcome]:
+    """What became of all runs so far, in the order of the study."""
+    with _reading(folder) as connection:
+        rows = connection.execute(f"{_RUNS} ORDER BY place")
+        for row in rows:
+            yield _outcome(connection, row)
+
+
+def named(folder: Path, name: str) -> Outcome:
+    """What became of a run, by its name or its number, from 1.
+
+    RunError where there is no such run in the log.
+    """
+    with _reading(folder) as connection:
+        for row in connection.execute(f"{_RUNS} ORDER BY place"):
+            if name in (str(row[0] + 1), str(Run(*row[1:5]))):
+                return _outcome(connection, row)
+        example = connection.execute(f"{_RUNS} ORDER BY place LIMIT 1").fetchone()
+    hint = "none is over yet" if example is None else f"one is {Run(*example[1:5])}"
+    raise RunError(f"there is no dialogue {name} in {folder}: {hint}")
+
+
+def over(folder: Path) -> int:
+    """How many runs are over, as they should be or not."""
+    with _reading(folder) as connection:
+        (found,) = connection.execute("SELECT count(*) FROM runs").fetchone()
+        return int(found)
+
+
+def about(folder: Path) -> About:
+    """What the log in a folder is of; RunError where there is none."""
+    with _reading(folder) as connection:
+        return about_in(connection, folder)
+
+
+def facts(folder: Path) -> tuple[str, ...]:
+    """The names of what else was counted in any dialogue, in order."""
+    with _reading(folder) as connection:
+        found = connection.execute("SELECT DISTINCT facts FROM runs").fetchall()
+    return tuple(sorted({name for (it,) in found for name in json.loads(it)}))
+
+
+def study(folder: Path, consent: Consent = NO_PYTHON) -> Study:
+    """The study that the log in a folder is of, read from the text that was kept.
+
+    A log says itself where its files are. So none of the Python that it names may be
+    run, unless there is consent to that.
+    """
+    from kille.lab.study_files import parsed
+
+    it = about(folder)
+    return parsed(it.source, it.file, consent)
+
+
+_RUNS = """
+    SELECT place, theory, tutor, scene, seed, seconds, lessons, facts, reason, trace
+    FROM runs
+"""
+
+
+def _outcome(connection: sqlite3.Connection, row: tuple[Any, ...]) -> Outcome:
+    place, *run, seconds, lessons, facts, reason, _ = row
+    if reason:
+        return _broken(row)
+    played = Played(
+        _rows(connection, place, Turn),
+        _rows(connection, place, Answer),
+        lessons,
+        json.loads(facts),
+    )
+    return Finished(Run(*run), played, seconds)
+
+
+def _broken(row: tuple[Any, ...]) -> Broken:
+    _, *run, seconds, _, _, reason, trace = row
+    return Broken(Run(*run), reason, trace, seconds)
+
+
+def _rows(connection: sqlite3.Connection, place: int, of: type[Row]) -> tuple[Row, ...]:
+    told = f"SELECT * FROM {table(of)} WHERE run = ? ORDER BY line"
+    return tuple(of_cells(of, row[2:]) for row in connection.execute(told, (place,)))
+
+
+@contextmanager
+def _reading(folder: Path) -> Iterator[sqlite3.Connection]:
+    path = folder / FILE
+    if not path.is_file():
+        raise RunError(
+            f"there is no {FILE} in {folder}: name a folder of results, such as "
+            f"kille experiment run makes"
+        )
+    with explained(folder), closing(connected(path, reading_mode(path))) as connection:
+        check_ours(connection, folder)
+        check_rows(connection, folder)
+        try:
+            yield connection
+        except (ValueError, TypeError, KeyError, RecursionError) as error:
+            raise RunError(
+                f"{path} is damaged ({printable_name(str(error))}): put back a copy"
+            ) from error

@@ -1,0 +1,127 @@
+"""Writing a log: each dialogue is one transaction.
+
+So a kill at any moment leaves a dialogue whole or not there.
+"""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager, suppress
+from pathlib import Path
+from typing import Any, Self
+
+from kille.lab.dialogues import Answer, Turn
+from kille.lab.log.about import about_in, check_same, facts
+from kille.lab.log.cells import cells
+from kille.lab.log.folders import FILE, connected, explained, locked
+from kille.lab.log.outcomes import Broken, Finished, Outcome, broken
+from kille.lab.log.schema import check_rows, is_empty, make, marks, table
+from kille.lab.study import Run, Study
+from kille.safety.private_files import create_private_file
+
+
+class Log:
+    """The log of a study that is open to write; `opened` makes or goes on with one."""
+
+    def __init__(self, study: Study, folder: Path, connection: sqlite3.Connection):
+        self.folder = folder
+        self._connection = connection
+        self._places = {run: place for place, run in enumerate(study.runs())}
+
+    @classmethod
+    @contextmanager
+    def opened(cls, study: Study, folder: Path) -> Iterator[Self]:
+        """The log of this study in a folder, for one writer at a time.
+
+        RunError where another study's log is there, where another writes to it, or
+        where it cannot be written.
+        """
+        with locked(folder), closing(_prepared(study, folder)) as connection:
+            yield cls(study, folder, connection)
+            # One file is easier to keep; what still reads it may leave it as it is.
+            with suppress(sqlite3.OperationalError):
+                connection.execute("PRAGMA journal_mode = DELETE")
+
+    def over(self) -> Mapping[Run, str]:
+        """The runs that are over, each with the reason why it broke, if it did."""
+        told = "SELECT theory, tutor, scene, seed, reason FROM runs ORDER BY place"
+        rows: list[tuple[Any, ...]] = self._connection.execute(told).fetchall()
+        return {Run(*run): reason for *run, reason in rows}
+
+    def forget_broken(self) -> int:
+        """Drops what is kept of broken runs, so that they are played again."""
+        told = "DELETE FROM runs WHERE reason <> ''"
+        with explained(self.folder), self._connection:
+            return self._connection.execute(told).rowcount
+
+    def write(self, outcome: Outcome) -> Outcome:
+        """Keeps what became of a run, all of it or nothing; gives what is kept.
+
+        A dialogue with something in it that cannot be kept, such as a tutor's half of a
+        character, is a broken one.
+        """
+        try:
+            self._write(outcome)
+        except (TypeError, ValueError, OverflowError) as error:
+            outcome = broken(outcome.run, error, outcome.seconds)
+            self._write(outcome)
+        return outcome
+
+    def _write(self, outcome: Outcome) -> None:
+        place = self._places[outcome.run]
+        with explained(self.folder), self._connection:
+            match outcome:
+                case Finished(run, played, seconds):
+                    facts = json.dumps(dict(played.facts), ensure_ascii=False)
+                    self._run(place, run, seconds, played.lessons, facts, "", "")
+                    self._rows(place, Turn, played.turns)
+                    self._rows(place, Answer, played.answers)
+                case Broken(run, reason, trace, seconds):
+                    self._run(place, run, seconds, 0, "{}", reason or "broken", trace)
+
+    def _run(self, place: int, run: Run, *rest: object) -> None:
+        values = (place, run.theory, run.tutor, run.scene, run.seed, *rest)
+        self._connection.execute(f"INSERT INTO runs VALUES ({marks(values)})", values)
+
+    def _rows(self, place: int, of: type, rows: Sequence[Turn | Answer]) -> None:
+        found = [(place, number, *cells(row)) for number, row in enumerate(rows)]
+        if found:
+            told = f"INSERT INTO {table(of)} VALUES ({marks(found[0])})"
+            self._connection.executemany(told, found)
+
+
+def _prepared(study: Study, folder: Path) -> sqlite3.Connection:
+    """A connection to a log that is this study's, made where there is none."""
+    with explained(folder):
+        create_private_file(folder / FILE)
+        connection = connected(folder / FILE)
+        try:
+            _prepare(connection, study, folder)
+        except BaseException:
+            connection.close()
+            raise
+    return connection
+
+
+def _prepare(connection: sqlite3.Connection, study: Study, folder: Path) -> None:
+    # First of all: another program's database stays as it is.
+    if is_empty(connection):
+        _begin(connection, study, folder)
+    else:
+        check_same(about_in(connection, folder), study, folder)
+        check_rows(connection, folder)
+    connection.execute("PRAGMA journal_mode = WAL")
+    # A kill loses nothing; a loss of power may lose the last dialogues, whole ones.
+    connection.execute("PRAGMA synchronous = NORMAL")
+    connection.execute("PRAGMA foreign_keys = ON")
+
+
+def _begin(connection: sqlite3.Connection, study: Study, folder: Path) -> None:
+    """Makes the tables of a new log, and says what it is of."""
+    with connection:
+        connection.execute("BEGIN IMMEDIATE")
+        make(connection)
+        rows = facts(study, folder).items()
+        connection.executemany("INSERT INTO about VALUES (?, ?)", rows)

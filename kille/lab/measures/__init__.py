@@ -1,0 +1,37 @@
+"""What is measured of dialogues, and whether two theories differ in it."""
+
+from kille.lab.measures.agreement import kappas, vocabulary
+from kille.lab.measures.comparison import (
+    contrasts,
+    differences,
+    holm,
+    in_pairs,
+    least_p,
+    mcnemar,
+    mcnemar_of,
+    pairs_needed,
+)
+from kille.lab.measures.measures import Measure, estimate, value
+from kille.lab.measures.power import least_difference, power_of, runs_needed
+from kille.lab.measures.scored_dialogues import Dialogue, scored
+
+__all__ = [
+    "Dialogue",
+    "Measure",
+    "contrasts",
+    "differences",
+    "estimate",
+    "holm",
+    "in_pairs",
+    "kappas",
+    "least_difference",
+    "least_p",
+    "mcnemar",
+    "mcnemar_of",
+    "pairs_needed",
+    "power_of",
+    "runs_needed",
+    "scored",
+    "value",
+    "vocabulary",
+]

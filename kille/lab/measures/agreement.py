@@ -1,0 +1,111 @@
+"""Cohen's kappa over dialogues: of robot, tutor and another judge with each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from kille.lab.measures.measures import Measure, Vector
+from kille.lab.measures.scored_dialogues import Dialogue, Scored
+
+Vocabulary = Mapping[str, Sequence[str]]
+"""All that was said or held to be right, by kind of word."""
+
+_Says = Callable[[Scored], str | None]
+
+
+def vocabulary(dialogues: Iterable[Dialogue]) -> Vocabulary:
+    """All words of the answers, by kind, in order."""
+    found: dict[str, set[str]] = {}
+    for dialogue in dialogues:
+        for it in dialogue.answers:
+            if it.is_word:
+                found.setdefault(it.kind, set()).update((it.right, it.said, it.judge))
+    return {kind: sorted(found[kind]) for kind in sorted(found)}
+
+
+def kappas(words: Vocabulary) -> tuple[Measure, Measure, Measure]:
+    """Kappa of robot and tutor, of robot and another judge, of tutor and that judge.
+
+    κ = (p_o - p_e) / (1 - p_e). Chance p_e is that within each kind of word, weighted
+    by how many answers are of it: whoever is asked for a noun says no relation. The
+    last of the three is the ceiling that people set: a robot cannot agree better with
+    both of two who do not agree with each other.
+    Source: Cohen 1960; Barlow, Lai and Azen 1991 on kappa in strata.
+    """
+    robot, judge = _Kappa(words, _said, _right), _Kappa(words, _said, _judged)
+    people = _Kappa(words, _right, _judged)
+    return (
+        _measure("κ robot–tutor", "agreement of robot and tutor", robot),
+        _measure("κ robot–judge", "agreement of the robot and another judge", judge),
+        _measure("κ tutor–judge", "agreement of two people, the ceiling", people, 0),
+    )
+
+
+def _measure(name: str, meaning: str, kappa: _Kappa, better: int = 1) -> Measure:
+    meaning = f"{meaning}, beyond what chance would give (Cohen 1960)"
+    return Measure(name, meaning, kappa.tally, kappa.of, better)
+
+
+def _said(answer: Scored) -> str | None:
+    return answer.said
+
+
+def _right(answer: Scored) -> str | None:
+    return answer.right
+
+
+def _judged(answer: Scored) -> str | None:
+    return answer.judge or None
+
+
+@dataclass(frozen=True)
+class _Kappa:
+    """A tally holds, kind by kind, how often the two agree, and each one's words."""
+
+    words: Vocabulary
+    one: _Says
+    other: _Says
+
+    def tally(self, dialogue: Dialogue) -> Vector:
+        """How often they agree in a dialogue, and how often each says each word."""
+        said: dict[str, list[tuple[str, str]]] = {kind: [] for kind in self.words}
+        for it in dialogue.answers:
+            first, second = self.one(it), self.other(it)
+            if it.is_word and first is not None and second is not None:
+                said[it.kind].append((first, second))
+        found: list[float] = []
+        for kind, words in self.words.items():
+            pairs = said[kind]
+            found.append(sum(a == b for a, b in pairs))
+            found += _counts([a for a, _ in pairs], words)
+            found += _counts([b for _, b in pairs], words)
+        return np.array(found, np.float64)
+
+    def of(self, sums: Vector) -> Vector:
+        """Kappa of summed tallies; 1 where both always say the same."""
+        parts = list(self._parts(sums))
+        if not parts:
+            return np.full(sums.shape[:-1], np.nan)
+        agreed, by_chance, count = (sum(them) for them in zip(*parts, strict=True))
+        over = np.where(count - by_chance > 1e-9, count - by_chance, np.nan)
+        always = (count > 0) & (agreed >= count)
+        return np.where(always, 1.0, (agreed - by_chance) / over)
+
+    def _parts(self, sums: Vector) -> Iterator[tuple[Vector, Vector, Vector]]:
+        """For each kind how often they agree, how often by chance, of how many."""
+        start = 0
+        for words in self.words.values():
+            first, second = start + 1, start + 1 + len(words)
+            one = sums[..., first:second]
+            other = sums[..., second : second + len(words)]
+            count = one.sum(axis=-1)
+            both = (one * other).sum(axis=-1)
+            yield sums[..., start], both / np.maximum(count, 1), count
+            start = second + len(words)
+
+
+def _counts(said: Sequence[str], words: Sequence[str]) -> list[float]:
+    return [float(said.count(word)) for word in words]

@@ -1,0 +1,245 @@
+"""Whether two theories differ, by the dialogues that they had in the same places.
+
+Two dialogues are a pair if tutor, scene and seed are the same. The main test is by
+permutation: if the theories do not differ, the two of a pair may as well be exchanged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.lab.measures.measures import Measure, Vector, banded, drawn, tallies
+from kille.lab.measures.scored_dialogues import Dialogue, Scored
+from kille.lab.results import Estimate
+
+_EXACT = 15
+"""So many pairs are exchanged in all ways; more of them by chance."""
+
+_SHUFFLES = 9_999
+_AT_ONCE = 1_000
+_TINY = 1e-12  # sums in another order differ by this little
+
+Pair = tuple[Dialogue, Dialogue]
+
+
+class Difference(NamedTuple):
+    """How much more `other` has than `one`: with band, p, and number of pairs.
+
+    `spread` is the standard deviation of the differences within the pairs, `apart`
+    those differences themselves.
+    """
+
+    estimate: Estimate
+    p: float
+    pairs: int
+    spread: float
+    apart: Vector
+
+
+class McNemar(NamedTuple):
+    """Answers that just one of two theories has right, and how likely that is so."""
+
+    one: int
+    other: int
+    p: float
+
+
+class Contrast(NamedTuple):
+    """Two theories and how they differ in each measure, and question by question."""
+
+    one: str
+    other: str
+    differences: Mapping[str, Difference]
+    answers: McNemar
+
+
+def in_pairs(one: Sequence[Dialogue], other: Sequence[Dialogue]) -> list[Pair]:
+    """The dialogues that two theories had with the same tutor, scene and seed."""
+    others = {it.pair: it for it in other}
+    found = [(it, others[it.pair]) for it in one if it.pair in others]
+    return sorted(found, key=lambda it: it[0].pair)
+
+
+def differences(
+    measures: Sequence[Measure], pairs: Sequence[Pair], chance: np.random.Generator
+) -> dict[str, Difference]:
+    """How much more of each measure the second of each pair has than the first.
+
+    The band draws pairs anew (95 %, percentiles); p is that of `exchanged`. Pairs are
+    drawn and exchanged alike for all measures; those count in which there is something
+    to be measured in both dialogues. A measure that is the same in each pair, as by
+    design, is left out.
+    """
+    draws = drawn(len(pairs), chance)
+    stays = exchanges(len(pairs), chance)
+    found = {}
+    for measure in measures:
+        first = tallies(measure, [one for one, _ in pairs])
+        second = tallies(measure, [other for _, other in pairs])
+        if np.array_equal(first, second):
+            continue
+        told = np.isfinite(measure.of(first)) & np.isfinite(measure.of(second))
+        first, second = first[told], second[told]
+        found[measure.name] = Difference(
+            _difference(measure, first, second, draws[:, told]),
+            exchanged(measure, first, second, stays[:, told]),
+            len(first),
+            *_apart(measure, first, second),
+        )
+    return found
+
+
+def _difference(
+    measure: Measure, first: Vector, second: Vector, draws: Vector
+) -> Estimate:
+    value = float(measure.of(second.sum(axis=0)) - measure.of(first.sum(axis=0)))
+    others = measure.of(draws @ second) - measure.of(draws @ first)
+    return banded(value, others, len(first), measure.decimals)
+
+
+def _apart(measure: Measure, first: Vector, second: Vector) -> tuple[float, Vector]:
+    """The differences within the pairs, after their standard deviation."""
+    apart = measure.of(second) - measure.of(first)
+    return float(apart.std(ddof=1)) if len(apart) > 1 else float("nan"), apart
+
+
+def exchanges(pairs: int, chance: np.random.Generator) -> NDArray[np.bool_]:
+    """Which pairs stay as they are, one way to exchange the others a row.
+
+    The first row exchanges none. For few pairs the rows are all ways that there are.
+    """
+    if pairs <= _EXACT:
+        numbers = np.arange(2**pairs)[::-1, None]
+        return (numbers >> np.arange(pairs)) & 1 > 0
+    stays = chance.random((_SHUFFLES + 1, pairs)) < 0.5
+    stays[0] = True
+    return stays
+
+
+def exchanged(
+    measure: Measure, first: Vector, second: Vector, stays: NDArray[np.bool_]
+) -> float:
+    """How likely a difference as large as this is, if the theories do not differ.
+
+    Then the two of a pair may as well be exchanged. p is the share of the ways to do so
+    in which the difference is as large, the way it is among them: of all ways for few
+    pairs, else of 9,999 by chance. For means of equally many answers it is the test
+    that flips the signs of the paired differences. NaN where there is nothing to tell.
+    Source: Fisher 1935, The design of experiments, section 21; Phipson and Smyth 2010,
+    Permutation p-values should never be zero.
+    """
+    seen = abs(measure.of(second.sum(axis=0)) - measure.of(first.sum(axis=0)))
+    if not np.isfinite(seen):
+        return float("nan")
+    whole = first.sum(axis=0) + second.sum(axis=0)
+    large = count = 0
+    for start in range(0, len(stays), _AT_ONCE):
+        some = stays[start : start + _AT_ONCE].astype(np.float64)
+        ones = some @ (first - second) + second.sum(axis=0)
+        apart = np.abs(measure.of(whole - ones) - measure.of(ones))
+        large += int((apart >= seen - _TINY).sum())
+        count += int(np.isfinite(apart).sum())
+    return large / count
+
+
+def least_p(pairs: int) -> float:
+    """The smallest p that so many pairs can give: all of them differ the same way.
+
+    >>> least_p(2), least_p(5)
+    (0.5, 0.0625)
+    """
+    return min(1.0, 2.0 ** (1 - pairs)) if pairs <= _EXACT else 1 / (_SHUFFLES + 1)
+
+
+def pairs_needed(tests: int, alpha: float) -> int | None:
+    """How many pairs the best of so many tests needs for p < alpha, after Holm.
+
+    None where no number of pairs would do.
+
+    >>> pairs_needed(1, 0.05), pairs_needed(3, 0.05)
+    (6, 7)
+    """
+    enough = (n for n in range(1, _EXACT + 1) if tests * least_p(n) < alpha)
+    return next(enough, None)
+
+
+# --- question by question ------------------------------------------------------------
+
+
+def mcnemar(one: int, other: int) -> float:
+    """How likely it is that of those that differ so many fall to either side.
+
+    Both sides of the binomial with p = 1/2, exactly: min(1, 2 P(X ≤ min(b, c))).
+    Source: McNemar 1947, Note on the sampling error of the difference between
+    correlated proportions or percentages.
+
+    >>> round(mcnemar(2, 10), 4)
+    0.0386
+    """
+    count = one + other
+    ways, term = 0, 1
+    for k in range(min(one, other) + 1):
+        ways += term
+        term = term * (count - k) // (k + 1)
+    return min(1.0, 2 * ways / (1 << count))
+
+
+def mcnemar_of(pairs: Sequence[Pair]) -> McNemar:
+    """McNemar's test on the questions for words that both theories were asked.
+
+    They are the same if they are the n-th of a phase and have the same right answer. It
+    holds answers for independent, which those of one dialogue are not: p is too small
+    rather than too large.
+    """
+    one = other = 0
+    for first, second in pairs:
+        asked = {_question(it): it for it in first.answers if it.is_word}
+        for it in second.answers:
+            found = asked.get(_question(it))
+            if found is not None and found.is_right != it.is_right:
+                one, other = one + found.is_right, other + it.is_right
+    return McNemar(one, other, mcnemar(one, other))
+
+
+def _question(answer: Scored) -> tuple[str, int, str, str]:
+    return answer.phase, answer.nth, answer.kind, answer.right
+
+
+# --- many tests ----------------------------------------------------------------------
+
+
+def holm(ps: Sequence[float]) -> list[float]:
+    """The p-values after Holm's correction for how many they are; NaN stays NaN.
+
+    Of m tests that with the i-th smallest p has max over j ≤ i of (m - j + 1) p_j.
+    Source: Holm 1979, A simple sequentially rejective multiple test procedure.
+
+    >>> holm([0.01, 0.04, 0.03])
+    [0.03, 0.06, 0.06]
+    """
+    ranked = sorted((p, i) for i, p in enumerate(ps) if p == p)
+    found, highest = list(ps), 0.0
+    for rank, (p, i) in enumerate(ranked):
+        highest = max(highest, min(1.0, (len(ranked) - rank) * p))
+        found[i] = highest
+    return found
+
+
+def contrasts(
+    theories: Mapping[str, Sequence[Dialogue]],
+    which: Iterable[tuple[str, str]],
+    measures: Sequence[Measure],
+    chance: np.random.Generator,
+) -> list[Contrast]:
+    """Theories compared two by two; those without a pair of dialogues are left out."""
+    found = []
+    for one, other in which:
+        pairs = in_pairs(theories[one], theories[other])
+        if pairs:
+            apart = differences(measures, pairs, chance)
+            found.append(Contrast(one, other, apart, mcnemar_of(pairs)))
+    return found

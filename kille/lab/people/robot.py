@@ -1,0 +1,222 @@
+"""A person who plays the robot: who is shown what it sees, hears the tutor, and types.
+
+What they claim in a sentence counts as their answer; whatever else they say counts as
+not knowing. They point at things by their numbers.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from kille.dialogue.language import Utterance
+from kille.dialogue.state import blank_model, initial
+from kille.lab.people.steps import example
+from kille.lab.people.typed_lines import Ask, typed
+from kille.lab.people.typed_sayings import acts, asked, claimed, sentences
+from kille.lab.people.views import viewed
+from kille.lab.robots.replies import Reply
+from kille.lab.scenes.events import after
+from kille.lab.scenes.occasions import Occasion
+from ttr import Model, record
+from ttr.judging import Judgement
+from ttr.probability import CERTAIN
+
+_HELP = """\
+You are the robot: type what you say to the tutor, and press Enter.
+  .           say nothing, as Enter alone does
+  #2          point at #2
+  ?           read this again
+  Ctrl-C      stop: dialogues that are over are kept, this one begins anew
+Answer in a sentence, such as "{}"; else it counts as not knowing."""
+_NUMBERS = "There is no such number here: there is {}."
+_AGAIN = """\
+No answer is read in that: say it as "{}", or that you do not know.
+What you type now is kept."""
+
+_POINTS = re.compile(r"#(\d+)")
+_WANTS = {
+    "ask_name": "admit_name",
+    "ask_quality": "admit_quality",
+    "ask_place": "admit_place",
+}
+"""After what move of a robot a tutor tells what these questions are for."""
+
+
+@dataclass(frozen=True, eq=False)
+class TypedReply(Reply):
+    """What a person has typed, what they claim by it, and at what they point.
+
+    `about` is what there was to speak of: a thing, and what it is beside. What cannot
+    be read is `odd`.
+    """
+
+    claimed: tuple[tuple[str, str], ...] = ()
+    points: int | None = None
+    about: tuple[int | None, ...] = ()
+    odd: bool = False
+
+    @property
+    def way(self) -> str:
+        """What is claimed is asserted."""
+        if self.points is not None:
+            return "point"
+        return "assert" if self.claimed else "admit"
+
+    @property
+    def wants(self) -> str:
+        """Who asks, or says nothing that can be read, wants to be told."""
+        if self.odd and not self.asks:
+            return "ask_again"
+        return next((_WANTS[it] for it in self.acts if it in _WANTS), "")
+
+    @property
+    def is_lost(self) -> bool:
+        """A person understands."""
+        return False
+
+    @property
+    def asks(self) -> bool:
+        """Whether it is a question."""
+        return self.text.endswith("?") or any(it.startswith("ask_") for it in self.acts)
+
+    @property
+    def is_open(self) -> bool:
+        """Who asks back has not answered, unless they want to be told the answer."""
+        return self.asks and not self.wants
+
+    @property
+    def pointed(self) -> int | None:
+        """The thing whose number is named."""
+        return self.points
+
+    @property
+    def things(self) -> tuple[int | None, ...]:
+        """What there is to speak of."""
+        return self.about
+
+    @property
+    def word(self) -> str:
+        """The first word that is claimed."""
+        return next((word for _, word in self.claimed), "")
+
+    def said(self, kind: str) -> str:
+        """The word of a kind that is claimed, the last of several: it sets right."""
+        return dict(self.claimed).get(kind, "")
+
+
+class Typed:
+    """The robot as a person plays it; `ask` shows a text and gives the line typed."""
+
+    def __init__(self, language: str = "en", ask: Ask = typed) -> None:
+        self._language, self._ask = language, ask
+        self._state, self._model = initial(), blank_model()
+        self._before = f"\n{self._help()}"
+        self._seen = ""
+        self._occasion: Occasion | None = None
+
+    def see(self, occasion: Occasion) -> Reply:
+        """What is seen is told with what is said next."""
+        self._occasion = occasion
+        self._seen = f"\n{viewed(occasion, occasion.shown)}"
+        return self._reply("")
+
+    def wait(self, occasion: Occasion) -> Reply:
+        """They may say something."""
+        self.see(occasion)
+        return self._reply(self._line("The tutor waits: you may say something."))
+
+    def hear(self, text: str) -> Reply:
+        """They answer, and once more if no answer is read in what they type."""
+        kind = asked(text, self._language)
+        line = self._line(f"Tutor: {text}")
+        if kind and not self._is_answer(line, kind):
+            line = self._line(_AGAIN.format(example(kind, self._language)))
+        return self._reply(line)
+
+    def happen(self, command: str) -> Reply:
+        """What a script has happen: they see it, and are asked where it is a look."""
+        now = self._occasion
+        if command == "restart":
+            return self.rest()
+        if now is not None and command == "look":
+            return self.wait(now.looked())
+        if now is None or now.view is not None:
+            self._before += f"\nWhat happens: {command}"
+            return self._reply("")
+        return self.see(after(now, command))
+
+    def rest(self) -> Reply:
+        """They are told that another day begins."""
+        self._before += "\nAnother day begins: you know what you were taught."
+        return self._reply("")
+
+    def name(self, number: int) -> str | None:
+        """Nothing is known of what they call things."""
+        return None
+
+    def close(self) -> None:
+        """Nothing is to be let go of."""
+
+    # --- what they see and type ------------------------------------------------------
+
+    def _line(self, told: str) -> str:
+        """The line that they type, with what has happened since the last one."""
+        before, self._before, self._seen = f"{self._before}{self._seen}", "", ""
+        line = self._typed(f"{before}\n{told}" if before else told)
+        while line == "?" or (_POINTS.search(line) and self._pointed(line) is None):
+            line = self._typed(self._help() if line == "?" else self._numbers())
+        return "" if line == "." else line
+
+    def _typed(self, told: str) -> str:
+        return self._ask(f"{told}\nRobot (you): ").strip()
+
+    def _help(self) -> str:
+        return _HELP.format(example("noun", self._language))
+
+    def _numbers(self) -> str:
+        known = ", ".join(f"#{it}" for it in self._in_view)
+        return _NUMBERS.format(known or "nothing")
+
+    @property
+    def _in_view(self) -> tuple[int, ...]:
+        return () if self._occasion is None else self._occasion.shown.in_view
+
+    # --- what is made of it ----------------------------------------------------------
+
+    def _pointed(self, line: str) -> int | None:
+        """The first thing in view whose number is named."""
+        known = {str(it): it for it in self._in_view}
+        return next((known[it] for it in _POINTS.findall(line) if it in known), None)
+
+    def _is_answer(self, line: str, kind: str) -> bool:
+        """Whether it says what was asked, or that this is not known, or asks back."""
+        if not line or line.endswith("?"):
+            return True
+        if kind == "reference":
+            return self._pointed(line) is not None
+        moves = acts(line, self._language)
+        return "okay" in moves or kind in dict(claimed(line, self._language))
+
+    def _reply(self, line: str) -> Reply:
+        text, model = _POINTS.sub("", line), self._model
+        read, now = sentences(text, self._language), self._occasion
+        points = self._pointed(line)
+        return TypedReply(
+            line,
+            tuple(_move(it.readings[0], model) for it in read if it.readings),
+            self._state,
+            model,
+            claimed=claimed(text, self._language),
+            points=points,
+            about=() if now is None else (now.x, now.y),
+            odd=points is None and any(not it.readings for it in read),
+        )
+
+
+def _move(reading: Utterance, model: Model) -> Judgement:
+    """What was said, as a move: that it was, is certain."""
+    said = record()
+    return Judgement(
+        said, reading.type, CERTAIN, lambda: model.judge(said, reading.type).why, model
+    )

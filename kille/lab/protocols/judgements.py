@@ -1,0 +1,223 @@
+"""How well learners of spatial words agree with people who judged them.
+
+Some judgements of each word are taught and the others asked: a growing number drawn by
+chance, then four fifths of the scenes at a time. A learner that takes judgements is
+told them, also that a word does not fit; to one with two methods only, the words are
+said of what people held them to fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from kille.lab.protocols.scoring import Score, drawn, folded, hits, taught
+from kille.lab.protocols.spatial import Methods, degrees_of
+from kille.lab.results import Cell, Figure, Progress, Result, Table
+from kille.lab.scenes.published_judgements import Study
+from kille.perception.relations.angle import AngleRule
+from kille.scene import Configuration
+
+SIZES = (1, 2, 4, 8, 16, 24, 48)
+_DRAWS = 5
+_SPAN = 0.4  # metres: half the width of a map
+TOLD = "angle, told"
+"""The angle rule that is told beforehand which number each word is about."""
+
+
+def judgements(
+    study: Study, methods: Methods, *, seed: int, progress: Progress
+) -> Result:
+    """Learners against people: by the number of lessons, by word, and by method."""
+    methods = {**methods, TOLD: partial(AngleRule, study.about)}
+    lengths = [len(them) for them in study.words.values()]
+    sizes = [it for it in SIZES if it <= np.median(lengths) / 2]
+    curves: dict[str, list[list[dict[str, Score]]]] = {}
+    for step, (name, make) in enumerate(methods.items()):
+        progress(0.8 * step / len(methods), name)
+        curves[name] = [_draws(study, make, size, seed) for size in sizes]
+    progress(0.8, "all lessons")
+    rights = {name: folded(study, make, seed) for name, make in methods.items()}
+    return Result(
+        title=f"Spatial words as people judged them: {study.name}",
+        tables=(
+            _by_size(curves, sizes),
+            _by_word(study, rights),
+            *_chosen(study, methods, seed),
+        ),
+        figures=(
+            _curve(curves, sizes, "spearman", "rank correlation with people"),
+            _curve(curves, sizes, "accuracy", "yes or no as people said"),
+            *(_map(study, name, make) for name, make in methods.items()),
+        ),
+        facts={
+            "study": study.name,
+            "seed": seed,
+            "spearman": _ranks(rights, "spearman"),
+            "spearman within folds": _ranks(rights, "within"),
+        },
+    )
+
+
+def _ranks(
+    rights: Mapping[str, Mapping[str, Score]], which: str
+) -> dict[str, dict[str, float]]:
+    return {
+        name: {word: round(getattr(it, which), 4) for word, it in scores.items()}
+        for name, scores in rights.items()
+    }
+
+
+def _draws(
+    study: Study, make: Callable[[], Any], size: int, seed: int
+) -> list[dict[str, Score]]:
+    """The scores after so many lessons of each word, for each draw."""
+    return [
+        drawn(study, make, size, np.random.default_rng([seed, size, draw]))
+        for draw in range(_DRAWS)
+    ]
+
+
+# --- tables and figures --------------------------------------------------------------
+
+
+def _means(draws: Sequence[Mapping[str, Score]], which: str) -> list[float]:
+    """The mean over the words in each draw."""
+    return [
+        float(np.nanmean([getattr(it, which) for it in draw.values()]))
+        for draw in draws
+    ]
+
+
+def _by_size(
+    curves: Mapping[str, Sequence[Sequence[Mapping[str, Score]]]], sizes: Sequence[int]
+) -> Table:
+    rows: list[tuple[Cell, ...]] = []
+    for name, by_size in curves.items():
+        for size, draws in zip(sizes, by_size, strict=True):
+            cells = [
+                float(np.mean(_means(draws, it)))
+                for it in ("spearman", "accuracy", "kappa")
+            ]
+            low, high = np.quantile(_means(draws, "spearman"), [0.1, 0.9])
+            rows.append((name, size, cells[0], float(low), float(high), *cells[1:]))
+    return Table(
+        title="By the number of lessons of each word",
+        columns=("method", "lessons", "Spearman", "low", "high", "accuracy", "kappa"),
+        rows=tuple(rows),
+        note=f"Means over words and {_DRAWS} draws; low and high: 80 % of the draws. "
+        f"{TOLD!r} knows beforehand which number each word is about.",
+    )
+
+
+def _by_word(study: Study, rights: Mapping[str, Mapping[str, Score]]) -> Table:
+    columns = ["word", "judged"]
+    for name in rights:
+        columns += [f"{name}: Spearman", f"{name}: accuracy", f"{name}: kappa"]
+    rows = []
+    for word, them in study.words.items():
+        row: list[Cell] = [word, len(them)]
+        for scores in rights.values():
+            it = scores[word]
+            row += [it.spearman, it.accuracy, it.kappa]
+        rows.append(tuple(row))
+    mean: list[Cell] = ["mean", None]
+    for scores in rights.values():
+        mean += [
+            float(np.nanmean([getattr(it, which) for it in scores.values()]))
+            for which in ("spearman", "accuracy", "kappa")
+        ]
+    return Table(
+        title="By word, all but a fifth of the scenes taught",
+        columns=tuple(columns),
+        rows=(*rows, tuple(mean)),
+        note="Spearman of degrees; accuracy and kappa of yes or no.",
+    )
+
+
+def _chosen(study: Study, methods: Methods, seed: int) -> list[Table]:
+    """How often the learner chooses what people chose as the best for a word."""
+    if not study.choices:
+        return []
+    right = {name: hits(study, make, seed) for name, make in methods.items()}
+    words = sorted({it.word for it in study.choices})
+    rows = [_choice_row(word, study, right) for word in [*words, "all"]]
+    return [
+        Table(
+            title="The target that fits a word best, of those possible",
+            columns=("word", "asked", "by chance", *methods),
+            rows=tuple(rows),
+            note="The share of the choices that are those of people.",
+        )
+    ]
+
+
+def _choice_row(
+    word: str, study: Study, right: Mapping[str, Mapping[int, float]]
+) -> tuple[Cell, ...]:
+    which = [i for i, it in enumerate(study.choices) if word in (it.word, "all")]
+    even = np.mean([1 / len(study.choices[i].targets) for i in which])
+    shares = [
+        float(np.mean([of[i] for i in which if i in of])) for of in right.values()
+    ]
+    return (word, len(which), float(even), *shares)
+
+
+def _curve(
+    curves: Mapping[str, Sequence[Sequence[Mapping[str, Score]]]],
+    sizes: Sequence[int],
+    which: str,
+    label: str,
+) -> Figure:
+    series = {}
+    for name, by_size in curves.items():
+        means = [_means(draws, which) for draws in by_size]
+        bands = [np.quantile(it, [0.1, 0.9]).tolist() for it in means]
+        series[name] = {
+            "mean": [float(np.mean(it)) for it in means],
+            "low": [low for low, _ in bands],
+            "high": [high for _, high in bands],
+        }
+    return Figure(
+        kind="curves",
+        title=f"By the number of lessons: {label}",
+        data={
+            "x": list(sizes),
+            "series": series,
+            "xlabel": "lessons of each word",
+            "ylabel": label,
+        },
+    )
+
+
+def _map(study: Study, name: str, make: Callable[[], Any]) -> Figure:
+    """The words around a landmark after all lessons, on the plane that was judged."""
+    learner = taught(make, study.words)
+    upright = not any(it.x.offset[1] for it in study.every())
+    spots = np.linspace(-_SPAN, _SPAN, 21).tolist()
+    degrees = [
+        [degrees_of(learner, _at(right, other, upright)) for right in spots]
+        for other in spots
+    ]
+    return Figure(
+        kind="map",
+        title=f"What each word means after all lessons: {name}",
+        data={
+            "words": list(study.words),
+            "right": spots,
+            "away": spots,
+            "ylabel": "up" if upright else "away",
+            "degrees": {
+                word: [[cell.get(word, 0.0) for cell in row] for row in degrees]
+                for word in study.words
+            },
+        },
+    )
+
+
+def _at(right: float, other: float, upright: bool) -> Configuration:
+    offset = (right, 0.0, other) if upright else (right, other, 0.0)
+    return Configuration(offset, target_size=0.1, landmark_size=0.1)

@@ -1,0 +1,208 @@
+"""Protocols: what the phases of a study have a tutor do, task by task.
+
+A study lists its phases; a protocol of the literature is such a list, and those that
+are shipped are short files in `examples/studies/protocols`, to be copied.
+
+teach: he says what is so. ask: he asks, and nobody learns from the answer. practise: he
+asks, and says what is right. talk: he shows things and leaves the robot the floor, as
+in Skočaj et al. 2011. find: he asks for a thing by its words. align: he says which way
+things face, and in whose frame he speaks. rest: another day begins. forget: he has
+words forgotten. change_tutor, or swap: another tutor goes on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import count, islice
+from random import Random
+
+from kille.lab import scenes
+from kille.lab.scenes import Scene
+from kille.lab.scenes.occasions import KINDS, ORDERS, Occasion, ordered
+from kille.lab.settings import Setting, Settings, Wrong, filled, unknown
+from kille.lab.study import Named, Phase, Run, Study
+from kille.lab.tutors.tutor import Task
+
+MOST = 1000
+"""Rounds: a dialogue that has more of them is nobody's study, but a slip."""
+
+_WHAT = Setting(
+    str, "nouns", among=tuple(KINDS), about="nouns, adjectives or relations"
+)
+_WHICH = Setting(str, "same", among=("same", "new"), about="what was taught, or not")
+_OCCASIONS: Settings = {
+    "what": _WHAT,
+    "of": _WHICH,
+    "rounds": Setting(int, 1, least=1, most=MOST),
+    "turns": Setting(
+        int, 0, most=100_000, about="how many of them, where that is not whole rounds"
+    ),
+    "order": Setting(str, "given", among=ORDERS),
+}
+
+CHANGING = ("change_tutor", "swap")
+"""The phases after which another tutor goes on."""
+
+RESTING = ("rest",)
+"""The phases in which nobody says anything."""
+
+SETTINGS: Mapping[str, Settings] = {
+    "teach": _OCCASIONS,
+    "ask": _OCCASIONS,
+    "practise": _OCCASIONS,
+    "talk": _OCCASIONS,
+    "find": {
+        "of": _WHICH,
+        "rounds": Setting(int, 1, least=1, most=MOST),
+        "order": Setting(str, "given", among=ORDERS),
+        "by": Setting(str, "both", among=("both", "noun", "colour")),
+    },
+    "align": {
+        "announce": Setting(bool, False, about="whether he says whose frame it is")
+    },
+    "rest": {},
+    "forget": {"what": _WHAT, "words": Setting(str, needed=True, several=True)},
+    **{key: {"to": Setting(str, "", about="the tutor's name")} for key in CHANGING},
+}
+"""What may be set of phases, by what is done in them."""
+
+LOOKS = 16
+"""As many looks as a task may take are kept apart from those of others."""
+
+
+_LACKING = {
+    "pictures": ("adjectives", "relations", "find", "align"),
+    "captures": ("adjectives", "relations", "find", "align"),
+    "rendered": ("adjectives", "find"),
+}
+"""What cannot be talked of in front of scenes of a kind."""
+
+
+def faults(phase: Phase, study: Study) -> Iterator[Wrong]:
+    """What is wrong with a phase in this study: its tutors and scenes do not fit."""
+    key = ("what",) if "what" in phase.settings else ("do",)
+    for scene in study.scenes.values():
+        yield from ((key, it) for it in _unfit(phase, scene))
+    yield from ((("to",), it) for it in _of_change(phase, study))
+    if phase.settings.get("turns") and "rounds" in phase.settings:
+        told = "rounds and turns both say how much comes: write one of them"
+        yield ("turns",), told
+
+
+def _unfit(phase: Phase, scene: Named) -> Iterator[str]:
+    """Why a phase cannot be done with a scene."""
+    lacking = _LACKING.get(scene.kind, ())
+    for what in (phase.do, phase.settings.get("what", "")):
+        if what in lacking:
+            yield f"{what} cannot be done with {scene.name}, which is {scene.kind}"
+    asks = phase.do in ("ask", "practise")
+    if asks and phase.settings.get("what") == "relations" and _is_single(scene):
+        told = f"there is one kind of thing in {scene.name}, and the robot does not say"
+        yield f"{told} how it stands to its like: name two kinds"
+    if phase.do == "find" and (more := _more_to_see(phase, scene)):
+        told = f"one thing at a time is in view in {scene.name}, and is found"
+        yield f"{told} whatever is asked for: write {more}"
+
+
+def _of_change(phase: Phase, study: Study) -> Iterator[str]:
+    """Why nobody else could go on."""
+    if phase.do not in CHANGING:
+        return
+    to = phase.settings.get("to", "")
+    if to and to not in study.tutors:
+        yield f"there is no tutor {to}: {unknown(to, study.tutors)}"
+    if not to and len(study.tutors) < 2:
+        yield "there is no other tutor: write one more, or to = NAME"
+
+
+def _is_single(scene: Named) -> bool:
+    """Whether a table has things of one kind only: a cup stands beside no cup.
+
+    "The cup is to the left of the cup" says nothing, so that it is never said.
+    """
+    kinds = scene.settings.get("kinds")
+    return scene.kind == "drawn" and kinds is not None and len(kinds) < 2
+
+
+def _more_to_see(phase: Phase, scene: Named) -> str:
+    """What to write where things are shown one by one; nothing where they are not."""
+    if scene.kind != "drawn":
+        is_one = scene.kind in ("around", "statements")
+        return 'kind = "drawn" and in_view = 4' if is_one else ""
+    of = "new" if phase.settings.get("of") == "new" else "each"
+    if _count(scene, of) == 1:
+        return f"{of} = 4 and in_view = 4"
+    return "in_view = 4" if scene.settings.get("in_view", 1) == 1 else ""
+
+
+def _count(scene: Named, of: str) -> int:
+    """How many things there are of `each` kind together, or of the `new` ones."""
+    set_ = filled(scene.settings, scenes.SETTINGS[scene.kind])
+    return len(set_["kinds"]) * int(set_[of])
+
+
+def successor(study: Study, phase: Phase, now: str) -> str:
+    """Who goes on: the tutor who is named, or the one who comes after this one."""
+    to = str(phase.settings.get("to", ""))
+    names = list(study.tutors)
+    return to or names[(names.index(now) + 1) % len(names)]
+
+
+def length(phase: Phase, scene: Scene) -> int:
+    """How many tasks there are in a phase, in front of a scene."""
+    set_ = filled(phase.settings, SETTINGS[phase.do])
+    if phase.do == "forget":
+        return len(set_["words"])
+    if phase.do in (*RESTING, *CHANGING):
+        return 1
+    if phase.do == "align":
+        return len(scene.round("relation", False, Random(0))[:1])
+    kind = KINDS.get(str(set_.get("what", "")), "noun")
+    one = len(scene.round(kind, set_["of"] == "new", Random(0)))
+    return (set_.get("turns") or set_["rounds"] * one) if one else 0
+
+
+def tasks(study: Study, run: Run, scene: Scene) -> Iterator[tuple[Phase, Task]]:
+    """What is to be done in a run, phase by phase.
+
+    Rest, a change of tutors, and a word to be forgotten are tasks without an occasion.
+    """
+    number = count(1)
+    for phase in study.phases:
+        set_ = filled(phase.settings, SETTINGS[phase.do])
+        for of, settings in _occasions(phase, set_, run, scene):
+            now = next(number)
+            at = None if of is None else of.at(now * LOOKS)
+            yield phase, Task(run, phase.name, phase.do, now, at, settings)
+
+
+def _occasions(
+    phase: Phase, set_: dict[str, object], run: Run, scene: Scene
+) -> Iterator[tuple[Occasion | None, Mapping[str, object]]]:
+    if phase.do == "forget":
+        words = set_["words"]
+        assert isinstance(words, Sequence)
+        yield from ((None, {**set_, "word": word}) for word in words)
+        return
+    if phase.do in (*RESTING, *CHANGING):
+        yield None, set_
+        return
+    for occasion in _shown(phase, set_, run, scene):
+        yield occasion, set_
+
+
+def _shown(
+    phase: Phase, set_: dict[str, object], run: Run, scene: Scene
+) -> Sequence[Occasion]:
+    """The occasions of a phase: the same for every theory and every tutor."""
+    kind = KINDS.get(str(set_.get("what", "")), "noun")
+    chance = Random(f"{phase.name} {run.scene} {run.seed}")
+    if phase.do == "align":
+        return scene.round("relation", False, chance)[:1]
+    new = set_["of"] == "new"
+    rounds, turns = int(str(set_["rounds"])), int(str(set_.get("turns", 0)))
+    one = len(scene.round(kind, new, Random(0))) if turns else 1
+    rounds = max(rounds, -(-turns // max(one, 1)))
+    given = [scene.round(kind, new, chance) for _ in range(rounds)]
+    found = ordered(given, str(set_["order"]), chance)
+    return list(islice(found, turns or None))

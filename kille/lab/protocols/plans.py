@@ -1,0 +1,258 @@
+"""Which protocols there are for some data, which is recognised by its content."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import partial
+from pathlib import Path
+from typing import Protocol as Shape
+
+from kille.lab.results import ExperimentError, Progress, Result
+from kille.lab.theories.candidates import Make, MethodFailedError, Methods
+
+
+class Run(Shape):
+    """A protocol whose data is settled: it measures these methods."""
+
+    def __call__(self, methods: Methods, *, seed: int, progress: Progress) -> Result:
+        """What it found out; the same seed, the same numbers."""
+        ...
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A protocol under its name; what is `usual` is run when none is named.
+
+    `compares` names what it compares of its own, where it asks no learner.
+    """
+
+    name: str
+    run: Run
+    usual: bool = True
+    compares: tuple[str, ...] = ()
+
+
+OBJECTS = {
+    "paper": "the simulated table",
+    "rotation": "the simulated table",
+    "specimens": "the simulated table",
+    "growth": "any data",
+    "shots": "pictures by category",
+    "even-odd": "pictures by category",
+    "halves": "pictures by category",
+    "scenes": "labelled scenes",
+    "regions": "labelled captures",
+}
+"""The protocols for objects, and which data each is for."""
+
+RELATIONS = {
+    "paper": "simulated judges",
+    "judgements": "people's judgements",
+}
+"""The protocols for relations, and which data each is for."""
+
+_KNOWN = (
+    "a folder category/picture.png, a folder of labelled scenes, a folder of labelled "
+    "captures with index.json, or a folder of OBJ meshes"
+)
+
+
+def object_plans(
+    data: str | None, teach: Sequence[str] = (), ask: Sequence[str] = ()
+) -> tuple[Plan, ...]:
+    """The protocols for objects that the data is for, the usual ones first.
+
+    Without data it is the simulated table with the paper's ten things. ExperimentError
+    and SensorError for data that nothing can be measured with.
+    """
+    kind = None if data is None else _object_kind(data)
+    if (teach or ask) and kind is not _scenes:
+        raise ExperimentError(
+            "scenes to teach or to ask are named for a folder of labelled scenes only"
+        )
+    if data is None or kind is None:
+        return _table()
+    if kind is _scenes:
+        return _scenes(data, teach, ask)
+    return kind(data)
+
+
+def chosen(
+    plans: Sequence[Plan], name: str | None, known: Mapping[str, str]
+) -> list[Plan]:
+    """The plan of this name, or the usual ones; ExperimentError if there is none.
+
+    `known` are all protocols there are, and which data each is for.
+    """
+    if name is None:
+        return [plan for plan in plans if plan.usual]
+    found = [plan for plan in plans if plan.name == name]
+    if found:
+        return found
+    here = [plan.name for plan in plans]
+    if name in known:
+        raise ExperimentError(
+            f"the protocol {name} is for {known[name]}; "
+            f"for this data there is {', '.join(here)}"
+        )
+    near = get_close_matches(name, here, n=1) or get_close_matches(name, known, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(here)}"
+    raise ExperimentError(f"there is no protocol {name}: {hint}")
+
+
+def run(
+    plan: Plan,
+    methods: Methods,
+    *,
+    seed: int,
+    progress: Progress,
+    failed: Callable[[MethodFailedError], None],
+) -> tuple[Result | None, dict[str, Make]]:
+    """The result, and the methods that came through; none, no result.
+
+    A method that fails is told to `failed`, and the protocol runs again without it.
+    """
+    able = dict(methods)
+    while able:
+        try:
+            return plan.run(able, seed=seed, progress=progress), able
+        except MethodFailedError as failure:
+            failed(failure)
+            del able[failure.name]
+    return None, able
+
+
+# --- what data is --------------------------------------------------------------------
+
+
+def _object_kind(data: str) -> Callable[..., tuple[Plan, ...]]:
+    folder = _folder(data)
+    if kind := _kind_of(folder):
+        return kind
+    inner = [it for it in sorted(folder.iterdir()) if it.is_dir()]
+    if known := [it.name for it in inner if _kind_of(it)]:
+        named = ", ".join(f"{data.rstrip('/')}/{name}" for name in known)
+        raise ExperimentError(f"{data} holds several collections, name one: {named}")
+    if not any(folder.iterdir()):
+        raise ExperimentError(f"{data} is empty; expected {_KNOWN}")
+    raise ExperimentError(f"{data}: nothing here is known; expected {_KNOWN}")
+
+
+def _kind_of(folder: Path) -> Callable[..., tuple[Plan, ...]] | None:
+    """What makes plans for what is in the folder, if it is known."""
+    from kille.lab.scenes.galleries import is_gallery
+    from kille.lab.scenes.labelled import is_scenes
+    from kille.sensors.captures import description_of
+
+    if is_scenes(folder):
+        return _scenes
+    if description_of(folder) is not None:
+        return _captures
+    if any(folder.glob("*.obj")) or any(folder.glob("*/*.obj")):
+        return _meshes
+    return _pictures if is_gallery(folder) else None
+
+
+def _folder(data: str) -> Path:
+    folder = Path(data).expanduser()
+    if folder.is_dir():
+        return folder
+    if folder.exists():
+        raise ExperimentError(f"{data} is no folder; expected {_KNOWN}")
+    beside = folder.parent.iterdir() if folder.parent.is_dir() else ()
+    near = get_close_matches(folder.name, [it.name for it in beside], n=1)
+    hint = f": did you mean {folder.parent / near[0]}?" if near else ""
+    raise ExperimentError(f"there is no {data}{hint}")
+
+
+def _table() -> tuple[Plan, ...]:
+    from kille.lab.protocols import objects, variations
+
+    return (
+        Plan("paper", objects.paper),
+        Plan("rotation", variations.rotation),
+        Plan("specimens", variations.specimens),
+        *_growth(),
+    )
+
+
+def _meshes(data: str) -> tuple[Plan, ...]:
+    from kille.lab.protocols import objects, variations
+    from kille.sensors.synthetic import obj
+
+    things = tuple(obj.find_meshes(Path(data).expanduser()))
+    if len(things) < 2:
+        raise ExperimentError(f"{data}: it takes two meshes at least to tell apart")
+    return (
+        Plan("paper", partial(objects.paper, things=things, meshes=data)),
+        Plan("rotation", partial(variations.rotation, things=things, meshes=data)),
+        *_growth(),
+    )
+
+
+def _pictures(data: str) -> tuple[Plan, ...]:
+    from kille.lab.protocols import parted, shots
+    from kille.lab.scenes.galleries import open_gallery
+
+    gallery = open_gallery(Path(data).expanduser(), data)
+    return (
+        Plan("even-odd", partial(parted.every_other, gallery)),
+        Plan("halves", partial(parted.halves, gallery)),
+        Plan("shots", partial(shots.shots, gallery), usual=gallery.least > 1),
+        *_growth(),
+    )
+
+
+def _scenes(data: str, teach: Sequence[str], ask: Sequence[str]) -> tuple[Plan, ...]:
+    from kille.lab.protocols import scenes
+    from kille.lab.scenes import labelled
+
+    found = labelled.open_scenes(Path(data).expanduser(), data)
+    split = labelled.splits(found, teach, ask)
+    return (
+        Plan("scenes", partial(scenes.across, found, split)),
+        *_regions(data),
+        *_growth(),
+    )
+
+
+def _captures(data: str) -> tuple[Plan, ...]:
+    return (*_regions(data), *_growth())
+
+
+def _regions(data: str) -> tuple[Plan, ...]:
+    from kille.lab.protocols.regions import captures, regions
+    from kille.perception.segment import SEGMENTATIONS
+
+    found = captures(Path(data).expanduser())
+
+    def measured(methods: Methods, *, seed: int, progress: Progress) -> Result:
+        """Regions are found before any learner sees them, and without chance."""
+        return regions(found, progress=progress)
+
+    return (Plan("regions", measured, compares=tuple(SEGMENTATIONS)),)
+
+
+def _growth() -> tuple[Plan, ...]:
+    from kille.lab.protocols.growth import growth
+
+    return (Plan("growth", growth, usual=False),)
+
+
+# --- relations -----------------------------------------------------------------------
+
+
+def relation_plans(data: str | None) -> tuple[Plan, ...]:
+    """The protocol for relations: simulated judges, or people's own judgements.
+
+    ExperimentError for a folder that holds none that are known.
+    """
+    from kille.lab.protocols import judgements, spatial
+    from kille.lab.scenes import published_judgements
+
+    if data is None:
+        return (Plan("paper", spatial.paper),)
+    study = published_judgements.read(_folder(data))
+    return (Plan("judgements", partial(judgements.judgements, study)),)

@@ -1,0 +1,211 @@
+"""Teach in some scenes, ask in another: known things from other sides, and strangers.
+
+Every frame of a scene is one lesson, or one question, about each thing in it. Things of
+the asked scene that were in no taught one are strangers: the degrees of all words for
+them should be low.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+from kille.lab.measures.statistics import auroc
+from kille.lab.progress import Steps
+from kille.lab.protocols.teaching import (
+    Answer,
+    asked,
+    confusion_figure,
+    mean_degrees,
+    right_cells,
+    share_right,
+    taught,
+)
+from kille.lab.results import (
+    Cell,
+    Figure,
+    Progress,
+    Result,
+    Table,
+    silent,
+)
+from kille.lab.scenes.labelled import Scenes, Split
+from kille.lab.scenes.labelled import known as known_in
+from kille.lab.theories.candidates import Methods
+
+_SEEING = 0.5  # the share of the time that goes into seeing
+
+Answers = Mapping[tuple[Split, str], Sequence[Answer]]
+"""What each method answered, by the split and the method's name."""
+
+
+def across(
+    scenes: Scenes,
+    chosen: Sequence[Split],
+    methods: Methods,
+    *,
+    seed: int,
+    progress: Progress = silent,
+) -> Result:
+    """What is told apart of the taught things, and whether strangers are noticed."""
+    _see(scenes, chosen, progress)
+    answers = _answers(scenes, chosen, methods, progress)
+    known = {split: known_in(scenes, split) for split in chosen}
+    return Result(
+        "Taught in some scenes, asked in another",
+        (
+            _known_again(answers, known),
+            *(_open_set(split, answers, known[split]) for split in chosen),
+        ),
+        tuple(
+            figure
+            for (split, name), them in answers.items()
+            for figure in _figures(split, name, them, known[split])
+        ),
+        {
+            "splits": [
+                {
+                    "teach": list(split.teach),
+                    "ask": split.ask,
+                    "method": name,
+                    **_facts(them, known[split]),
+                }
+                for (split, name), them in answers.items()
+            ]
+        },
+    )
+
+
+def _see(scenes: Scenes, chosen: Sequence[Split], progress: Progress) -> None:
+    """See every scene that is taught or asked."""
+    needed = dict.fromkeys(it for split in chosen for it in (*split.teach, split.ask))
+    steps = Steps(progress, len(needed), 0, _SEEING)
+    for scene in needed:
+        scenes.lessons(scene)
+        steps(f"looking at {scene}")
+
+
+def _answers(
+    scenes: Scenes, chosen: Sequence[Split], methods: Methods, progress: Progress
+) -> Answers:
+    count = sum(len(scenes.lessons(split.ask)) for split in chosen) * len(methods)
+    steps = Steps(progress, count, _SEEING, 1)
+    return {
+        (split, name): asked(
+            taught(make, (it for scene in split.teach for it in scenes.lessons(scene))),
+            scenes.lessons(split.ask),
+            partial(steps, f"{name}, {split}"),
+        )
+        for split in chosen
+        for name, make in methods.items()
+    }
+
+
+def _known_again(answers: Answers, known: Mapping[Split, set[str]]) -> Table:
+    return Table(
+        "Is what was taught known again, and are strangers noticed?",
+        (
+            "taught → asked",
+            "method",
+            "right, by frame",
+            "share",
+            "right, by thing",
+            "AUROC, by frame",
+            "AUROC, by thing",
+        ),
+        tuple(
+            (str(split), name, *_scores(them, known[split]))
+            for (split, name), them in answers.items()
+        ),
+        "Right: of the taught things only. By thing: the mean over the frames, "
+        "of which each is nearly the other. AUROC: how likely the best degree "
+        "for a taught thing is higher than for a stranger.",
+    )
+
+
+def _by_thing(answers: Sequence[Answer]) -> list[Answer]:
+    words = dict.fromkeys(answer.word for answer in answers)
+    return [mean_degrees([it for it in answers if it.word == word]) for word in words]
+
+
+def _auroc(answers: Sequence[Answer], known: set[str]) -> float:
+    return auroc(
+        [it.best for it in answers if it.word in known],
+        [it.best for it in answers if it.word not in known],
+    )
+
+
+def _scores(answers: Sequence[Answer], known: set[str]) -> tuple[Cell, ...]:
+    things = _by_thing(answers)
+    right, share, _ = right_cells([it for it in answers if it.word in known])
+    return (
+        right,
+        share,
+        right_cells([it for it in things if it.word in known])[0],
+        _auroc(answers, known),
+        _auroc(things, known),
+    )
+
+
+def _facts(answers: Sequence[Answer], known: set[str]) -> dict[str, object]:
+    things = _by_thing(answers)
+    return {
+        "taught": sorted(known),
+        "strangers": sorted({it.word for it in things} - known),
+        "right_by_frame": share_right([it for it in answers if it.word in known]),
+        "right_by_thing": share_right([it for it in things if it.word in known]),
+        "auroc_by_frame": _auroc(answers, known),
+        "auroc_by_thing": _auroc(things, known),
+    }
+
+
+def _open_set(split: Split, answers: Answers, known: set[str]) -> Table:
+    """Thing by thing: what it is taken for, and how sure."""
+    by_method = {
+        name: {it.word: it for it in _by_thing(them)}
+        for (of, name), them in answers.items()
+        if of is split
+    }
+    things = next(iter(by_method.values()))
+    rows = tuple(
+        (
+            thing,
+            "taught" if thing in known else "stranger",
+            *(
+                f"{them[thing].said} {them[thing].best:.2f}"
+                for them in by_method.values()
+            ),
+        )
+        for thing in sorted(things, key=lambda it: (it not in known, it))
+    )
+    return Table(
+        f"Thing by thing, {split}",
+        ("thing", "it is", *by_method),
+        rows,
+        "The word of the highest mean degree over the frames.",
+    )
+
+
+def _figures(
+    split: Split, name: str, answers: Sequence[Answer], known: set[str]
+) -> list[Figure]:
+    groups = {
+        "taught": [it.best for it in answers if it.word in known],
+        "strangers": [it.best for it in answers if it.word not in known],
+    }
+    points = {
+        group: {"x": sorted(them), "y": _rising(them)}
+        for group, them in groups.items()
+        if them
+    }
+    labels = {"xlabel": "best degree", "ylabel": "share at most so high"}
+    return [
+        confusion_figure(f"{name}, {split}", answers),
+        Figure(
+            "points", f"Best degrees of {name}, {split}", {"series": points, **labels}
+        ),
+    ]
+
+
+def _rising(values: Sequence[float]) -> list[float]:
+    return [(place + 1) / len(values) for place in range(len(values))]

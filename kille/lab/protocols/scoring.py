@@ -1,0 +1,156 @@
+"""Teaching learners what people judged, and scoring them by what other people said."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.lab.measures.statistics import kappa, spearman
+from kille.lab.protocols.spatial import degrees_of
+from kille.lab.scenes.published_judgements import Choice, Judged, Study
+from kille.scene import Configuration
+
+_FOLDS = 5
+_ASKED = 40  # of a word in one draw at most: more tell little and take long
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Score:
+    """Agreement with people: of ranks, of yes and no, and of these beyond chance.
+
+    within: the mean agreement of ranks in each fold. Put together, folds cost a learner
+    that learns how usual a word is: where the high places are asked, low ones were
+    taught (Forman and Scholz 2010).
+    """
+
+    spearman: float
+    accuracy: float
+    kappa: float
+    within: float = float("nan")
+
+
+def taught(make: Callable[[], Any], lessons: Mapping[str, Sequence[Judged]]) -> Any:
+    """A learner that was told these judgements, if it takes any, or lessons of them."""
+    learner = make()
+    judge = getattr(learner, "judge_one", None)
+    for word, them in lessons.items():
+        for it in them:
+            if judge is not None:
+                judge(it.x, word, it.degree)
+            elif it.degree >= 0.5:
+                learner.learn_one(it.x, word)
+    return learner
+
+
+def _asked(learner: Any, word: str, them: Sequence[Judged]) -> tuple[Vector, Vector]:
+    """What people said, and the learner."""
+    said = [_degree(learner, word, it.x) for it in them]
+    return np.array([it.degree for it in them]), np.array(said)
+
+
+def _degree(learner: Any, word: str, x: Configuration) -> float:
+    """To what degree the word fits; above .5 it is meant.
+
+    A learner that only shares out one choice means a word that has more than its share.
+    """
+    degrees = degrees_of(learner, x)
+    found = degrees.get(word, 0.0)
+    if hasattr(learner, "degrees"):
+        return found
+    return _rescaled(found, 1 / max(2, len(degrees)))
+
+
+def _rescaled(share: float, even: float) -> float:
+    """.5 for an even share, keeping 0, 1 and the order."""
+    if share <= even:
+        return 0.5 * share / even
+    return 0.5 + 0.5 * (share - even) / (1 - even)
+
+
+def _score(people: Vector, learner: Vector) -> Score:
+    """Agreement; what people were evenly divided on counts for the ranks only."""
+    told = people != 0.5
+    ours, theirs = learner[told] > 0.5, people[told] > 0.5
+    rank = spearman(people, learner)
+    return Score(
+        0.0 if np.isnan(rank) and np.ptp(people) > 0 else rank,
+        float((ours == theirs).mean()) if len(ours) else float("nan"),
+        kappa([str(it) for it in theirs], [str(it) for it in ours]),
+    )
+
+
+def drawn(
+    study: Study, make: Callable[[], Any], size: int, chance: np.random.Generator
+) -> dict[str, Score]:
+    """Each word's score after so many lessons of each, drawn by chance."""
+    lessons, asked = {}, {}
+    for word, them in study.words.items():
+        order = chance.permutation(len(them))
+        count = min(size, len(them) // 2)
+        lessons[word] = [them[i] for i in order[:count]]
+        asked[word] = [them[i] for i in order[count : count + _ASKED]]
+    learner = taught(make, lessons)
+    return {word: _score(*_asked(learner, word, asked[word])) for word in asked}
+
+
+def _folds(study: Study, seed: int) -> Iterator[tuple[set[str], set[str]]]:
+    """Scenes to teach and to ask; where there is one scene only, places."""
+    groups = sorted({_group(it) for it in study.every()})
+    order = np.random.default_rng(seed).permutation(len(groups))
+    for fold in range(_FOLDS):
+        asked = {groups[i] for i in order[fold::_FOLDS]}
+        yield {it for it in groups if it not in asked}, asked
+
+
+def _group(it: Judged) -> str:
+    return it.scene or str(it.x.offset)
+
+
+def _split(study: Study, groups: set[str]) -> dict[str, list[Judged]]:
+    return {
+        word: [it for it in them if _group(it) in groups]
+        for word, them in study.words.items()
+    }
+
+
+def folded(study: Study, make: Callable[[], Any], seed: int) -> dict[str, Score]:
+    """Each word's score when all but a fifth of the scenes are taught."""
+    said: dict[str, list[tuple[Vector, Vector]]] = {word: [] for word in study.words}
+    for teach, ask in _folds(study, seed):
+        learner = taught(make, _split(study, teach))
+        for word, them in _split(study, ask).items():
+            said[word].append(_asked(learner, word, them))
+    return {word: _pooled(pairs) for word, pairs in said.items()}
+
+
+def _pooled(folds: Sequence[tuple[Vector, Vector]]) -> Score:
+    score = _score(*(np.concatenate(side) for side in zip(*folds, strict=True)))
+    ranks = [_score(*fold).spearman for fold in folds if len(fold[0])]
+    known = [it for it in ranks if not np.isnan(it)]
+    return replace(score, within=float(np.mean(known)) if known else float("nan"))
+
+
+def hits(study: Study, make: Callable[[], Any], seed: int) -> dict[int, float]:
+    """For each choice in a scene that was not taught: 1 if it is as people's.
+
+    Ties of n targets count 1/n where the right one is among them.
+    """
+    found = {}
+    for teach, _ in _folds(study, seed):
+        learner = taught(make, _split(study, teach))
+        for i, choice in enumerate(study.choices):
+            if choice.scene not in teach and i not in found:
+                found[i] = _hit(learner, choice)
+    return found
+
+
+def _hit(learner: Any, choice: Choice) -> float:
+    degrees = [degrees_of(learner, x).get(choice.word, 0.0) for x in choice.targets]
+    best = [i for i, it in enumerate(degrees) if it == max(degrees)]
+    return (choice.chosen in best) / len(best)

@@ -1,0 +1,134 @@
+"""The spatial protocol on rendered scenes: a book round a car, as the robot sees it.
+
+Each scene is rendered and taken apart by the robot's own eyes; the outlines of the
+simulation only say which of the regions is the book and which the car, as a tutor's
+finger would. The people are simulated, see `kille.lab.tutors.spatial_judges`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import cos, pi, sin
+from typing import Any
+
+import numpy as np
+
+from kille.lab.measures.statistics import kappa
+from kille.lab.results import Cell, Progress, Table
+from kille.lab.tutors.spatial_judges import ACCEPTED, Person, Place, answer
+from kille.perception.relations.configurations import configuration
+from kille.perception.segment import segment
+from kille.scene import Configuration, Frame, Region
+from kille.sensors.sensor import At, SensorError
+from kille.sensors.synthetic.sensor import Synthetic, open_synthetic
+
+_TARGET, _LANDMARK = "book", "car"
+_MIDDLE = At(0.0, 0.05, 0.0)  # the car, so that all around it is in view
+_RINGS = (0.24, 0.30)  # metres: nearer the book would stand in the car
+_POINTS = 8
+_TURN = 20  # degrees
+_TRIES = 6
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """A placement: where the book truly is, and what the robot saw."""
+
+    true: Place
+    seen: Configuration
+
+
+def staged(methods: Mapping[str, Any], *, seed: int, progress: Progress) -> Table:
+    """Two rounds of 16 lessons and one of 16 questions, for each of the methods."""
+    chance = np.random.default_rng([seed, 1])
+    stage = open_synthetic(f"synthetic:empty?seed={seed}")
+    progress(0.0, "rendered scenes")
+    rounds = [list(_round(stage, chance)) for _ in range(3)]
+    stage.close()
+    taught, asked = [*rounds[0], *rounds[1]], rounds[2]
+    person = Person()
+    words = [person.says(it.true, chance) for it in taught]
+    judged = [[person.says(it.true, chance) for it in asked] for _ in range(2)]
+    rows: list[tuple[Cell, ...]] = []
+    for name, make in methods.items():
+        answers = _answers(make(), taught, words, asked)
+        accepted = [
+            person.chances(it.true).get(word, 0.0) >= ACCEPTED
+            for it, word in zip(asked, answers, strict=True)
+        ]
+        agreed = kappa([*judged[0], *judged[1]], answers * 2)
+        rows.append((name, kappa(*judged), agreed, float(np.mean(accepted))))
+    return Table(
+        title="The same on rendered scenes, seen by the robot's own eyes",
+        columns=("method", "judges' kappa", "robot's kappa", "accepted"),
+        rows=tuple(rows),
+        note=f"{len(taught)} lessons and {len(asked)} questions, one run; "
+        f"places are {_error(taught + asked):.1f} cm off (median).",
+    )
+
+
+def _answers(
+    learner: Any, taught: Sequence[_Seen], words: Sequence[str], asked: Sequence[_Seen]
+) -> list[str]:
+    """What a learner says of the questions that was taught these words."""
+    for key, (it, word) in enumerate(zip(taught, words, strict=True)):
+        learner.learn_one(it.seen, word, key=key)
+    return [answer(learner.predict_proba_one(it.seen)) for it in asked]
+
+
+def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[_Seen]:
+    """The book at each of 16 places, where there is room and the robot sees both."""
+    for distance in _RINGS:
+        for point in range(_POINTS):
+            bearing = 2 * pi * point / _POINTS
+            seen = _placed(stage, distance, bearing, chance)
+            if seen is not None:
+                yield seen
+
+
+def _placed(
+    stage: Synthetic, distance: float, bearing: float, chance: np.random.Generator
+) -> _Seen | None:
+    for _ in range(_TRIES):
+        right, away = distance * cos(bearing), distance * sin(bearing)
+        right, away = right + chance.normal(0, 0.01), away + chance.normal(0, 0.01)
+        try:
+            stage.show(_LANDMARK)
+            stage.place(_LANDMARK, _MIDDLE)
+            stage.place(
+                _TARGET,
+                At(
+                    _MIDDLE.right + right,
+                    _MIDDLE.away + away,
+                    chance.uniform(-_TURN, _TURN),
+                ),
+            )
+        except SensorError:
+            continue
+        return _looked(stage.frame(), (right, away))
+    return None
+
+
+def _looked(frame: Frame, true: Place) -> _Seen | None:
+    scene = segment(frame)
+    target = _pointed(frame, scene.regions, _TARGET)
+    landmark = _pointed(frame, scene.regions, _LANDMARK)
+    if target is None or landmark is None or target is landmark:
+        return None
+    others = [it for it in scene.regions if it is not target and it is not landmark]
+    seen = configuration(frame, target, landmark, others, scene.up)
+    return None if seen is None else _Seen(true, seen)
+
+
+def _pointed(frame: Frame, regions: tuple[Region, ...], name: str) -> Region | None:
+    """The region that a finger on the thing would mean."""
+    outline = frame.outlines[name]
+    shared = [int((it.mask & outline).sum()) for it in regions]
+    return regions[int(np.argmax(shared))] if any(shared) else None
+
+
+def _error(seen: list[_Seen]) -> float:
+    """How far off the places on the table are, in centimetres: the median."""
+    off = [np.array(it.seen.offset[:2]) - it.true for it in seen]
+    return float(np.median(np.linalg.norm(off, axis=1))) * 100 if off else 0.0

@@ -1,0 +1,226 @@
+"""What changes from tutor to tutor and from scene to scene: tables and figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+from kille.lab.measures.measures import Measure
+from kille.lab.measures.scored_dialogues import Dialogue
+from kille.lab.reports.controls import against_the_first
+from kille.lab.reports.figure_styles import HUES
+from kille.lab.reports.findings import Theories, estimated
+from kille.lab.reports.links import Places
+from kille.lab.reports.repeated_tests import in_phase, main_of, phases_of
+from kille.lab.reports.row_figures import in_rows
+from kille.lab.reports.short_names import short
+from kille.lab.results import Cell, Estimate, Figure, Result, Table
+
+_ROBOT, _PEOPLE = "κ robot–tutor", "κ tutor–judge"
+_TOLD = (
+    "accuracy",
+    _ROBOT,
+    "κ robot–judge",
+    _PEOPLE,
+    "accepted",
+    "reference",
+    "words",
+    "corrections",
+    "questions",
+    "lessons",
+)
+_CHIEF = ("accuracy", _ROBOT, "accepted", "reference")
+"""What is told of each tutor in front of each scene."""
+_DRAWN = 40
+"""At most so many conditions are drawn."""
+_ROWS = 48
+"""Of more phases and conditions, the last phase alone is told."""
+
+_Key: TypeAlias = tuple[str, ...]
+_Parts: TypeAlias = dict[str, dict[_Key, list[Dialogue]]]
+_Heads: TypeAlias = Mapping[str, Callable[[Dialogue], str]]
+
+_TUTOR: _Heads = {"tutor": lambda it: it.run.tutor}
+_SCENE: _Heads = {"scene": lambda it: it.run.scene}
+
+
+def by_conditions(
+    theories: Theories, measures: Sequence[Measure], places: Places
+) -> Iterator[Result]:
+    """What is told of each tutor and each scene, where there are several.
+
+    Of one theory it is said in words how much they matter.
+    """
+    heads = _varied(places)
+    if not heads:
+        return
+    told = [it for it in measures if it.name in _TOLD]
+    tables = [*_by_phase(theories, measures, heads, places)]
+    figures: list[Figure] = []
+    for head in heads:
+        parts = _parts(theories, head)
+        tables.append(_table(_by(head), head, parts, told, places))
+        figures += _agreement(_by(head), parts, measures)
+    against = list(against_the_first(theories, measures, places))
+    tables += [it.table for it in against]
+    text = "\n\n".join(it.text for it in against if it.text)
+    yield Result(
+        "Tutors and scenes",
+        tuple(tables),
+        tuple(figures),
+        text=text if len(theories) == 1 else "",
+    )
+    if len(heads) > 1:
+        yield _crossed(theories, measures, places)
+
+
+def _crossed(theories: Theories, measures: Sequence[Measure], places: Places) -> Result:
+    """What is told of each tutor in front of each scene."""
+    heads = {**_TUTOR, **_SCENE}
+    parts = _parts(theories, heads)
+    chief = [it for it in measures if it.name in _CHIEF]
+    table = _table(_by(heads), heads, parts, chief, places)
+    figures = tuple(_agreement(_by(heads), parts, measures))
+    return Result("Each tutor in front of each scene", (table,), figures)
+
+
+def _varied(places: Places) -> list[_Heads]:
+    """Tutors if there are several, and scenes."""
+    of = ((_TUTOR, places.tutors), (_SCENE, places.scenes))
+    return [heads for heads, names in of if len(names) > 1]
+
+
+def _by(heads: _Heads) -> str:
+    return f"by {' and '.join(heads)}"
+
+
+def _parts(theories: Theories, heads: _Heads) -> _Parts:
+    parts: _Parts = {name: {} for name in theories}
+    for name, them in theories.items():
+        for it in them:
+            key = tuple(of(it) for of in heads.values())
+            parts[name].setdefault(key, []).append(it)
+    return parts
+
+
+def _keys(parts: _Parts) -> list[_Key]:
+    return list(dict.fromkeys(key for of in parts.values() for key in of))
+
+
+# --- tables --------------------------------------------------------------------------
+
+
+def _table(
+    by: str, heads: _Heads, parts: _Parts, measures: Sequence[Measure], places: Places
+) -> Table:
+    """Measure by measure; what is the same everywhere is left out."""
+    rows: list[tuple[Cell, ...]] = []
+    links = {}
+    keys = _keys(parts)
+    for measure in measures:
+        found = {
+            key: [estimated(measure, of.get(key, ())) for of in parts.values()]
+            for key in keys
+        }
+        if len({it.value for of in found.values() for it in of}) == 1:
+            continue
+        for key, estimates in found.items():
+            for column, name in enumerate(parts, start=1 + len(key)):
+                links[len(rows), column] = _place(places, name, heads, key)
+            rows.append((measure.name, *key, *estimates))
+    columns = ("measure", *heads, *parts)
+    return Table(by.capitalize(), columns, tuple(rows), "", links)
+
+
+def _place(places: Places, theory: str, heads: _Heads, key: _Key) -> str:
+    named = dict(zip(heads, key, strict=True))
+    if "scene" in named:
+        return places.scene(theory, named["scene"])
+    return places.tutor(theory, named["tutor"])
+
+
+def _by_phase(
+    theories: Theories,
+    measures: Sequence[Measure],
+    varied: Sequence[_Heads],
+    places: Places,
+) -> Iterator[Table]:
+    """How much is right in each phase, where something is asked in several."""
+    main = main_of(measures)
+    if main is None:
+        return
+    phases = phases_of(theories, main)
+    if len(phases) < 2:
+        return
+    heads = {name: of for it in varied for name, of in it.items()}
+    keys = _keys(_parts(theories, heads))
+    title = f"{main.name.capitalize()}, phase by phase"
+    if len(phases) * len(keys) > _ROWS:
+        phases = phases[-1:]
+        title = f"{main.name.capitalize()} in {phases[-1]}"
+    rows: list[tuple[Cell, ...]] = []
+    links = {}
+    for phase in phases:
+        parts = _parts(in_phase(theories, main, phase), heads)
+        for key in keys:
+            for column, name in enumerate(parts, start=1 + len(key)):
+                links[len(rows), column] = _place(places, name, heads, key)
+            told = (estimated(main, of.get(key, ())) for of in parts.values())
+            rows.append((phase, *key, *told))
+    yield Table(title, ("phase", *heads, *theories), tuple(rows), "", links)
+
+
+# --- figures -------------------------------------------------------------------------
+
+
+def in_last_phase(
+    theories: Theories, main: Measure, places: Places
+) -> Iterator[Figure]:
+    """How much is right in the last phase in which something is asked.
+
+    Tutor by tutor and scene by scene, where there are several.
+    """
+    phases = phases_of(theories, main)
+    last = in_phase(theories, main, phases[-1])
+    where = f" in {phases[-1]}" if len(phases) > 1 else ""
+    for heads in _varied(places):
+        title = f"{main.name.capitalize()}{where}, {_by(heads)}"
+        yield from _drawn(title, _estimates(_parts(last, heads), main), main.name)
+
+
+_Estimates: TypeAlias = Mapping[str, Mapping[_Key, Estimate]]
+
+
+def _estimates(parts: _Parts, measure: Measure) -> _Estimates:
+    keys = _keys(parts)
+    return {
+        name: {key: estimated(measure, of.get(key, ())) for key in keys}
+        for name, of in parts.items()
+    }
+
+
+def _drawn(title: str, found: _Estimates, xlabel: str) -> Iterator[Figure]:
+    keys = list(dict.fromkeys(key for of in found.values() for key in of))
+    if not 1 < len(keys) <= _DRAWN:
+        return
+    called = short(part for key in keys for part in key)
+    labels = [", ".join(called[part] for part in key) for key in keys]
+    series = {name: [of[key] for key in keys] for name, of in found.items()}
+    yield from in_rows(title, labels, series, {"xlabel": xlabel})
+
+
+def _agreement(by: str, parts: _Parts, measures: Sequence[Measure]) -> Iterator[Figure]:
+    """Kappa of the robots and the tutors; beside it that of the tutors and a judge.
+
+    These two are the same people whatever the theory, and set a ceiling to it; it is
+    drawn while there is a hue for it.
+    """
+    named = {it.name: it for it in measures}
+    if _ROBOT not in named:
+        return
+    found = dict(_estimates(parts, named[_ROBOT]))
+    if _PEOPLE in named and len(found) < len(HUES):
+        people = list(_estimates(parts, named[_PEOPLE]).values())
+        if all(repr(it) == repr(people[0]) for it in people):
+            found["tutor and judge: the ceiling"] = people[0]
+    yield from _drawn(f"{_ROBOT} {by}", found, "κ")

@@ -1,0 +1,300 @@
+"""How theories differ, and how many dialogues it takes to tell: tables and a figure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+
+from kille.lab.measures.comparison import (
+    Contrast,
+    Difference,
+    contrasts,
+    holm,
+    least_p,
+    pairs_needed,
+)
+from kille.lab.measures.measures import ACCURACY, Measure
+from kille.lab.measures.power import POWER, least_difference, power_of, runs_needed
+from kille.lab.reports.findings import Theories
+from kille.lab.reports.links import Places
+from kille.lab.reports.result_pages import shown
+from kille.lab.reports.row_figures import in_rows
+from kille.lab.reports.short_names import short
+from kille.lab.results import Cell, Estimate, Figure, Result, Table
+
+_SEED = 2  # of the chance by which pairs are drawn anew and exchanged
+_MAIN = ACCURACY.name
+CHANCE = 0.05
+FEW = 3
+"""Of more differences only those are told that are hardly by chance."""
+CORRECTED = "Each p is after Holm's correction."
+_LEAST = 0.001
+_SOUGHT = (0.05, 0.02)
+"""Differences for which it is told how many dialogues they take."""
+
+TESTED = (
+    "p: permutation test, in which the two of a pair are exchanged; then with Holm's "
+    "correction, for the main measure ({main}) over its own tests, and for the "
+    "others over all of theirs. What is the same in each pair is left out. The "
+    "brackets are of 95 %, of pairs drawn anew; where they and the test of the same "
+    "difference disagree about zero, the test counts, and no brackets are shown."
+)
+_NOTE = (
+    "Each is that of the later theory less that of the earlier one, over dialogues "
+    f"with the same tutor, scene and seed. {TESTED}"
+)
+_ANSWERED = (
+    "Questions for words that both were asked. McNemar's exact test holds answers for "
+    "independent, which those of one dialogue are not: the permutation test above is "
+    "the main one."
+)
+_POWERED = (
+    f"For {{main}}. Spread: the standard deviation of the differences within pairs. "
+    f"Seen with {POWER:.0%}: the smallest difference that so many pairs show with this "
+    f"power, by the normal approximation; beside it its power found by simulation. "
+    f"Then how many pairs it takes to see a difference."
+)
+
+
+def contrasted(
+    theories: Theories,
+    which: Iterable[tuple[str, str]],
+    measures: Sequence[Measure],
+    places: Places,
+    main: str = _MAIN,
+) -> list[Result]:
+    """How theories differ, these two by two, first in the main measure; nothing of
+    none.
+    """
+    tested = [it for it in measures if it.better]
+    found = contrasts(theories, which, tested, np.random.default_rng(_SEED))
+    if not found:
+        return []
+    asked = found if ACCURACY in measures else []
+    mains = found if main in [it.name for it in measures] else []
+    tested.sort(key=lambda it: it.name != main)
+    tables = (
+        _differences(found, tested, places, main),
+        _answers(asked, places),
+        _powers(found, main),
+    )
+    told = tuple(it for it in tables if it.rows)
+    text = "\n\n".join([*out_of_reach(mains, main), _in_words(mains, main)])
+    return [Result("How they differ", told, _figures(found), text=text)]
+
+
+def _in_words(found: Sequence[Contrast], main: str) -> str:
+    """What became of the main measure, a line for each two theories.
+
+    Of many, how many differ, and those that do.
+    """
+    mains = [it.differences.get(main) for it in found]
+    ps = holm([float("nan") if it is None else it.p for it in mains])
+    if len(found) <= FEW:
+        told = [_sentence(it, p, main) for it, p in zip(found, ps, strict=True)]
+        several = np.isfinite(ps).sum() > 1
+        return "\n".join([*told, CORRECTED] if several else told)
+    with_p = zip(found, ps, strict=True)
+    seen = [_sentence(it, p, main) for it, p in with_p if p < CHANCE]
+    first = (
+        f"Of {len(found)} pairs of theories {len(seen)} differ in {main} "
+        f"(p < {CHANCE} after Holm's correction)."
+    )
+    return "\n".join([first, *seen])
+
+
+def _sentence(it: Contrast, p: float, measure: str) -> str:
+    if not it.differences:
+        return f"{it.other} and {it.one} do equally well in every pair of dialogues."
+    main = it.differences.get(measure)
+    if main is None:
+        return f"{it.other} and {it.one} have the same {measure} in every pair."
+    if not main.pairs:
+        return f"{it.other} and {it.one} were never both asked for words."
+    told = told_by(main, p)
+    return f"The {measure} of {it.other} differs from that of {it.one} by {told}."
+
+
+def told_by(difference: Difference, p: float) -> str:
+    """A difference, with its band and how likely it is by chance, in a sentence."""
+    estimate = agreeing(difference.estimate, p)
+    return f"{shown(estimate)} (p = {told_p(p)})".replace("= <", "<")
+
+
+def agreeing(estimate: Estimate, p: float) -> Estimate:
+    """A difference beside its p: without a band that says otherwise of zero.
+
+    >>> agreeing(Estimate(0.2, 0.1, 0.3), 0.01), agreeing(Estimate(0.2, 0.1, 0.3), 0.06)
+    (Estimate(value=0.2, low=0.1, ...), Estimate(value=0.2, low=nan, high=nan, ...))
+    """
+    apart = not estimate.low <= 0 <= estimate.high
+    if apart == (p < CHANCE):
+        return estimate
+    return estimate._replace(low=float("nan"), high=float("nan"))
+
+
+def out_of_reach(found: Sequence[Contrast], main: str = _MAIN) -> Iterator[str]:
+    """That no difference can be significant, where there are too few pairs for it."""
+    mains = [it.differences[main] for it in found if main in it.differences]
+    most, tests = max((it.pairs for it in mains), default=0), len(mains)
+    least = min(1.0, tests * least_p(most))
+    if not most or least < CHANCE:
+        return
+    needed = pairs_needed(tests, CHANCE)
+    corrected = f" after Holm's correction for {tests} tests" if tests > 1 else ""
+    yield (
+        f"No difference in {main} can be significant: with {most} "
+        f"pair{'s' if most != 1 else ''} of dialogues p is {told_p(least)} at "
+        f"best{corrected}. "
+        + (
+            f"It takes {needed} pairs: give the study more seeds."
+            if needed
+            else "Compare fewer theories."
+        )
+    )
+
+
+def contrast_names(contrast: Contrast) -> str:
+    """What is compared, as the later less the earlier."""
+    return f"{contrast.other} − {contrast.one}"
+
+
+def told_p(p: float) -> str:
+    """A probability of chance alone as papers write it.
+
+    >>> told_p(0.0301), told_p(0.00002), told_p(float("nan"))
+    ('0.030', '< 0.001', '–')
+    """
+    if p != p:
+        return "–"
+    return f"{p:.3f}" if p >= _LEAST else f"< {_LEAST}"
+
+
+def _differences(
+    found: Sequence[Contrast], measures: Sequence[Measure], places: Places, main: str
+) -> Table:
+    """Measure by measure, as they are corrected for how many they are."""
+    told = [
+        (it, measure.name, it.differences[measure.name])
+        for measure in measures
+        for it in found
+        if measure.name in it.differences
+    ]
+    ps = corrected([(name, d.p) for _, name, d in told], main)
+    rows = tuple(
+        (
+            contrast_names(it),
+            name,
+            agreeing(d.estimate, d.p),
+            told_p(d.p),
+            told_p(p),
+            d.pairs,
+        )
+        for (it, name, d), p in zip(told, ps, strict=True)
+    )
+    columns = ("theories", "measure", "difference", "p", "p (Holm)", "pairs")
+    links = {
+        (row, 2): places.against(it.one, it.other)
+        for row, (it, _, _) in enumerate(told)
+    }
+    note = _NOTE.format(main=main)
+    return Table("Paired differences", columns, rows, note, links)
+
+
+def corrected(ps: Sequence[tuple[str, float]], main: str = _MAIN) -> list[float]:
+    """Those of the main measure are one family of tests, all others another."""
+    found = [p for _, p in ps]
+    for is_main in (True, False):
+        places = [i for i, (name, _) in enumerate(ps) if (name == main) == is_main]
+        for i, p in zip(places, holm([ps[i][1] for i in places]), strict=True):
+            found[i] = p
+    return found
+
+
+def _answers(found: Sequence[Contrast], places: Places) -> Table:
+    corrected = holm([it.answers.p for it in found])
+    rows = tuple(
+        (*_sides(it), told_p(it.answers.p), told_p(p))
+        for it, p in zip(found, corrected, strict=True)
+    )
+    columns = ("theory", "only it right", "theory", "only it right", "p", "p (Holm)")
+    links = {
+        (row, column): places.against(it.one, it.other)
+        for row, it in enumerate(found)
+        for column in (1, 3)
+    }
+    return Table("Question by question", columns, rows, _ANSWERED, links)
+
+
+def _sides(it: Contrast) -> tuple[Cell, ...]:
+    return it.one, it.answers.one, it.other, it.answers.other
+
+
+# --- power ---------------------------------------------------------------------------
+
+
+def _powers(found: Sequence[Contrast], main: str) -> Table:
+    told = [(it, it.differences[main]) for it in found if main in it.differences]
+    rows = tuple((contrast_names(it), *_power(d)) for it, d in told)
+    columns = (
+        "theories",
+        "pairs",
+        "spread",
+        f"seen with {POWER:.0%}",
+        "power (simulated)",
+        "difference found",
+        "pairs for it",
+        *(f"pairs for {d:g}" for d in _SOUGHT),
+    )
+    return Table(
+        "How many dialogues it takes", columns, rows, _POWERED.format(main=main)
+    )
+
+
+def _power(d: Difference) -> tuple[Cell, ...]:
+    least = least_difference(d.spread, d.pairs)
+    chance = np.random.default_rng(_SEED)
+    known = np.isfinite(least) and least > 0
+    return (
+        d.pairs,
+        d.spread,
+        least,
+        power_of(d.apart, least, d.pairs, chance) if known else None,
+        d.estimate.value,
+        runs_needed(d.spread, d.estimate.value),
+        *(runs_needed(d.spread, it) for it in _SOUGHT),
+    )
+
+
+# --- figures -------------------------------------------------------------------------
+
+
+_SHARES = ("accuracy", "κ robot–tutor", "accepted", "reference", "margin")
+"""Measures on one scale, whose differences are drawn together."""
+_LINE = 24
+"""Letters of two names for which there is room in a line beside a figure."""
+
+
+def _figures(found: Sequence[Contrast]) -> tuple[Figure, ...]:
+    shares = [it for it in _SHARES if any(it in one.differences for one in found)]
+    pairs = [it for it in found if any(name in it.differences for name in shares)]
+    series = {
+        name: [_estimate(it.differences.get(name)) for it in pairs] for name in shares
+    }
+    called = short(name for it in pairs for name in (it.one, it.other))
+    labels = [_on_two_lines(called[it.other], called[it.one]) for it in pairs]
+    told = {"xlabel": "difference", "zero": 0.0}
+    return tuple(in_rows("Differences", labels, series, told))
+
+
+def _estimate(difference: Difference | None) -> Estimate:
+    nothing = Estimate(float("nan"), float("nan"), float("nan"))
+    if difference is None:
+        return nothing
+    return agreeing(difference.estimate, difference.p)
+
+
+def _on_two_lines(other: str, one: str) -> str:
+    """A pair of names, the second below the first if they are long."""
+    return f"{other} −{' ' if len(other + one) <= _LINE else chr(10)}{one}"

@@ -1,0 +1,108 @@
+"""What it costs the tutor to make the robot know so much: figures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from kille.lab.measures.measures import ACCURACY, Measure, Vector, ratio
+from kille.lab.measures.scored_dialogues import Dialogue, parted
+from kille.lab.reports.findings import Theories, estimated
+from kille.lab.reports.repeated_tests import Tests, called, phases_of
+from kille.lab.reports.row_figures import as_drawn, bands
+from kille.lab.reports.short_names import short
+from kille.lab.results import Figure
+
+
+def costs(theories: Theories, tests: Tests) -> Iterator[Figure]:
+    """The accuracy in each test against what was said before it; then by tutor.
+
+    Nothing of a test that is not repeated, nor of tutors who all say as much.
+    """
+    phases = phases_of(theories, ACCURACY)
+    for test in tests:
+        asked = [phase for phase in test if phase in phases]
+        if len(asked) > 1:
+            yield _by_phase(theories, asked)
+    for phase in phases[-1:]:
+        series = {name: _by_tutor(them, phase) for name, them in theories.items()}
+        if _differ(series):
+            yield _by_tutors(series, phase)
+
+
+_Series: TypeAlias = Mapping[str, Mapping[str, Sequence[Any]]]
+
+_LABELS = {"xlabel": "words of the tutor until then", "ylabel": "accuracy"}
+_LABELLED = 16
+"""At most so many points are called by the tutor."""
+_NOTE = "Words are those of one dialogue."
+
+
+def said_before(phase: str) -> Measure:
+    """How many words the tutor has said in a dialogue when a phase begins."""
+
+    def tally(dialogue: Dialogue) -> Vector:
+        words = 0
+        for effort in dialogue.efforts:
+            if effort.phase == phase:
+                break
+            words += effort.words
+        return np.array([words, 1], np.float64)
+
+    return Measure("words", f"words of the tutor before {phase}", tally, ratio, -1, 1)
+
+
+def _differ(series: _Series) -> bool:
+    """Whether some two points lie beside each other, and not by chance alone."""
+    points = [
+        (x, low if low == low else x, high if high == high else x)
+        for it in series.values()
+        for x, low, high in zip(it["x"], it["x_low"], it["x_high"], strict=True)
+    ]
+    least = min((high for _, _, high in points), default=0)
+    return any(low > least for _, low, _ in points)
+
+
+def _by_tutors(series: _Series, phase: str) -> Figure:
+    """The points by the tutor, called so where there are several, and not too many."""
+    tutors = {label for it in series.values() for label in it["labels"]}
+    title = f"Accuracy in {phase} against what it cost"
+    title += ", by tutor" if len(tutors) > 1 else ""
+    if len(tutors) < 2 or sum(len(it["x"]) for it in series.values()) > _LABELLED:
+        series = {name: {**it, "labels": []} for name, it in series.items()}
+    told = bands(low for it in series.values() for low in (*it["x_low"], *it["y_low"]))
+    return Figure("points", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
+
+
+def _by_phase(theories: Theories, phases: Sequence[str]) -> Figure:
+    series: dict[str, Any] = {}
+    for name, them in theories.items():
+        parts = parted(them, lambda it: it.phase if it.is_word else "")
+        known = [phase for phase in phases if phase in parts]
+        right = [estimated(ACCURACY, parts[phase]) for phase in known]
+        series[name] = {
+            "x": [estimated(said_before(phase), them).value for phase in known],
+            **as_drawn(right, "mean"),
+        }
+    title = f"Accuracy against what it cost: {called(phases)}"
+    told = bands(low for it in series.values() for low in it["low"])
+    return Figure("curves", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
+
+
+def _by_tutor(dialogues: Sequence[Dialogue], phase: str) -> dict[str, list[Any]]:
+    found: dict[str, list[Any]] = {
+        name: [] for name in ("x", "y", "x_low", "x_high", "y_low", "y_high", "labels")
+    }
+    asked = parted(dialogues, lambda it: it.phase if it.is_word else "").get(phase, [])
+    tutors = short(it.run.tutor for it in asked)
+    for tutor, label in tutors.items():
+        them = [it for it in asked if it.run.tutor == tutor]
+        spent, right = estimated(said_before(phase), them), estimated(ACCURACY, them)
+        for axis, it in (("x", spent), ("y", right)):
+            found[axis].append(it.value)
+            found[f"{axis}_low"].append(it.low)
+            found[f"{axis}_high"].append(it.high)
+        found["labels"].append(label)
+    return found

@@ -1,0 +1,176 @@
+"""Figures of theories: how they learn, and whether degrees hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from kille.lab.measures.measures import ACCURACY, DEGREE
+from kille.lab.measures.scored_dialogues import Dialogue, Scored, parted
+from kille.lab.measures.statistics import confusion
+from kille.lab.reports.findings import Theories, estimated
+from kille.lab.reports.repeated_tests import Tests, called, phases_of
+from kille.lab.reports.row_figures import as_drawn, bands, in_rows
+from kille.lab.results import Figure
+
+_PLACES = 12
+"""At most so many places on a learning curve."""
+_LEAST = 5
+"""Places of fewer answers are left out."""
+_BINS = 10
+_MOST = 16
+"""Of at most so many words it is drawn which are taken for which."""
+_DRAWN = 40
+"""At most so many words are drawn one by one."""
+_NOTHING = "(nothing)"
+_MANY = {"reply": "replies"}
+_ACCURACY = {"xlabel": "accuracy"}
+
+
+def learning(theories: Theories, tests: Tests) -> Iterator[Figure]:
+    """The accuracy in each test by how many lessons there were before the question."""
+    phases = phases_of(theories, ACCURACY)
+    asked = [[phase for phase in test if phase in phases] for test in tests]
+    several = sum(map(bool, asked)) > 1
+    for test in filter(None, asked):
+        told = f": {called(test)}" if several else ""
+        yield from _learning(f"Learning curve{told}", theories, test)
+
+
+def _learning(title: str, theories: Theories, test: Sequence[str]) -> Iterator[Figure]:
+    """Nothing where there were always as many."""
+
+    def counts(answer: Scored) -> bool:
+        return answer.is_word and answer.phase in test
+
+    answers = (it for them in theories.values() for one in them for it in one.answers)
+    lessons = {it.lessons for it in answers if counts(it)}
+    wide = step(max(lessons)) if len(lessons) > _PLACES else 1
+
+    def place(answer: Scored) -> int:
+        return near(answer.lessons, wide) if counts(answer) else -1
+
+    series: dict[str, Any] = {}
+    for name, them in theories.items():
+        parts = parted(them, place)
+        at = sorted(it for it in parts if it >= 0 and _count(parts[it]) >= _LEAST)
+        estimates = [estimated(ACCURACY, parts[it]) for it in at]
+        series[name] = {"x": at, **as_drawn(estimates, "mean")}
+    if any(len(it["x"]) > 1 for it in series.values()):
+        data = {
+            "x": sorted({x for it in series.values() for x in it["x"]}),
+            "series": series,
+            "xlabel": "lessons",
+            "ylabel": "accuracy",
+        }
+        told = bands(low for it in series.values() for low in it["low"])
+        yield Figure("curves", title, data, f"{_note(wide)} {told}")
+
+
+def near(lessons: int, wide: int) -> int:
+    """The place nearest to so many lessons; what is between two goes to the later.
+
+    >>> [near(it, 2) for it in range(7)]
+    [0, 2, 2, 4, 4, 6, 6]
+    """
+    return (lessons + wide // 2) // wide * wide
+
+
+def _count(dialogues: Sequence[Dialogue]) -> int:
+    return sum(len(it.answers) for it in dialogues)
+
+
+def _note(wide: int) -> str:
+    near = f"Answers are put to the nearest {wide} lessons. " if wide > 1 else ""
+    return f"{near}Not every dialogue comes to all of these."
+
+
+def step(most: int) -> int:
+    """How far apart places on an axis up to so much are: 1, 2, 5, 10, 20, 50, …
+
+    >>> step(9), step(48), step(2000)
+    (1, 5, 200)
+    """
+    scale = 1
+    while True:
+        for by in (1, 2, 5):
+            if most <= _PLACES * by * scale:
+                return by * scale
+        scale *= 10
+
+
+def reliable(theories: Theories) -> Iterator[Figure]:
+    """Whether what is said with a degree is right as often as that."""
+    series = {}
+    for name, them in theories.items():
+        bins = parted(them, _bin)
+        at = sorted(it for it in bins if it >= 0)
+        said = [estimated(DEGREE, bins[it]).value for it in at]
+        right = [estimated(ACCURACY, bins[it]) for it in at]
+        series[name] = {
+            "x": said,
+            **as_drawn(right, "y"),
+            "counts": [_count(bins[it]) for it in at],
+        }
+    if not any(it["x"] for it in series.values()):
+        return
+    data = {
+        "series": series,
+        "xlabel": "degree of the word that was said",
+        "ylabel": "share that is right",
+    }
+    told = bands(low for it in series.values() for low in it["low"])
+    note = f"On the dashed line degrees are what they say. {told}"
+    yield Figure("reliability", "Reliability", data, note)
+
+
+def _bin(answer: Scored) -> int:
+    if not (answer.is_word and answer.said and np.isfinite(answer.degree)):
+        return -1
+    return min(int(answer.degree * _BINS), _BINS - 1)
+
+
+def words(theories: Theories) -> Iterator[Figure]:
+    """The accuracy word by word, for each kind of word that has not too many."""
+    parts = {
+        name: parted(them, lambda it: (it.kind, it.right) if it.is_word else None)
+        for name, them in theories.items()
+    }
+    keys = sorted({key for them in parts.values() for key in them if key})
+    kinds = dict.fromkeys(kind for kind, _ in keys)
+    for kind in kinds:
+        ordered = [key for key in keys if key[0] == kind]
+        if not 1 < len(ordered) <= _DRAWN:
+            continue
+        series = {
+            name: [estimated(ACCURACY, of.get(key, ())) for key in ordered]
+            for name, of in parts.items()
+        }
+        which = f": {_plural(kind)}" if len(kinds) > 1 else ""
+        labels = [word for _, word in ordered]
+        yield from in_rows(f"Word by word{which}", labels, series, _ACCURACY)
+
+
+def confusions(theories: Theories) -> Iterator[Figure]:
+    """Which words are taken for which, for each theory and kind of word."""
+    for name, them in theories.items():
+        for kind, of in parted(them, lambda it: it.kind if it.is_word else "").items():
+            labels = sorted({it.right for one in of for it in one.answers})
+            if kind and 1 < len(labels) <= _MOST:
+                yield _confusion(f"{name}: {_plural(kind)}", labels, of)
+
+
+def _plural(kind: str) -> str:
+    return _MANY.get(kind, f"{kind}s")
+
+
+def _confusion(title: str, labels: list[str], of: Sequence[Dialogue]) -> Figure:
+    answers = [it for one in of for it in one.answers]
+    right = [it.right for it in answers]
+    said = [it.said or _NOTHING for it in answers]
+    columns = [*labels, *sorted({*said} - {*labels})]
+    counts = confusion(right, said, columns)[: len(labels)]
+    data = {"labels": labels, "columns": columns, "counts": counts.tolist()}
+    return Figure("confusion", title, data)

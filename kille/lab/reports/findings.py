@@ -1,0 +1,227 @@
+"""What a study found: tables and figures of its dialogues, theory by theory.
+
+Numbers lead to the dialogues behind them, where `places` says where these are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import lru_cache
+from itertools import chain
+from typing import TypeAlias
+
+import numpy as np
+
+from kille.lab.measures.agreement import kappas, vocabulary
+from kille.lab.measures.measures import (
+    ACCEPTED,
+    ACCURACY,
+    BRIER,
+    CORRECTIONS,
+    FEWEST,
+    LESSONS,
+    MARGIN,
+    QUESTIONS,
+    REFERENCES,
+    SECONDS,
+    TURNS,
+    WORDS,
+    Measure,
+    Vector,
+    drawn,
+    measured,
+    tallies,
+)
+from kille.lab.measures.scored_dialogues import Dialogue, Scored, of_theory, parted
+from kille.lab.reports.links import Places
+from kille.lab.reports.short_names import short
+from kille.lab.results import Cell, Estimate, Result, Table
+
+Theories: TypeAlias = Mapping[str, Sequence[Dialogue]]
+"""The dialogues of each theory, in the order of the study."""
+
+_SEED = 1  # of the chance by which dialogues are drawn anew
+_BANDS = (
+    f"In brackets: the band of 95 %, of dialogues drawn anew with these tutors and "
+    f"scenes (bootstrap over whole dialogues, not over single answers); none where "
+    f"fewer than {FEWEST} dialogues have the measure. A measure that is the same as "
+    f"one above in every dialogue is left out."
+)
+
+
+def grouped(names: Sequence[str], dialogues: Sequence[Dialogue]) -> Theories:
+    """The dialogues of each of the named theories that has any."""
+    found = {name: of_theory(dialogues, name) for name in names}
+    return {name: them for name, them in found.items() if them}
+
+
+def for_figures(theories: Theories) -> Theories:
+    """The theories by names for which there is room in a figure."""
+    called = short(theories)
+    return {called[name]: them for name, them in theories.items()}
+
+
+def measures_of(theories: Theories) -> list[Measure]:
+    """All measures for which there is something to be told, the main one first.
+
+    What is counted as another measure is in every dialogue is left out, and agreement
+    with a judge who was never asked, or always agrees with the tutor.
+    """
+    everything = list(chain.from_iterable(theories.values()))
+    robot, *judged = kappas(vocabulary(everything))
+    known = [
+        ACCURACY,
+        robot,
+        *(judged if _is_judged(everything) else ()),
+        ACCEPTED,
+        REFERENCES,
+        BRIER,
+        MARGIN,
+        TURNS,
+        WORDS,
+        CORRECTIONS,
+        QUESTIONS,
+        LESSONS,
+        SECONDS,
+    ]
+    found: list[tuple[Measure, Vector]] = []
+    for measure in known:
+        rows = tallies(measure, everything)
+        is_told = np.isfinite(measure.of(rows.sum(axis=0)))
+        if is_told and not any(np.array_equal(rows, its) for _, its in found):
+            found.append((measure, rows))
+    return [measure for measure, _ in found]
+
+
+def _is_judged(dialogues: Sequence[Dialogue]) -> bool:
+    """Whether anybody ever says something else than the tutor holds to be right."""
+    answers = (it for one in dialogues for it in one.answers if it.is_word)
+    return any(it.judge not in ("", it.right) for it in answers)
+
+
+def estimated(measure: Measure, dialogues: Sequence[Dialogue]) -> Estimate:
+    """The measure over the dialogues with its band; the same for the same dialogues."""
+    if not dialogues:
+        return Estimate(float("nan"), float("nan"), float("nan"))
+    draws = _draws(len(dialogues))
+    return measured(measure, tallies(measure, dialogues), draws)
+
+
+@lru_cache(maxsize=4)
+def _draws(count: int) -> Vector:
+    return drawn(count, np.random.default_rng(_SEED))
+
+
+# --- tables --------------------------------------------------------------------------
+
+
+def overall(theories: Theories, measures: Sequence[Measure], places: Places) -> Table:
+    """Every measure of every theory, below of how many dialogues and answers it is."""
+    rows: list[tuple[Cell, ...]] = [("dialogues", *map(len, theories.values()))]
+    rows += _answered(theories)
+    answers = range(1, len(rows))
+    for measure in measures:
+        told = (estimated(measure, them) for them in theories.values())
+        rows.append((measure.name, *told))
+    links = {
+        (row, column): places.answers(name) if row in answers else places.theory(name)
+        for row in range(len(rows))
+        for column, name in enumerate(theories, start=1)
+    }
+    return Table("All measures", ("", *theories), tuple(rows), _BANDS, links)
+
+
+def _answered(theories: Theories) -> Iterator[tuple[Cell, ...]]:
+    """How many answers there are of words; and of things, if any were asked for."""
+    words = [_count(of) for of in theories.values()]
+    things = [sum(len(it.answers) for it in of) for of in theories.values()]
+    yield ("answers", *words)
+    if things != words:
+        yield ("things asked for", *(a - b for a, b in zip(things, words, strict=True)))
+
+
+def meanings(measures: Sequence[Measure]) -> Result:
+    """What the measures say."""
+    rows = tuple((it.name, it.meaning) for it in measures)
+    table = Table("Measures", ("measure", "what it is"), rows)
+    return Result("What the numbers mean", (table,))
+
+
+def in_detail(theories: Theories, places: Places) -> Iterator[Table]:
+    """How many answers are right: by kind of word, phase, way of saying and word."""
+    words = _words_only(theories)
+
+    def to_kind(name: str, key: Sequence[str]) -> str:
+        return places.kind(name, key[0])
+
+    def to_phase(name: str, key: Sequence[str]) -> str:
+        return places.phase(name, key[0])
+
+    def to_way(name: str, key: Sequence[str]) -> str:
+        return places.way(name, key[0])
+
+    def to_word(name: str, key: Sequence[str]) -> str:
+        return places.word(name, key[0], key[1])
+
+    yield from _by("By kind of word", ("kind",), words, lambda it: (it.kind,), to_kind)
+    yield from _by("By phase", ("phase",), words, lambda it: (it.phase,), to_phase)
+    yield from _by("By how it was put", ("way",), words, lambda it: (it.way,), to_way)
+    yield from _by(
+        "By word", ("kind", "word"), words, lambda it: (it.kind, it.right), to_word
+    )
+
+
+_Key: TypeAlias = tuple[str, ...]
+
+
+def _words_only(theories: Theories) -> Theories:
+    """The dialogues without the answers that say which thing is meant."""
+    return {
+        name: parted(them, lambda it: it.is_word).get(True, [])
+        for name, them in theories.items()
+    }
+
+
+def _by(
+    title: str,
+    heads: _Key,
+    theories: Theories,
+    key: Callable[[Scored], _Key],
+    to: Callable[[str, _Key], str],
+) -> Iterator[Table]:
+    parts = {name: parted(them, key) for name, them in theories.items()}
+    yield from _shares(title, heads, parts, to)
+
+
+def _shares(
+    title: str,
+    heads: _Key,
+    parts: Mapping[str, Mapping[_Key, Sequence[Dialogue]]],
+    to: Callable[[str, _Key], str],
+) -> Iterator[Table]:
+    """The accuracy of each theory in each part, and how many answers there are.
+
+    In a table of their own, where theories gave not as many.
+    """
+    keys = dict.fromkeys(key for them in parts.values() for key in them)
+    ordered = sorted(keys) if len(heads) > 1 else list(keys)
+    counts = [[_count(of.get(key, ())) for of in parts.values()] for key in ordered]
+    alike = all(len({*row}) == 1 for row in counts)
+    rows: list[tuple[Cell, ...]] = []
+    links = {}
+    for row, (key, count) in enumerate(zip(ordered, counts, strict=True)):
+        cells: list[Cell] = [*key]
+        for name, of in parts.items():
+            links[row, len(cells)] = to(name, key)
+            cells.append(estimated(ACCURACY, of[key]) if key in of else None)
+        rows.append((*cells, *count[:1]) if alike else tuple(cells))
+    columns = (*heads, *parts, "answers") if alike else (*heads, *parts)
+    yield Table(title, columns, tuple(rows), "", links)
+    if not alike:
+        many: list[tuple[Cell, ...]] = []
+        many += [(*key, *it) for key, it in zip(ordered, counts, strict=True)]
+        yield Table(f"{title}: answers", columns, tuple(many), "", links)
+
+
+def _count(dialogues: Sequence[Dialogue]) -> int:
+    return sum(it.is_word for one in dialogues for it in one.answers)

@@ -1,0 +1,267 @@
+"""Reports of folders of results: what was found in one, and in two compared."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from shlex import quote
+from typing import NamedTuple
+
+from kille.lab import log
+from kille.lab.errors import StudyError, TheoryError
+from kille.lab.log.reading import NO_PYTHON
+from kille.lab.measures.measures import ACCURACY
+from kille.lab.measures.scored_dialogues import Dialogue, scored
+from kille.lab.reports.findings import grouped
+from kille.lab.reports.layouts import Described
+from kille.lab.reports.links import places_of
+from kille.lab.reports.name_clashes import unlike
+from kille.lab.reports.repeated_tests import tests_of
+from kille.lab.reports.study_report import Subject, every_two, results_of, write
+from kille.lab.reports.unused_rules import idle
+from kille.lab.results import ExperimentError, Result
+from kille.lab.study import MAIN_MEASURES, Study, Theory
+from kille.lab.theories.descriptions import described
+from ttr import TTRError
+from ttr.safety.consent import Consent
+
+_NAME = "report.html"
+_USUAL = ".results"
+"""What the name of a folder of results ends in, if nobody has named another."""
+
+
+class Report(NamedTuple):
+    """A page that was written, and what was found."""
+
+    page: Path
+    results: list[Result]
+
+
+def report(folder: Path, *, command: str = "", study: Study | None = None) -> Report:
+    """Writes the report of a folder of results into it.
+
+    It is of this study, or else of the one that the log has, of which no Python is run
+    to show it. StudyError where there are none, TTRError where it cannot be written.
+    """
+    page = folder / _NAME
+    subject = _subject(folder, command, study or log.study(folder))
+    return Report(page, write(subject, page))
+
+
+def compare(
+    one: Path,
+    other: Path,
+    page: Path,
+    *,
+    command: str = "",
+    consent: Consent = NO_PYTHON,
+) -> Report:
+    """Writes a report of two folders of results side by side.
+
+    To show their theories, Python is run only where there is consent to that.
+    """
+    return Report(page, write(_both(one, other, command, consent), page))
+
+
+def compared(one: Path, other: Path, consent: Consent = NO_PYTHON) -> list[Result]:
+    """What was found in two folders of results, for a terminal."""
+    subject = _both(one, other, "", consent)
+    everything = [it for them in subject.theories.values() for it in them]
+    return results_of(subject, places_of(list(subject.theories), everything, ""))
+
+
+# --- one folder ----------------------------------------------------------------------
+
+
+def _subject(folder: Path, command: str, study: Study) -> Subject:
+    dialogues = [scored(*it) for it in log.read(folder)]
+    theories = grouped(list(study.theories), dialogues)
+    shown = _described(study, theories or study.theories)
+    return Subject(
+        study.title,
+        theories,
+        shown,
+        [it for it in study.contrasts if theories.keys() >= {*it}]
+        or every_two(theories),
+        tests_of(study.phases),
+        _about(folder, study, command, len(dialogues)),
+        main=MAIN_MEASURES[study.main],
+        lead=study.about,
+        numbers=_numbers(study, len(dialogues), log.about(folder).planned),
+        source=study.source,
+        broken=[(str(it.run), it.reason) for it in log.broken(folder)],
+        warnings=[*_cut_short(theories, study.turns), *idle(shown, theories)],
+        files=sorted(
+            it.name for it in folder.iterdir() if it.suffix in (".csv", ".parquet")
+        ),
+    )
+
+
+def _cut_short(theories: Mapping[str, Sequence[Dialogue]], most: int) -> list[str]:
+    """Of which theories dialogues came to the last turn that the study allows.
+
+    A theory that talks more is then asked less.
+    """
+    counts = {
+        name: sum(len(it.turns) >= most for it in them)
+        for name, them in theories.items()
+    }
+    return [
+        f"{name}: {count:,} of {len(theories[name]):,} dialogues came to turn "
+        f"{most:,}, the last that the study allows: if there was anything still to be "
+        f"asked, it was not asked in them. Give the study more turns."
+        for name, count in counts.items()
+        if count
+    ]
+
+
+def _numbers(study: Study, played: int, planned: int) -> str:
+    """How many dialogues there are, and of what."""
+    of = (
+        (study.theories, "theory", "theories"),
+        (study.tutors, "tutor", "tutors"),
+        (study.scenes, "scene", "scenes"),
+        (study.seeds, "seed", "seeds"),
+    )
+    parts = (f"{len(it):,} {one if len(it) == 1 else many}" for it, one, many in of)
+    some = f"{played:,} of " if played < planned else ""
+    many = f"{planned:,} dialogue{'s' if planned != 1 else ''}"
+    return f"{some}{many}: {' × '.join(parts)}"
+
+
+def _described(study: Study, names: Iterable[str]) -> dict[str, Described]:
+    return {name: _shown(study.theories[name]) for name in names}
+
+
+def _shown(theory: Theory) -> Described:
+    """A theory by its parts; of one whose own files are gone, that they are."""
+    try:
+        return described(theory)
+    except (TheoryError, ExperimentError, TTRError, OSError) as error:
+        return {"about": f"{theory.about} It cannot be shown: {error}".strip()}
+
+
+def _about(folder: Path, study: Study, command: str, count: int) -> Mapping[str, str]:
+    about = log.about(folder)
+    versions = ", ".join(f"{name} {it}" for name, it in about.versions.items())
+    told = {
+        "command": command,
+        "to repeat it": f"kille experiment run {quote(study.file.name)}",
+        "theories": ", ".join(study.theories),
+        "tutors": ", ".join(study.tutors),
+        "scenes": ", ".join(study.scenes),
+        "seeds": _seeds(study.seeds),
+        "dialogues": f"{count:,} of {about.planned:,} played to their end",
+        "begun": about.began,
+        "versions": versions,
+    }
+    return {head: text for head, text in told.items() if text}
+
+
+def _seeds(seeds: tuple[int, ...]) -> str:
+    """The seeds in short.
+
+    >>> _seeds((1, 2, 3, 4)), _seeds((3, 7))
+    ('1 to 4', '3, 7')
+    """
+    first, last = min(seeds), max(seeds)
+    if len(seeds) > 2 and seeds == tuple(range(first, last + 1)):
+        return f"{first} to {last}"
+    return ", ".join(map(str, seeds))
+
+
+# --- two folders ---------------------------------------------------------------------
+
+
+def _both(one: Path, other: Path, command: str, consent: Consent) -> Subject:
+    """Both as one: theories of one name are compared with each other, or else all."""
+    studies = [log.study(folder, consent) for folder in (one, other)]
+    first = _subject(one, command, studies[0])
+    second = _subject(other, command, studies[1])
+    names = _called(one, other)
+    common = [name for name in first.theories if name in second.theories]
+    which = [(name, name) for name in common] or [
+        (name, it) for name in first.theories for it in second.theories
+    ]
+    subjects = dict(zip(names, (first, second), strict=True))
+    theories = {
+        f"{label}: {name}": [_renamed(it, f"{label}: {name}") for it in them]
+        for label, subject in subjects.items()
+        for name, them in subject.theories.items()
+    }
+    shared = _shared(first, second, one, other)
+    return Subject(
+        f"{names[1]} against {names[0]}",
+        theories,
+        {
+            f"{label}: {name}": it
+            for label, subject in subjects.items()
+            for name, it in subject.described.items()
+        },
+        [(f"{names[0]}: {a}", f"{names[1]}: {b}") for a, b in which],
+        tuple(dict.fromkeys([*first.tests, *second.tests])),
+        {
+            "command": command,
+            **{
+                f"{label}: {head}": text
+                for label, subject in subjects.items()
+                for head, text in subject.about.items()
+                if head != "command"
+            },
+        },
+        main=first.main if first.main == second.main else ACCURACY.name,
+        numbers="; ".join(f"{label}: {it.numbers}" for label, it in subjects.items()),
+        broken=[
+            (f"{label}: {name}", reason)
+            for label, subject in subjects.items()
+            for name, reason in subject.broken
+        ],
+        warnings=[
+            *shared,
+            *unlike(*studies),
+            *(
+                f"{label}: {text}"
+                for label, subject in subjects.items()
+                for text in subject.warnings
+            ),
+        ],
+    )
+
+
+def _called(one: Path, other: Path) -> tuple[str, str]:
+    """What two folders are called: by their names, or by where they are."""
+    if os.path.realpath(one) == os.path.realpath(other):
+        raise StudyError([f"{one} and {other} are one folder: name two"])
+    names = [
+        Path(os.path.realpath(it)).name.removesuffix(_USUAL) for it in (one, other)
+    ]
+    return (names[0], names[1]) if names[0] != names[1] else (str(one), str(other))
+
+
+def _renamed(dialogue: Dialogue, theory: str) -> Dialogue:
+    return replace(dialogue, run=replace(dialogue.run, theory=theory))
+
+
+def _shared(first: Subject, second: Subject, one: Path, other: Path) -> list[str]:
+    """What has to be known of two that were not played on the same occasions."""
+    mine, theirs = (
+        {it.pair for them in subject.theories.values() for it in them}
+        for subject in (first, second)
+    )
+    both = len(mine & theirs)
+    if not both:
+        raise StudyError(
+            [
+                f"{one} and {other} have no dialogues with the same tutor, scene and "
+                f"seed: compare results of studies with the same tutors, scenes and "
+                f"seeds"
+            ]
+        )
+    if mine == theirs:
+        return []
+    return [
+        f"Of {len(mine):,} and {len(theirs):,} occasions (tutor, scene and seed) "
+        f"{both:,} are the same: differences are of these alone, all else is of all."
+    ]

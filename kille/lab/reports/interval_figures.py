@@ -1,0 +1,105 @@
+"""Figures of numbers with their bands: side by side, two by two, and of degrees."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import cycle
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kille.lab.reports.figure_styles import (
+    FAINT,
+    HUES,
+    INK,
+    MARKERS,
+    WIDTH,
+    blank,
+    legend,
+    named,
+)
+from kille.lab.reports.point_labels import labelled
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawing
+
+_ROW, _SERIES = 0.2, 0.16  # inches
+_SQUARE = 4.8
+
+
+def drawn_intervals(data: Mapping[str, Any]) -> Drawing:
+    """A row for each label, with a mark and a band for each series."""
+    labels, series = list(data["labels"]), data["series"]
+    high = 1.1 + (_ROW + _SERIES * len(series)) * len(labels)
+    drawn, axes = blank(WIDTH, high)
+    apart = 0.62 / max(len(series), 1)
+    for number, ((name, it), hue, marker) in enumerate(
+        zip(series.items(), cycle(HUES), cycle(MARKERS), strict=False)
+    ):
+        places = np.arange(len(labels)) + (number - (len(series) - 1) / 2) * apart
+        axes.hlines(places, it["low"], it["high"], color=hue, lw=1.6)
+        axes.plot(
+            it["values"], places, ls="", marker=marker, color=hue, ms=5.5, label=name
+        )
+    if "zero" in data:
+        axes.axvline(data["zero"], color=INK, lw=0.8)
+    axes.set_yticks(range(len(labels)), labels)
+    axes.set_ylim(len(labels) - 0.4, -0.6)
+    axes.set_xlabel(data.get("xlabel", ""))
+    axes.locator_params(axis="x", nbins=6)
+    axes.ticklabel_format(axis="x", style="plain", useOffset=False)
+    axes.tick_params(axis="y", length=0)
+    axes.spines["left"].set_visible(False)
+    axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.6)
+    if len(series) > 1:
+        legend(axes)
+    return drawn
+
+
+def drawn_reliability(data: Mapping[str, Any]) -> Drawing:
+    """Shares that are right against what was said, above how often each was said.
+
+    Source: Murphy and Winkler 1977; DeGroot and Fienberg 1983.
+    """
+    from matplotlib.figure import Figure as Drawing
+
+    drawn = Drawing(figsize=(_SQUARE, 5.2), layout="constrained")
+    axes, below = drawn.subplots(
+        2, 1, sharex=True, gridspec_kw={"height_ratios": (4, 1)}
+    )
+    axes.plot([0, 1], [0, 1], color=FAINT, lw=1, ls=(0, (4, 3)))
+    for (name, it), hue, marker in zip(
+        data["series"].items(), cycle(HUES), cycle(MARKERS), strict=False
+    ):
+        axes.vlines(it["x"], it["low"], it["high"], color=hue, lw=1.2)
+        axes.plot(it["x"], it["y"], color=hue, marker=marker, ms=5, lw=1.4, label=name)
+        below.plot(it["x"], it["counts"], color=hue, marker=marker, ms=3.5, lw=1)
+    axes.set(xlim=(0, 1.02), ylim=(0, 1.02))
+    named(axes, {"ylabel": data.get("ylabel", "")})
+    named(below, {"xlabel": data.get("xlabel", ""), "ylabel": "answers"})
+    below.set_ylim(bottom=0)
+    for it in (axes, below):
+        it.grid(color=FAINT, alpha=0.25, lw=0.6)
+    legend(axes, _SQUARE)
+    return drawn
+
+
+def drawn_points(data: Mapping[str, Any]) -> Drawing:
+    """Points of each series, with bands both ways and labels where there are any."""
+    drawn, axes = blank(WIDTH, 3.6)
+    series = data["series"]
+    for (name, it), hue, marker in zip(
+        series.items(), cycle(HUES), cycle(MARKERS), strict=False
+    ):
+        axes.scatter(
+            it["x"], it["y"], s=16, color=hue, marker=marker, alpha=0.75, label=name
+        )
+        if "x_low" in it:
+            axes.hlines(it["y"], it["x_low"], it["x_high"], color=hue, lw=1.2)
+            axes.vlines(it["x"], it["y_low"], it["y_high"], color=hue, lw=1.2)
+    named(axes, data)
+    axes.margins(0.12, 0.08)
+    axes.grid(color=FAINT, alpha=0.25, lw=0.6)
+    legend(axes)
+    labelled(drawn, axes, series.values())
+    return drawn

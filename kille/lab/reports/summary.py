@@ -1,0 +1,112 @@
+"""What a study found, in short: what a reader sees first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+
+from kille.lab.measures.measures import Measure
+from kille.lab.reports.conditions import in_last_phase
+from kille.lab.reports.findings import Theories, estimated
+from kille.lab.reports.links import Places
+from kille.lab.reports.repeated_tests import in_phase, main_of, phases_of
+from kille.lab.reports.row_figures import in_rows
+from kille.lab.reports.short_names import short
+from kille.lab.results import Cell, Estimate, Figure, Result, Table
+
+_BESIDE = ("κ robot–tutor", "words", "corrections", "questions")
+"""What is told beside the main measure, if there is any of it."""
+_LINES = 4
+"""Of a paragraph of more lines only the first is told."""
+_DRAWN = 2
+"""So many figures there is room for."""
+
+
+def in_short(
+    theories: Theories,
+    measures: Sequence[Measure],
+    found: Iterable[Result],
+    places: Places,
+    chosen: str = "",
+) -> Result:
+    """How much is right of each theory and what it cost, and what was found of it.
+
+    `chosen` is the name of a measure that is told as well.
+    """
+    main = main_of(measures)
+    tables = (_each(theories, measures, main, places, (*_BESIDE, chosen)),)
+    if main is None:
+        text = "Nothing was asked to which the tutor knew an answer: nothing is right."
+        return Result("In short", tables, text=text)
+    figures = [
+        *in_last_phase(theories, main, places),
+        *_by_phase(theories, main),
+    ] or list(_by_theory(theories, main))
+    return Result("In short", tables, tuple(figures[:_DRAWN]), text=_lines(found))
+
+
+def _lines(found: Iterable[Result]) -> str:
+    parts = (part.splitlines() for it in found for part in it.text.split("\n\n"))
+    told = (part if len(part) <= _LINES else part[:1] for part in parts)
+    return "\n".join(chain.from_iterable(told))
+
+
+def _each(
+    theories: Theories,
+    measures: Sequence[Measure],
+    main: Measure | None,
+    places: Places,
+    beside: Sequence[str],
+) -> Table:
+    """A row for each theory; the main measure also in the last phase of several."""
+    columns = dict(_columns(theories, measures, main, beside))
+    rows = tuple(zip(theories, *columns.values(), strict=True))
+    links = {
+        (row, column): places.theory(name)
+        for row, name in enumerate(theories)
+        for column in range(1, 1 + len(columns))
+    }
+    return Table("How well, and at what cost", ("theory", *columns), rows, "", links)
+
+
+def _columns(
+    theories: Theories,
+    measures: Sequence[Measure],
+    main: Measure | None,
+    beside: Sequence[str],
+) -> Iterator[tuple[str, Sequence[Cell]]]:
+    yield "dialogues", [len(them) for them in theories.values()]
+    if main is not None:
+        yield main.name, _estimates(main, theories)
+        phases = phases_of(theories, main)
+        if len(phases) > 1:
+            last = in_phase(theories, main, phases[-1])
+            yield f"{main.name} in {phases[-1]}", _estimates(main, last)
+    for measure in measures:
+        told = _estimates(measure, theories)
+        is_told = measure.name in beside and measure is not main
+        if is_told and any(it.value for it in told):
+            yield measure.name, told
+
+
+def _estimates(measure: Measure, theories: Theories) -> list[Estimate]:
+    return [estimated(measure, them) for them in theories.values()]
+
+
+def _by_phase(theories: Theories, main: Measure) -> Iterator[Figure]:
+    """How much is right in each phase, where something is asked in several."""
+    phases = phases_of(theories, main)
+    if len(phases) < 2:
+        return
+    parts = [in_phase(theories, main, phase) for phase in phases]
+    series = {name: [estimated(main, it[name]) for it in parts] for name in theories}
+    title = f"{main.name.capitalize()}, phase by phase"
+    yield from in_rows(title, phases, series, {"xlabel": main.name})
+
+
+def _by_theory(theories: Theories, main: Measure) -> Iterator[Figure]:
+    if len(theories) < 2:
+        return
+    series = {main.name: [estimated(main, them) for them in theories.values()]}
+    labels = list(short(theories).values())
+    yield from in_rows(main.name.capitalize(), labels, series, {"xlabel": main.name})

@@ -1,0 +1,46 @@
+"""The robots of a study: simulated ones, quick, and the whole robot with its own eyes.
+
+A robot is shown an occasion, hears a text, or is left the floor, and replies. Nothing
+else is known of it than what it says and thinks, so that a person can play it, too.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from kille.lab.robots.replies import Reply
+from kille.lab.scenes.occasions import Occasion
+
+__all__ = ["Reply", "Robot"]
+
+
+class Robot(Protocol):
+    """Who is taught."""
+
+    def see(self, occasion: Occasion) -> Reply:
+        """Be shown something, while the tutor has the floor."""
+        ...
+
+    def wait(self, occasion: Occasion) -> Reply:
+        """Look once more, and have the floor."""
+        ...
+
+    def hear(self, text: str) -> Reply:
+        """Be told something."""
+        ...
+
+    def happen(self, command: str) -> Reply:
+        """Have something happen before one's eyes that a script says."""
+        ...
+
+    def rest(self) -> Reply:
+        """Begin another day: know what was taught, but not what was said."""
+        ...
+
+    def name(self, number: int) -> str | None:
+        """What a thing of the world is to it in the latest look."""
+        ...
+
+    def close(self) -> None:
+        """Let go of all that it holds."""
+        ...

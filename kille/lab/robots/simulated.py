@@ -1,0 +1,86 @@
+"""A robot that is its games alone, in front of a simulated world."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import DialogueTypes, packaged_types
+from kille.dialogue.wording import did_not_understand
+from kille.lab.robots.replies import Reply
+from kille.lab.scenes.events import changed
+from kille.lab.scenes.occasions import Occasion
+from kille.lab.worlds.games import world_of
+from kille.lab.worlds.perception import glanced, number_of, seen, thing
+from kille.lab.worlds.schooling import rested
+from kille.lab.worlds.worlds import World
+from ttr.updates import Game, Run, Turn
+
+
+class Simulated:
+    """A robot that is its games alone: what it sees follows from the world's name."""
+
+    def __init__(
+        self, game: Game, language: str = "en", types: DialogueTypes | None = None
+    ) -> None:
+        self._game, self._language = game, language
+        self._types = types or packaged_types()
+        self._now: Run = game.begin()
+
+    def see(self, occasion: Occasion) -> Reply:
+        """A glance at what is shown."""
+        return self._taken(glanced(occasion.shown, self._world))
+
+    def wait(self, occasion: Occasion) -> Reply:
+        """A look on its own turn."""
+        return self._taken(seen(occasion.shown, self._world))
+
+    def hear(self, text: str) -> Reply:
+        """A text; it says so if it does not understand it."""
+        assert self._game.hear is not None
+        event = self._game.hear(text)
+        if event is None:
+            sorry = did_not_understand(lexicon(self._language), text, types=self._types)
+            return Reply(sorry, (), *self._now[:2])
+        return self._taken(event)
+
+    def happen(self, command: str) -> Reply:
+        """`look`, `point 2`, `place 2 3.5 4`, `remove 2` or `restart`."""
+        world = self._world
+        if command == "restart":
+            return self.rest()
+        if command == "look":
+            return self._taken(seen(world.looked(), world))
+        return self._taken(glanced(changed(world, command), world))
+
+    def rest(self) -> Reply:
+        """Another day: see `kille.lab.worlds.schooling.rested`."""
+        state, model, _ = self._now
+        ended = dataclasses.replace(self._game, start=state, model=model)
+        self._now = rested(ended).begin()
+        return self._replied("", ())
+
+    def name(self, number: int) -> str | None:
+        """Things have the numbers that they have in the world."""
+        return thing(number) if number in self._world else None
+
+    def close(self) -> None:
+        """Nothing is to be let go of."""
+
+    @property
+    def _world(self) -> World:
+        """What is in view."""
+        return world_of(self._now.state)
+
+    def _taken(self, event: object) -> Reply:
+        turn = self._game.take(self._now, event)
+        self._now = turn.run
+        assert self._game.say is not None
+        text = "\n".join(map(self._game.say, turn.said))
+        return self._replied(text, tuple(it.rule.name for it in turn.trace), turn)
+
+    def _replied(
+        self, text: str, rules: tuple[str, ...], turn: Turn | None = None
+    ) -> Reply:
+        moves = () if turn is None else turn.said
+        return Reply(text, moves, self._now.state, self._now.model, rules, number_of)

@@ -1,0 +1,88 @@
+"""Those who play the dialogues of a study: this process, others here, or a cluster.
+
+What is played follows from the study and the run alone, so it does not matter who plays
+it, or in what order.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import AbstractContextManager, closing, contextmanager
+from functools import partial
+from importlib.util import find_spec
+from typing import TypeAlias
+
+from kille.lab.log.outcomes import Outcome, Play, PlayAll, RunError, outcome
+from kille.lab.running.schedulers import Scheduler
+from kille.lab.running.threads import one_thread
+from kille.lab.study import Run, Study
+
+MISSING = "Dask is not installed: pip install 'kille[cluster]'"
+
+Crew: TypeAlias = Callable[[Study, Play], AbstractContextManager[PlayAll]]
+"""Those who play a study, as long as they are needed."""
+
+
+@contextmanager
+def playing(
+    study: Study,
+    runs: Sequence[Run],
+    play: Play | None = None,
+    by: Crew | None = None,
+) -> Iterator[Iterator[Outcome]]:
+    """What becomes of these runs, as they end; who plays them is let go after it.
+
+    They are played `as_studied` by this process, if nothing else is said.
+    """
+    if not runs:
+        yield iter(())
+        return
+    crew = (by or alone)(study, play or as_studied())
+    with crew as play_all, closing(play_all(runs)) as outcomes:
+        yield outcomes
+
+
+def as_studied() -> Play:
+    """What plays a dialogue as its theory, tutor and scene have it."""
+    from kille.lab.playing import play
+
+    return play
+
+
+def crew(workers: int | None = None, scheduler: Scheduler | None = None) -> Crew:
+    """Those who play: so many processes here, or a cluster.
+
+    By default it is one process for each core; one is this process itself. RunError
+    where a cluster is asked for, and Dask is missing or certificates cannot be used.
+    """
+    if scheduler:
+        scheduler.check()
+        if not find_spec("distributed"):
+            raise RunError(f"{MISSING}, or play on this machine without --scheduler")
+        from kille.lab.running.clusters import elsewhere
+
+        return partial(elsewhere, scheduler)
+    workers = cores() if workers is None else workers
+    if workers == 1:
+        return alone
+    from kille.lab.running.local import here
+
+    return partial(here, workers)
+
+
+def cores() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+@contextmanager
+def alone(study: Study, play: Play) -> Iterator[PlayAll]:
+    """This process plays all by itself, one dialogue after the other."""
+
+    def play_all(runs: Sequence[Run]) -> Generator[Outcome, None, None]:
+        with one_thread():
+            for it in runs:
+                yield outcome(study, it, play)
+
+    yield play_all

@@ -1,0 +1,99 @@
+"""Playing a dialogue again, and whether it goes as it went."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import zip_longest
+from typing import Any, NamedTuple
+
+from kille.lab.dialogues import Played
+from kille.lab.log.outcomes import Broken, Finished, Outcome, Play
+from kille.lab.running.crews import Crew, playing
+from kille.lab.study import Study
+
+
+class Difference(NamedTuple):
+    """The first that is not as it was: where, what it was, and what it is now."""
+
+    where: str
+    before: str
+    now: str
+
+
+def replay(
+    study: Study,
+    befores: Iterable[Outcome],
+    play: Play | None = None,
+    by: Crew | None = None,
+) -> Iterator[tuple[Outcome, Difference | None]]:
+    """Plays these dialogues of a study again, each with the first that differs."""
+    known = {it.run: it for it in befores}
+    with playing(study, tuple(known), play, by) as outcomes:
+        for now in outcomes:
+            before = known[now.run]
+            yield before, difference(before, now)
+
+
+def difference(before: Outcome, now: Outcome) -> Difference | None:
+    """Where two dialogues part: at a turn, an answer, or in what was counted.
+
+    How long they took does not matter, nor where in the program they broke.
+    """
+    match before, now:
+        case Finished(), Finished():
+            return _difference(before.played, now.played)
+        case Broken(), Broken() if before.reason == now.reason:
+            return None
+    return Difference("at the end", _told(before), _told(now))
+
+
+def _told(it: Outcome) -> str:
+    return f"broken: {it.reason}" if isinstance(it, Broken) else "played to its end"
+
+
+def _difference(before: Played, now: Played) -> Difference | None:
+    return (
+        _first("turn", before.turns, now.turns)
+        or _first("answer", before.answers, now.answers)
+        or _first_part("at the end", _counted(before), _counted(now))
+    )
+
+
+def _first(what: str, before: Sequence[Any], now: Sequence[Any]) -> Difference | None:
+    """The first row of two that differs, and what of it."""
+    for number, (one, other) in enumerate(zip_longest(before, now), start=1):
+        where = f"{what} {number}"
+        if one is None or other is None:
+            return Difference(where, _or_nothing(one), _or_nothing(other))
+        if found := _first_part(where, one._asdict(), other._asdict()):
+            return found
+    return None
+
+
+def _first_part(
+    where: str, before: Mapping[str, Any], now: Mapping[str, Any]
+) -> Difference | None:
+    for name in dict.fromkeys((*before, *now)):
+        one, other = before.get(name), now.get(name)
+        if not _same(one, other):
+            told = name.replace("_", " ")
+            return Difference(f"{where}, {told}", str(one), str(other))
+    return None
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Equal; and what is no number is as good as another such."""
+    if isinstance(one, float) and isinstance(other, float):
+        return one == other or (math.isnan(one) and math.isnan(other))
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return [*one] == [*other] and all(_same(one[key], other[key]) for key in one)
+    return bool(one == other)
+
+
+def _counted(it: Played) -> dict[str, float]:
+    return {"lessons": it.lessons, **it.facts}
+
+
+def _or_nothing(row: object) -> str:
+    return "nothing" if row is None else str(row)

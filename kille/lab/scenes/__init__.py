@@ -1,0 +1,16 @@
+"""Scenes: what a study puts in front of the robot, drawn by the seed of a run.
+
+A scene of a kind gives its occasions round by round; in the same study and seed they
+are the same for every theory and every tutor. Those named in `WHOLE` are seen by the
+whole robot through its own eyes, and the others are simulated.
+
+drawn: a table on which things are laid. around: a target round a landmark. statements:
+what people have said of places. rendered: a simulated camera. pictures, captures: what
+a camera has taken.
+"""
+
+from kille.lab.scenes.checking import faults
+from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import SETTINGS, WHOLE, Scene, opened
+
+__all__ = ["SETTINGS", "WHOLE", "Occasion", "Scene", "faults", "opened"]

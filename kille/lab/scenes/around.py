@@ -1,0 +1,82 @@
+"""A landmark in the middle of a table, and a target that is put at places round it.
+
+Source: Dobnik and de Graaf 2017, section 4.2.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from random import Random
+from typing import Any
+
+from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.places import MIDDLE, Astray, beside, related, rounded
+from kille.lab.worlds.worlds import FRONTS, STEP, Thing, World
+
+
+@dataclass(frozen=True)
+class Around:
+    """A landmark in the middle, and a target that is put at places on rings round it.
+
+    Where it `turns`, the landmark faces another way each time.
+
+    Source: Dobnik and de Graaf 2017, section 4.2.
+    """
+
+    start: World
+    rings: tuple[float, ...]
+    points: int
+    spread: float
+    turns: bool
+    astray: Astray
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """What kinds of things there are."""
+        return tuple(it.kind for it in self.start.things)
+
+    def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
+        """The two things, one by one; or the target at each of the places."""
+        if kind == "relation":
+            return [self._put(*place, new, chance) for place in self._places()]
+        return [self._alone(kind, x) for x in (1, 2)]
+
+    def _places(self) -> Iterator[tuple[float, float]]:
+        for ring in self.rings:
+            for point in range(self.points):
+                yield ring, 2 * math.pi * point / self.points
+
+    def _alone(self, kind: str, x: int) -> Occasion:
+        world = self.start.cleared().moved(x, MIDDLE).pointed(x)
+        thing = world.thing(x)
+        group = thing.colour if kind == "adjective" else thing.kind
+        return Occasion(kind, world, x, group=group)
+
+    def _put(self, ring: float, bearing: float, new: bool, chance: Random) -> Occasion:
+        right, away = beside(MIDDLE, ring, bearing)
+        by = self.spread / STEP
+        place = rounded(right + chance.gauss(0, by), away + chance.gauss(0, by))
+        astray = self.astray if new else replace(self.astray, shift=0.0)
+        world = self.start.moved(1, place)
+        front = chance.choice(FRONTS)
+        world = world.turned(2, front) if self.turns else world
+        return related(world, 1, 2, astray, (1,), chance)
+
+
+def around(set_: Mapping[str, Any], chance: Random) -> Around:
+    """A blue target and a red landmark, which may face some way."""
+    target = Thing(set_["target"], "blue", 0.5)
+    front = "" if set_["front"] == "any" else set_["front"]
+    landmark = Thing(set_["landmark"], "red", 0.5, MIDDLE, front)
+    seed, noise = chance.randrange(10**6), set_["noise"]
+    way = chance.uniform(-math.pi, math.pi)
+    return Around(
+        World((target, landmark), traits=seed, noise=noise),
+        tuple(set_["rings"]),
+        set_["points"],
+        set_["spread"],
+        set_["front"] == "any",
+        Astray(set_["off"], set_["astray"], set_["shift"], way),
+    )

@@ -1,0 +1,105 @@
+"""A table on which some of the things that there are are laid, each time anew."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from random import Random
+from typing import Any
+
+from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.places import BEARINGS, Astray, beside, related, rounded
+from kille.lab.worlds.perception import oddness
+from kille.lab.worlds.vocabulary import SIDES
+from kille.lab.worlds.worlds import FRONTS, SIDE, Thing, World
+
+SPOTS = list(product(range(SIDE), range(SIDE)))
+"""Where things are laid."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A table on which some of the things that there are are laid each time.
+
+    The things of each kind that are `taught` come first.
+    """
+
+    start: World
+    taught: tuple[int, ...]
+    kept: tuple[int, ...]
+    in_view: int
+    astray: Astray
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """What kinds of things there are."""
+        return tuple(dict.fromkeys(it.kind for it in self.start.things))
+
+    def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
+        """An occasion for each thing, laid with others; or one for each side."""
+        pool = self.kept if new else self.taught
+        if kind == "relation" and len(pool) < 2:
+            return ()
+        if kind == "relation":
+            return [self._stood(side, pool, chance) for side in SIDES]
+        return [self._laid(kind, x, pool, chance) for x in pool]
+
+    def _laid(self, kind: str, x: int, pool: Sequence[int], chance: Random) -> Occasion:
+        others = [it for it in pool if it != x]
+        count = min(self.in_view - 1, len(others))
+        world = self.start
+        spots = chance.sample(SPOTS, count + 1)
+        for number, spot in zip([x, *chance.sample(others, count)], spots, strict=True):
+            world = world.moved(number, spot)
+        world = world.pointed(x)
+        seen = self.astray.seen(world, world.in_view, chance)
+        thing = world.thing(x)
+        group = thing.colour if kind == "adjective" else thing.kind
+        return Occasion(kind, world, x, seen=seen, group=group, hard=oddness(world, x))
+
+    def _stood(self, side: str, pool: Sequence[int], chance: Random) -> Occasion:
+        """Two things of other kinds, the one on this side of the other."""
+        x, y = chance.choice(self._pairs(pool))
+        spot = chance.uniform(3.5, 5.5), chance.uniform(3.5, 5.5)
+        bearing = BEARINGS[side] + chance.uniform(-math.pi / 6, math.pi / 6)
+        put = beside(spot, chance.uniform(0.12, 0.35), bearing)
+        world = self.start.moved(y, rounded(*spot)).moved(x, put)
+        return related(world, x, y, self.astray, (x, y), chance)
+
+    def _pairs(self, pool: Sequence[int]) -> Sequence[tuple[int, int]]:
+        """Two things each, of other kinds and colours, or at least of other kinds.
+
+        Of two things of one kind nobody says how they stand to each other.
+        """
+        thing = self.start.thing
+        every = [(x, y) for x in pool for y in pool if x != y]
+        apart = [(x, y) for x, y in every if thing(x).kind != thing(y).kind]
+        told = [(x, y) for x, y in apart if thing(x).colour != thing(y).colour]
+        return told or apart or every
+
+
+def drawn(set_: Mapping[str, Any], chance: Random) -> Drawn:
+    """Things of each kind, of which some are kept; of one colour only if there are more
+    of them than colours."""
+    each, count = set_["each"], set_["each"] + set_["new"]
+    hues = list(set_["hues"])
+    first: list[Thing] = []
+    later: list[Thing] = []
+    for kind in set_["kinds"]:
+        colours = chance.sample(hues * -(-count // len(hues)), count)
+        for number, colour in enumerate(colours):
+            size, front = chance.choice((0.1, 0.5, 0.9)), chance.choice(("", *FRONTS))
+            (first if number < each else later).append(
+                Thing(kind, colour, size, None, front)
+            )
+    things = (*first, *later)
+    seed, noise = chance.randrange(10**6), set_["noise"]
+    return Drawn(
+        World(things, traits=seed, noise=noise),
+        tuple(range(1, len(first) + 1)),
+        tuple(range(len(first) + 1, len(things) + 1)),
+        set_["in_view"],
+        Astray(set_["off"], set_["astray"]),
+    )

@@ -1,0 +1,84 @@
+"""Places in scenes: where things are put, and where the robot sees them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from random import Random
+
+from kille.lab.scenes.occasions import Occasion
+from kille.lab.worlds.vocabulary import SIDES
+from kille.lab.worlds.worlds import STEP, Place, World
+
+MIDDLE: Place = (4.5, 4.5)
+"""The middle of the table."""
+
+
+@dataclass(frozen=True)
+class Astray:
+    """How places are seen: `off` by so many metres, and so often anywhere.
+
+    `shift` is how many metres everything is off that way.
+    """
+
+    off: float = 0.0
+    share: float = 0.0
+    shift: float = 0.0
+    way: float = 0.0
+
+    def seen(
+        self, world: World, numbers: Sequence[int], chance: Random
+    ) -> World | None:
+        """The world as it is seen; None where that is as it is."""
+        if not (self.off or self.share or self.shift):
+            return None
+        shift = self.shift / STEP
+        for number in numbers:
+            right, away = world.place(number)
+            right += shift * math.cos(self.way) + chance.gauss(0, self.off / STEP)
+            away += shift * math.sin(self.way) + chance.gauss(0, self.off / STEP)
+            anywhere = chance.uniform(0, TABLE), chance.uniform(0, TABLE)
+            if chance.random() < self.share:
+                right, away = anywhere
+            world = world.moved(number, rounded(right, away))
+        return world
+
+
+TABLE = 9.0
+"""How many steps the table is wide, and deep, from its first place to its last."""
+
+
+def rounded(right: float, away: float) -> Place:
+    """A place by the tenth of a millimetre: as a name says it."""
+    return round(right, 3), round(away, 3)
+
+
+def beside(place: Place, far: float, bearing: float) -> Place:
+    """The place so many metres from there, radians counter-clockwise from right."""
+    steps = far / STEP
+    right, away = steps * math.cos(bearing), steps * math.sin(bearing)
+    return rounded(place[0] + right, place[1] + away)
+
+
+BEARINGS = {side: math.atan2(away, right) for side, (right, away) in SIDES.items()}
+"""Where each side is: radians counter-clockwise from right."""
+
+
+def side(world: World, x: int, y: int) -> tuple[str, float]:
+    """On which side x is of y, for the viewer, and how far off its middle."""
+    (ax, ay), (bx, by) = world.place(x), world.place(y)
+    bearing = math.atan2(ay - by, ax - bx)
+    fits = {side: math.cos(bearing - way) for side, way in BEARINGS.items()}
+    best = max(fits, key=lambda it: fits[it])
+    return best, 1.0 - fits[best]
+
+
+def related(
+    world: World, x: int, y: int, astray: Astray, moved: Sequence[int], chance: Random
+) -> Occasion:
+    """The occasion to say how x, which is pointed at, stands to y."""
+    world = world.pointed(x)
+    group, hard = side(world, x, y)
+    seen = astray.seen(world, moved, chance)
+    return Occasion("relation", world, x, y, seen, group=group, hard=hard)

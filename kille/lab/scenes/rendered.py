@@ -1,0 +1,122 @@
+"""A rendered table that the whole robot sees through a simulated camera."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from random import Random
+from typing import Any
+from urllib.parse import quote
+
+from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.places import MIDDLE, rounded, side
+from kille.lab.scenes.theatre import Staged, Stand, Theatre, laid
+from kille.lab.worlds.worlds import STEP, Place, Thing, World
+from kille.sensors.sensor import SensorError
+from kille.sensors.synthetic.catalogue import NAMES
+
+_RINGS = (0.24, 0.30)  # metres: nearer the target would stand in the landmark
+_POINTS = 8
+_LANDMARK = (0.0, 0.05)  # so that all around it is in view
+_TRIES = 6
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """A rendered table: each kind by itself, or a target round a landmark.
+
+    Specimens of each kind that are taught come before those that are kept.
+    """
+
+    start: World
+    source: str
+    each: int
+    new: int
+    pair: tuple[str, str]
+    theatre: Theatre = field(compare=False)
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """What kinds of things there are."""
+        return tuple(it.kind for it in self.start.things)
+
+    def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
+        """Every specimen of each kind, or the target at each place where it can be."""
+        if kind == "relation":
+            places = [(ring, point) for ring in _RINGS for point in range(_POINTS)]
+            found = (self._beside(*place, chance) for place in places)
+            return [it for it in found if it is not None]
+        first, count = (self.each, self.new) if new else (0, self.each)
+        return [
+            self._alone(kind, x, first + number, chance)
+            for number in range(count)
+            for x in range(1, len(self.kinds) + 1)
+        ]
+
+    def _alone(self, kind: str, x: int, specimen: int, chance: Random) -> Occasion:
+        name = self.start.thing(x).kind
+        right, away = chance.uniform(-0.05, 0.05), chance.uniform(-0.05, 0.05)
+        stand = Stand(name, right, away, chance.uniform(-25, 25))
+        view = Staged(f"{self.source}&specimen={specimen}", (stand,))
+        world = self.start.moved(x, _place(right, away)).pointed(x)
+        return Occasion(kind, world, x, view=view, group=name)
+
+    def _beside(self, ring: float, point: int, chance: Random) -> Occasion | None:
+        """The target at a place, give or take a centimetre; None where it cannot be."""
+        target, landmark = self.pair
+        for _ in range(_TRIES):
+            bearing = 2 * math.pi * point / _POINTS
+            right = _LANDMARK[0] + ring * math.cos(bearing) + chance.gauss(0, 0.01)
+            away = _LANDMARK[1] + ring * math.sin(bearing) + chance.gauss(0, 0.01)
+            stands = (
+                Stand(landmark, *_LANDMARK, 0.0),
+                Stand(target, right, away, chance.uniform(-20, 20)),
+            )
+            if _fits(self.source, stands):
+                return self._related(stands)
+        return None
+
+    def _related(self, stands: tuple[Stand, Stand]) -> Occasion:
+        (landmark, *at, _), (target, *by, _) = stands
+        y, x = 1 + self.kinds.index(landmark), 1 + self.kinds.index(target)
+        world = self.start.moved(y, _place(*at)).moved(x, _place(*by)).pointed(x)
+        group, hard = side(world, x, y)
+        view = Staged(self.source, stands)
+        return Occasion("relation", world, x, y, view=view, group=group, hard=hard)
+
+
+def _place(right: float, away: float) -> Place:
+    """A place on the table in steps, by metres from its middle."""
+    return rounded(MIDDLE[0] + right / STEP, MIDDLE[1] + away / STEP)
+
+
+@lru_cache(1024)
+def _fits(source: str, stands: tuple[Stand, ...]) -> bool:
+    try:
+        laid(source, stands)
+    except SensorError:
+        return False
+    return True
+
+
+def rendered(set_: Mapping[str, Any], chance: Random) -> Rendered:
+    """A table on which the ten things of the paper can be put."""
+    target, landmark = set_["target"], set_["landmark"]
+    wanted = dict.fromkeys((*(set_["kinds"] or NAMES), target, landmark))
+    faults = quote(set_["faults"], safe=",")
+    source = f"synthetic:empty?seed={chance.randrange(10**6)}&faults={faults}"
+    things = tuple(Thing(name, "", front=_FRONTS.get(name, "")) for name in wanted)
+    return Rendered(
+        World(things),
+        source,
+        set_["each"],
+        set_["new"],
+        (target, landmark),
+        Theatre(source),
+    )
+
+
+_FRONTS = {"car": "right"}
+"""Which way things face that have a front, where they are not turned."""

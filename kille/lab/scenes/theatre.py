@@ -1,0 +1,173 @@
+"""What the whole robot is shown: views, and the looks at them.
+
+What is to be seen is named by a value, a view, from which the look follows: looks are
+worked out once and kept, for all dialogues of a process, and never depend on what was
+seen before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from kille.agent.attention import Attention, View
+from kille.lab.errors import StudyError
+from kille.lab.scenes.galleries import Still
+from kille.lab.scenes.occasions import Occasion
+from kille.perception.look import Sighting, look
+from kille.perception.segment import overlap
+from kille.scene import Frame, Look
+from kille.sensors.captures import Shot, description_of, read_sequence
+from kille.sensors.pictures import fitted, read_colour
+from kille.sensors.sensor import At
+from kille.sensors.synthetic import Synthetic, open_synthetic
+
+_LARGEST = (640, 480)
+
+PICTURES, FRAMES = 400, 60
+"""How many looks are kept: those at pictures are small, and those at frames are not."""
+
+
+class Picture(NamedTuple):
+    """A picture of one thing."""
+
+    path: Path
+
+    def __str__(self) -> str:
+        return f"{self.path.parent.name}/{self.path.name}"
+
+
+class Capture(NamedTuple):
+    """A labelled frame of a scene, and the thing in it that is pointed at."""
+
+    folder: Path
+    number: int
+    name: str
+
+    def __str__(self) -> str:
+        return f"{self.folder.name}, frame {self.number}: {self.name}"
+
+
+class Stand(NamedTuple):
+    """Where a thing stands on the rendered table: metres, and degrees."""
+
+    name: str
+    right: float
+    away: float
+    turn: float
+
+    def __str__(self) -> str:
+        return f"{self.name} at {self.right:.3f} {self.away:.3f} turned {self.turn:.0f}"
+
+
+class Staged(NamedTuple):
+    """A rendered table: what stands on it, of which the last is pointed at."""
+
+    source: str
+    stands: tuple[Stand, ...]
+
+    def __str__(self) -> str:
+        return f"{self.source}: {'; '.join(map(str, self.stands))}"
+
+
+class Theatre:
+    """A sensor that shows what the occasion says, and looks by itself."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._view: object = None
+
+    @property
+    def name(self) -> str:
+        """What is shown in it."""
+        return self._name
+
+    def turn_to(self, occasion: Occasion) -> None:
+        """Show this from now on."""
+        self._view = occasion.view
+
+    def frame(self) -> Frame:
+        """The frame that is to be seen."""
+        return _seen(self._view).frame
+
+    def look(self, scans: int, pointed: Any) -> Look:
+        """The look at it, in which what is pointed at comes first."""
+        seen = _seen(self._view)
+        if not isinstance(pointed, tuple) or not isinstance(pointed[0], Frame):
+            return seen
+        region = pointed[1]
+        alike = sorted(seen.percepts, key=lambda it: -overlap(it.region, region))
+        rest = (it for it in seen.percepts if it is not alike[0])
+        return replace(seen, percepts=(*alike[:1], *rest))
+
+    def attention(self) -> Attention:
+        """That of who has seen nothing of it yet, and follows the tutor's finger."""
+        seen = _seen(self._view)
+        if not seen.percepts:
+            return Attention()
+        pointed: Sighting = (seen.frame, seen.percepts[0].region)
+        return Attention(pointed)
+
+    def found(self, occasion: Occasion, number: int, view: View) -> int | None:
+        """The number that a thing of the world has in a view of the robot's."""
+        name = occasion.world.thing(number).kind
+        outline = view.look.frame.outlines.get(name)
+        if outline is None:
+            return view.focus if number == occasion.x else None
+        shared = [int((it.region.mask & outline).sum()) for it in view.look.percepts]
+        return int(np.argmax(shared)) + 1 if any(shared) else None
+
+    def close(self) -> None:
+        """Nothing is to be let go of."""
+
+
+def _seen(view: object) -> Look:
+    """The look at a view: in one scan, with what is pointed at before all else."""
+    match view:
+        case Picture(path):
+            return _of_picture(path)
+        case Capture() | Staged():
+            return _of_frame(view)
+    raise StudyError([f"nothing is shown: {view!r} is no view"])
+
+
+@lru_cache(FRAMES)
+def _of_frame(view: Capture | Staged) -> Look:
+    """The look at a whole frame, and at a thing in it by its outline."""
+    match view:
+        case Capture(folder, number, name):
+            frame = _shots(folder)[number].read()
+        case Staged(source, stands):
+            frame, name = laid(source, stands).frame(), stands[-1].name
+    return look(Still(frame), scans=1, pointed=frame.outlines[name])
+
+
+@lru_cache(PICTURES)
+def _of_picture(path: Path) -> Look:
+    """The look at a picture, all of which is meant where nothing is made out."""
+    colour = fitted(read_colour(path), _LARGEST)
+    still = Still(Frame(colour, None, None, 0.0, {}))
+    seen = look(still, scans=1)
+    if seen.percepts:
+        return seen
+    return look(still, scans=1, pointed=np.ones(colour.shape[:2], bool))
+
+
+@lru_cache(64)
+def _shots(folder: Path) -> tuple[Shot, ...]:
+    description = description_of(folder)
+    assert description is not None
+    return read_sequence(description)
+
+
+def laid(source: str, stands: Sequence[Stand]) -> Synthetic:
+    """A table on which things stand so. SensorError where they cannot."""
+    stage = open_synthetic(source)
+    for name, *spot in stands:
+        stage.place(name, At(*spot))
+    return stage

@@ -1,0 +1,90 @@
+"""What a study names that its user has not consented to: Python, and odd files.
+
+It is told before anything of the study is tried, so that nothing is run.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from kille.dialogue.sources import FILES
+from kille.lab.errors import StudyError
+from kille.lab.study import Study, Theory
+from kille.lab.study_files.lines import Key
+from kille.lab.study_files.problems import Trouble, told
+from ttr.safety.consent import NotAllowedError, check_called
+
+
+def python_in(study: Study) -> tuple[str, ...]:
+    """The Python files and modules that a study names, each once."""
+    return tuple(dict.fromkeys(name for _, name in _python(study)))
+
+
+def check_allowed(study: Study) -> None:
+    """Raises `StudyError`, a line for each name of what a study must not use."""
+    if found := [*unallowed(study)]:
+        raise StudyError(told(found, study.source, study.file))
+
+
+def unallowed(study: Study) -> Iterator[Trouble]:
+    """What a study must not use; nothing of one that was made in Python."""
+    consent = study.consent
+    if consent is None:
+        return
+    for key, name in _python(study):
+        yield from _refused(
+            key, lambda it: consent.check_python(it, study.folder), name
+        )
+    for name, theory in study.theories.items():
+        for inner, path in _files(theory):
+            key = ("theories", name, *inner)
+            yield from _refused(key, lambda it: check_called(it, _ending(it)), path)
+    for name, tutor in study.tutors.items():
+        if tutor.kind == "scripted":
+            path = str(study.folder / os.path.expanduser(tutor.settings["file"]))
+            key = ("tutors", name, "file")
+            yield from _refused(key, lambda it: check_called(it, ".dlg"), path)
+
+
+def _python(study: Study) -> Iterator[tuple[Key, str]]:
+    """The Python that a study names, and where it does."""
+    for name, theory in study.theories.items():
+        if (module := _module(theory.rules)).endswith(".py"):
+            yield ("theories", name, "rules"), module
+        for kind, learner in theory.learners.items():
+            if module := _module(learner):
+                yield ("theories", name, "learners", kind), module
+    for name, tutor in study.tutors.items():
+        if tutor.kind == "own" and (module := _module(tutor.settings["make"])):
+            yield ("tutors", name, "make"), module
+
+
+def _module(reference: str) -> str:
+    """The file or module in FILE.py:NAME or MODULE:NAME; nothing in another name."""
+    return os.path.expanduser(reference.rpartition(":")[0])
+
+
+def _files(theory: Theory) -> Iterator[tuple[Key, str]]:
+    """The files of a theory that are read as something, and where they are named."""
+    if theory.rules.endswith(".ttr"):
+        yield ("rules",), theory.rules
+    if isinstance(theory.meanings, str) and theory.meanings:
+        yield ("meanings",), theory.meanings
+    for file in FILES if theory.grammar is not None else ():
+        assert theory.grammar is not None
+        yield ("grammar",), str(theory.grammar / file.format(theory.language))
+
+
+def _ending(path: str) -> str:
+    """What a file has to be called: as what comes with the package, or a theory."""
+    ending = Path(path).suffix
+    return ending if ending in {Path(it).suffix for it in FILES} else ".ttr"
+
+
+def _refused(key: Key, check: Callable[[str], None], name: str) -> Iterator[Trouble]:
+    try:
+        check(name)
+    except NotAllowedError as error:
+        yield Trouble(key, error.message)

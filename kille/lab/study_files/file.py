@@ -1,0 +1,141 @@
+"""Studies as files: from TOML to a value, or all that is wrong with how it is written.
+
+Whether what it names can be used, `kille.lab.study_files.checking` says.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from importlib.resources import files
+from itertools import count
+from os.path import expanduser
+from pathlib import Path
+from typing import Any
+
+from kille.lab.errors import StudyError
+from kille.lab.settings import no_file
+from kille.lab.study import Named, Phase, Study, Theory
+from kille.lab.study_files.notation import why_not_toml
+from kille.lab.study_files.problems import told
+from kille.lab.study_files.shape import APART, STUDY, faults
+from ttr.safety.consent import OWN_FOLDER, Consent
+from ttr.safety.files import why_unread
+from ttr.safety.inputs import parse_toml, read_text
+from ttr.safety.limits import SETTINGS
+
+PACKAGED = Path(str(files("kille.grammars")))
+"""Where the theories of the package are, which those of anybody may import."""
+
+_OWN = re.compile(r"\.py(?=:)|\.ttr$")
+"""Whether a name is that of something in a file of one's own."""
+
+
+def read(path: Path, consent: Consent = OWN_FOLDER) -> Study:
+    """The study in a file; `StudyError` with a line for each mistake."""
+    return parsed(text_of(path), path, consent)
+
+
+def parsed(text: str, path: Path, consent: Consent = OWN_FOLDER) -> Study:
+    """The study of a text that is, or once was, in this file; `StudyError` as `read`.
+
+    Paths in it begin at the folder of the file. Python there, or below, is what it may
+    run, and what else there is consent to.
+    """
+    data = data_of(text, path)
+    if found := [*faults(data)]:
+        raise StudyError(told(found, text, path))
+    return study_of(data, text, path, consent)
+
+
+def text_of(path: Path) -> str:
+    """The text of a file; `StudyError` where there is none."""
+    try:
+        return read_text(path, SETTINGS)
+    except FileNotFoundError as error:
+        raise StudyError([no_file(path)]) from error
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudyError([why_unread(path, error)]) from error
+
+
+def data_of(text: str, path: Path) -> Mapping[str, Any]:
+    """What is in a text; `StudyError` where it is no TOML."""
+    try:
+        return parse_toml(text)
+    except ValueError as error:
+        line, why = why_not_toml(text, error)
+        raise StudyError([f"{path}:{line}: {why}"]) from error
+
+
+def study_of(
+    data: Mapping[str, Any], text: str, path: Path, consent: Consent = OWN_FOLDER
+) -> Study:
+    """The study of data without faults."""
+    folder = path.resolve().parent
+    allowed = consent.with_folders(folder, PACKAGED)
+    seeds = data["seeds"]
+    return Study(
+        title=data["title"],
+        theories={
+            name: _theory(name, one, folder, allowed)
+            for name, one in data["theories"].items()
+        },
+        tutors={name: _named(name, one) for name, one in data["tutors"].items()},
+        scenes={name: _named(name, one) for name, one in data["scenes"].items()},
+        phases=tuple(_phases(data["phases"])),
+        seeds=tuple(range(1, seeds + 1) if isinstance(seeds, int) else seeds),
+        about=data.get("about", "").strip(),
+        turns=data.get("turns", STUDY["turns"].default),
+        main=data.get("main", STUDY["main"].default),
+        contrasts=tuple((one, other) for one, other in data.get("contrasts", ())),
+        source=text,
+        folder=folder,
+        file=path,
+        consent=allowed,
+    )
+
+
+def _theory(
+    name: str, given: Mapping[str, Any], folder: Path, consent: Consent
+) -> Theory:
+    known = {one.name for one in fields(Theory)} - {"consent"}
+    values = {key: value for key, value in given.items() if key in known and value}
+    if "without" in values:
+        values["without"] = tuple(values["without"])
+    if "rules" in values:
+        values["rules"] = _found(values["rules"], folder)
+    if isinstance(values.get("meanings"), str):
+        values["meanings"] = str(_path(values["meanings"], folder))
+    if "grammar" in values:
+        values["grammar"] = _path(values["grammar"], folder)
+    if "learners" in values:
+        own = values["learners"].items()
+        values["learners"] = {kind: _found(one, folder) for kind, one in own}
+    return Theory(name, consent=consent, **values)
+
+
+def _found(reference: str, folder: Path) -> str:
+    """What a name in a file of one's own is named from everywhere."""
+    return str(_path(reference, folder)) if _OWN.search(reference) else reference
+
+
+def _path(name: str, folder: Path) -> Path:
+    return folder / expanduser(name)
+
+
+def _named(name: str, given: Mapping[str, Any]) -> Named:
+    settings = {key: value for key, value in given.items() if key != "kind"}
+    return Named(name, given["kind"], settings)
+
+
+def _phases(given: list[Mapping[str, Any]]) -> Iterator[Phase]:
+    """The phases; each has a name of its own, by which its answers are known."""
+    taken: set[str] = set()
+    for one in given:
+        wanted = one.get("name") or one["do"]
+        names = (wanted if n == 1 else f"{wanted} {n}" for n in count(1))
+        name = next(it for it in names if it not in taken)
+        taken.add(name)
+        settings = {k: value for k, value in one.items() if k not in APART["do"]}
+        yield Phase(name, one["do"], settings)

@@ -1,0 +1,90 @@
+"""Learners of a theory tried: whether there are such, and one's own learn and judge."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from functools import cache
+from pathlib import Path
+
+from kille.lab.own_code import line_in
+from kille.lab.results import ExperimentError
+from kille.lab.scenes import Occasion
+from kille.lab.scenes.theatre import Staged, Stand, Theatre
+from kille.lab.settings import no_file, shown, unknown
+from kille.lab.study import Theory
+from kille.lab.study_files.problems import Trouble
+from kille.lab.theories.classifiers import NAMES, learners_of, words_of
+from kille.lab.worlds.worlds import World
+from kille.perception.objects import ObjectMemory
+from kille.perception.relations import RelationMemory
+from kille.scene import Configuration, Percept
+
+
+def of_learners(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+    """What is wrong with what judges the words, whether `simulated` or `whole`."""
+    for kind in theory.learners:
+        for seen in sorted(eyes):
+            yield from _of_learner(kind, theory, seen)
+
+
+def _of_learner(kind: str, theory: Theory, seen: str) -> Iterator[Trouble]:
+    name = theory.learners[kind]
+    known = tuple(NAMES[seen][kind])
+    key = ("learners", kind)
+    path, colon, _ = name.rpartition(":")
+    if name not in known and (not colon or known == ("default",)):
+        told = f"nothing named {shown(name)} judges {kind}s {_SEEN[seen]}"
+        yield Trouble(key, f"{told}: {_meant(name, known)}")
+        return
+    if path.endswith(".py") and (why_not := no_file(Path(path))):
+        yield Trouble(key, why_not)
+        return
+    alone = Theory("", learners={kind: name}, consent=theory.consent)
+    try:
+        if seen == "simulated":
+            words_of(alone)
+            return
+        learners = learners_of(alone)
+        objects, relations = learners.objects(()), learners.relations()
+        if colon and kind == "noun":
+            _try_noun(objects)
+        elif colon:
+            _try_relation(relations)
+    except ExperimentError as error:
+        line = line_in(path, error.__cause__)
+        yield Trouble(key, str(error), f"{path}:{line}" if line else "")
+
+
+def _try_noun(objects: ObjectMemory) -> None:
+    """A lesson and a question, as the whole robot gives them to one's own learner."""
+    x = _percept()
+    objects.learn_one(x, "cup")
+    objects.evidence(x)
+
+
+def _try_relation(relations: RelationMemory) -> None:
+    x = Configuration((0.1, 0.0, 0.0))
+    relations.learn_one(x, "near")
+    relations.degrees(x)
+
+
+@cache
+def _percept() -> Percept:
+    """A cup on a rendered table, as the whole robot sees it."""
+    table = Theatre("a cup")
+    view = Staged("synthetic:empty", (Stand("cup", 0.0, 0.0, 0.0),))
+    table.turn_to(Occasion("noun", World(), 1, view=view))
+    return table.look(1, None).percepts[0]
+
+
+def _meant(name: str, known: Collection[str]) -> str:
+    """What somebody may have meant who wrote this for a learner."""
+    if name.endswith(".py"):
+        return f"write what it is called in the file, {Path(name).name}:NAME"
+    return unknown(name, known)
+
+
+_SEEN = {
+    "simulated": "of simulated scenes",
+    "whole": "of the scenes that the robot sees itself",
+}

@@ -1,0 +1,207 @@
+"""What stands in a study, and what is wrong with how one is written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from kille.dialogue.language import LANGUAGES
+from kille.dialogue.meanings import KINDS
+from kille.dialogue.strategies import MODES, WORDINGS
+from kille.lab import scenes, tutors
+from kille.lab.protocols import phases
+from kille.lab.settings import Setting, Settings, near, shown, unfit, unknown
+from kille.lab.study import MAIN_MEASURES, PERSON
+from kille.lab.study_files.lines import Key
+from kille.lab.study_files.problems import Trouble
+
+MOST_SEEDS = 100_000
+"""Dialogues of one theory, tutor and scene; the power of any test is 1 long before."""
+
+STUDY: Settings = {
+    "title": Setting(needed=True, about='write title = "…"'),
+    "about": Setting(),
+    "turns": Setting(int, 1000, least=1, most=1_000_000),
+    "main": Setting(default="accuracy", among=tuple(MAIN_MEASURES)),
+    "contrasts": Setting(list, (), several=True, twice=True),
+    "seeds": Setting(
+        int,
+        (),
+        most=2**32 - 1,
+        several=True,
+        needed=True,
+        about="write seeds = 20, or a list of numbers",
+    ),
+    "theories": Setting(dict, needed=True, about="write [theories.NAME]"),
+    "tutors": Setting(dict, needed=True, about="write [tutors.NAME]"),
+    "scenes": Setting(dict, needed=True, about="write [scenes.NAME]"),
+    "phases": Setting(
+        dict,
+        (),
+        several=True,
+        twice=True,
+        needed=True,
+        about='write [[phases]] and do = "…"',
+    ),
+}
+"""What stands in a study."""
+
+THEORY: Settings = {
+    "about": Setting(),
+    "language": Setting(among=LANGUAGES),
+    "mode": Setting(among=(*MODES, PERSON)),
+    "wording": Setting(among=WORDINGS),
+    "without": Setting(several=True),
+    "rules": Setting(),
+    "grammar": Setting(),
+    "meanings": Setting((str, dict)),
+    "strategy": Setting(dict),
+    "learners": Setting(dict),
+}
+"""What stands in a theory."""
+
+LEARNERS: Settings = {kind: Setting() for kind in KINDS}
+
+
+def faults(data: Mapping[str, Any]) -> Iterator[Trouble]:
+    """What is wrong with how a study is written."""
+    for key, what in _faults(data):
+        yield Trouble(key, what)
+
+
+def _faults(data: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+    shape = dict(data)
+    if not isinstance(shape.get("seeds", []), list):
+        shape["seeds"] = (
+            [min(shape["seeds"], 1)] if _is_count(data) else [data["seeds"]]
+        )
+    for key, what in unfit(shape, STUDY, "a study"):
+        told = key in STUDY and STUDY[key].needed
+        yield (key,) if key else (), f"{what}: {STUDY[key].about}" if told else what
+    if _is_count(data):
+        yield from _wrong_count(data["seeds"])
+    for what in _wrong_contrasts(data):
+        yield ("contrasts",), what
+    yield from _each(data, "theories", _wrong_theory)
+    kinds = (
+        ("tutors", "kind of tutor", tutors.SETTINGS),
+        ("scenes", "kind of scene", scenes.SETTINGS),
+    )
+    for table, what, known in kinds:
+        yield from _each(data, table, _of_kind("kind", what, known))
+    phases = data.get("phases")
+    for number, phase in enumerate(phases if isinstance(phases, list) else []):
+        if isinstance(phase, dict):
+            for inner, what in _wrong_phase(f"phase {number + 1}", phase):
+                yield ("phases", number, *inner), what
+
+
+def _is_count(data: Mapping[str, Any]) -> bool:
+    """Whether it says how many seeds there are, and not which."""
+    seeds = data.get("seeds")
+    return isinstance(seeds, int) and not isinstance(seeds, bool)
+
+
+def _wrong_count(seeds: int) -> Iterator[tuple[Key, str]]:
+    if seeds == 0:
+        yield ("seeds",), "there is no seed, so nothing to play: write seeds = 20"
+    elif seeds > MOST_SEEDS:
+        told = f"so many as {seeds} are more than anybody plays: write {MOST_SEEDS}"
+        yield ("seeds",), f"{told} at most, or a list of seeds"
+
+
+def _wrong_contrasts(data: Mapping[str, Any]) -> Iterator[str]:
+    """What is wrong with the theories that are to be compared, two by two."""
+    theories, contrasts = data.get("theories"), data.get("contrasts")
+    known = [*theories] if isinstance(theories, dict) else []
+    lists = contrasts if isinstance(contrasts, list) else []
+    for one in (it for it in lists if isinstance(it, list)):
+        if len(one) != 2 or not all(isinstance(it, str) for it in one):
+            yield 'a contrast is of two theories: write contrasts = [["one", "other"]]'
+        elif one[0] == one[1]:
+            yield f"a contrast is of two theories, found {shown(one[0])} twice"
+        elif lists.count(one) + lists.count(one[::-1]) > 1:
+            yield f"the contrast of {shown(one[0])} and {shown(one[1])} is there twice"
+        for name in one:
+            if isinstance(name, str) and known and name not in known:
+                yield f"contrasts: there is no theory {shown(name)}: " + unknown(
+                    name, known
+                )
+
+
+Wrong = Callable[[str, Mapping[str, Any]], Iterator[tuple[Key, str]]]
+
+
+def _each(
+    data: Mapping[str, Any], table: str, wrong: Wrong
+) -> Iterator[tuple[Key, str]]:
+    """What is wrong with each thing of a table of named things."""
+    named = data.get(table)
+    if not isinstance(named, dict):
+        return
+    if not named:
+        yield (table,), f"there is nothing in {table}: write [{table}.NAME]"
+    for name, one in named.items():
+        if not re.fullmatch(r"[^/\s]([^/]*[^/\s])?", name) or not name.isprintable():
+            yield (table, name), f"{name!r} is no name: expected a word without a slash"
+        if not isinstance(one, dict):
+            yield (table, name), f"{name} of {table} is a table: write [{table}.{name}]"
+            continue
+        for key, what in wrong(name, one):
+            yield (table, name, *key), what
+
+
+def _wrong_theory(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+    for key, what in unfit(given, THEORY, f"the theory {name}"):
+        yield (key,), what
+    types = given.get("meanings")
+    for key, value in types.items() if isinstance(types, dict) else ():
+        if not isinstance(value, str):
+            told = f'a type is written as a text, {key} = "[…]", found {shown(value)}'
+            yield ("meanings", key), told
+    learners = given.get("learners")
+    if isinstance(learners, dict):
+        for key, what in unfit(learners, LEARNERS, f"learners of {name}"):
+            yield ("learners", key), what
+
+
+def _wrong_phase(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+    called = given.get("name", "")
+    if why := Setting().unfit(called):
+        yield ("name",), f"name of {name}: {why}"
+    elif not called.isprintable():
+        yield ("name",), f"name of {name}: expected one line, found {called!r}"
+    yield from _of_kind("do", "phase to do", phases.SETTINGS)(name, given)
+
+
+def _of_kind(key_of_kind: str, what: str, known: Mapping[str, Settings]) -> Wrong:
+    """What is wrong with something whose kind says what may be set of it."""
+
+    def wrong(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+        kind = given.get(key_of_kind)
+        if kind is None:
+            slip = near(key_of_kind, [*given], "{}")
+            found = f", and has {slip}" if slip else ""
+            told = f"{name} needs {key_of_kind}{found}: {_one_of(known)}"
+            yield (slip,) if slip else (), told
+            return
+        if not isinstance(kind, str) or kind not in known:
+            meant = near(str(kind), known, "did you mean {}? ")
+            told = f"{name}: there is no {what} {shown(kind)}: {meant}{_one_of(known)}"
+            yield (key_of_kind,), told
+            return
+        own = {key: it for key, it in given.items() if key not in APART[key_of_kind]}
+        named = f'{name} ({key_of_kind} = "{kind}")'
+        for key, why in unfit(own, known[kind], named):
+            yield (key,) if key else (), why
+
+    return wrong
+
+
+APART = {"kind": ("kind",), "do": ("do", "name")}
+"""What is not among the settings, by what names the kind."""
+
+
+def _one_of(known: Mapping[str, Settings]) -> str:
+    return f"it is one of {', '.join(known)}"

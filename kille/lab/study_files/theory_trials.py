@@ -1,0 +1,235 @@
+"""Theories tried one by one: what of them cannot be used, before anything is played.
+
+A theory must have the rules, the learners and the language that it names, and they must
+pass their own checks: those of rules before they run, and what a theory file claims of
+itself.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from kille.dialogue.tutoring import hear, tutoring
+from kille.lab.errors import TheoryError
+from kille.lab.own_code import line_in, why
+from kille.lab.results import ExperimentError
+from kille.lab.settings import no_file
+from kille.lab.study import PERSON, Theory
+from kille.lab.study_files.languages import of_language, of_strategies
+from kille.lab.study_files.learners import of_learners
+from kille.lab.study_files.lines import Key
+from kille.lab.study_files.problems import Trouble
+from kille.lab.theories.games import (
+    changed,
+    game_of,
+    language_of,
+    unsettable,
+)
+from kille.lab.theories.meanings import meanings_of
+from kille.lab.theories.rules import absent, packaged_rules
+from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.worlds import Thing, World
+from ttr import TTRError
+from ttr.errors import MistakesError, Span
+from ttr.safety.consent import OWN_FOLDER
+from ttr.theories.checking import check
+from ttr.theories.theory import load
+from ttr.updates import Rule
+from ttr.updates.checks import NEVER, Fault, faults_of
+
+_OWN = ("meanings", "rules", "without", "learners")
+"""What a theory may have of its own that fails only when it is played."""
+
+
+def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+    """All that is wrong with a theory that is `simulated`, or of the `whole` robot."""
+    if theory.mode == PERSON:
+        yield from _of_person(theory)
+        return
+    if theory.meanings:
+        yield from _of_meanings(theory, eyes)
+    else:
+        yield from _of_all_else(theory, eyes)
+
+
+def _of_all_else(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+    """What is wrong with a theory whose meanings can be read."""
+    found = [*of_strategies(theory)] or [
+        Trouble(("strategy", *key), it) for key, it in unsettable(theory)
+    ]
+    found += of_learners(theory, eyes)
+    found += of_language(theory)
+    found += _of_rules(replace(theory, strategy={}, grammar=None))
+    yield from found
+    if not found and any(getattr(theory, it) for it in _OWN):
+        simulated = "simulated" in eyes
+        yield from _tried(theory if simulated else replace(theory, learners={}))
+
+
+def _of_person(theory: Theory) -> Iterator[Trouble]:
+    for key in ("strategy", "learners", "rules", "without", "grammar", "meanings"):
+        if getattr(theory, key):
+            told = f"{theory.name} is played by a person, who has no {key}"
+            yield Trouble((key,), told)
+
+
+# --- meanings -------------------------------------------------------------------------
+
+
+def _of_meanings(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+    """What is wrong with meanings of one's own, or else with what is made of them."""
+    key: Key = ("meanings",)
+    own = theory.meanings
+    if isinstance(own, str) and (told := no_file(Path(own))):
+        yield Trouble(key, told)
+        return
+    try:
+        if isinstance(own, str) and (failing := [*_failing(key, Path(own), theory)]):
+            yield from failing
+            return
+        tutoring(types=meanings_of(theory))
+        yield from list(_of_all_else(theory, eyes))
+    except TTRError as error:
+        found = _of_error(key, error)
+        yield from found if isinstance(own, str) else _inline(own, error)
+    except Exception as error:
+        told = f"the games cannot be made of it: {why(error)}"
+        yield Trouble(key, told, f"{own}:1" if isinstance(own, str) else "")
+
+
+def _inline(types: Mapping[str, str], error: TTRError) -> Iterator[Trouble]:
+    """Mistakes in types that stand in the study, each at the type where it is."""
+    for one in error.errors if isinstance(error, MistakesError) else (error,):
+        line = one.span.text if one.span else one.message
+        hint = f" ({one.hint})" if one.hint else ""
+        yield Trouble(_key_of(types, line), f"{one.message}{hint}")
+
+
+def _key_of(types: Mapping[str, str], told: str) -> Key:
+    """The type of which something is told, as a key; all of them if it is not named."""
+    named = (it for it in re.findall(r"\w+", told) if it in types)
+    return ("meanings", *list(named)[:1])
+
+
+# --- rules ----------------------------------------------------------------------------
+
+
+def _of_rules(theory: Theory) -> Iterator[Trouble]:
+    if not (theory.rules or theory.without):
+        return
+    key: Key = ("rules",) if theory.rules else ("without",)
+    try:
+        of_file = theory.rules.endswith(".ttr")
+        if failing := [*_failing(key, Path(theory.rules), theory)] if of_file else []:
+            yield from failing
+            return
+        if wanting := [Trouble(("without",), it) for it in absent(theory)]:
+            yield from wanting
+            return
+        types = meanings_of(theory)
+        game, packaged = changed(tutoring(types=types), theory), packaged_rules(types)
+        errors = (it for it in faults_of(game) if _is_error(it))
+        wrong = (it for it in errors if not _is_moot(it, packaged))
+        yield from (_of_fault(key, it) for it in wrong)
+    except TheoryError as error:
+        yield Trouble(key, error.message, error.at)
+    except TTRError as error:
+        yield from _of_error(key, error)
+
+
+def _of_error(key: Key, error: TTRError) -> Iterator[Trouble]:
+    for one in error.errors if isinstance(error, MistakesError) else (error,):
+        hint = f" ({one.hint})" if one.hint else ""
+        yield Trouble(key, f"{one.message}{hint}", _place(one.span))
+
+
+def _failing(key: Key, file: Path, theory: Theory) -> Iterator[Trouble]:
+    """What a theory file claims of itself and does not hold."""
+    consent = theory.consent or OWN_FOLDER
+    report = check(load(file, allow=consent.folders))
+    for failure in report.failures:
+        because = f", {failure.why}" if failure.why else ""
+        told = f"{failure.check.text} does not hold: found {failure.found}{because}"
+        yield Trouble(key, told, _place(failure.check.span))
+    yield from (_of_fault(key, it) for it in report.faults if _is_error(it))
+
+
+def _is_error(fault: Fault) -> bool:
+    return fault.severity == "error"
+
+
+def _is_moot(fault: Fault, packaged: Collection[Rule]) -> bool:
+    """Whether it is of a rule of the package's that the theory has no use for."""
+    return fault.sort in NEVER and fault.rule in packaged
+
+
+def _of_fault(key: Key, fault: Fault) -> Trouble:
+    hint = f": {fault.hint}" if fault.hint else ""
+    return Trouble(key, f"{fault.message}{hint}", _place(fault.span))
+
+
+def _place(span: Span | None) -> str:
+    return "" if span is None else f"{span.source}:{span.line}"
+
+
+# --- a first dialogue -----------------------------------------------------------------
+
+_THINGS = Thing("cup", "red", 0.9, (2, 3)), Thing("car", "blue", 0.1, (7, 3))
+
+_SAID = {
+    "en": (
+        (1, "This is a cup.", "This is big.", "What is this?"),
+        (1, "This is red.", "What colour is this?"),
+        (2, "This is a car.", "This is to the right of the cup.", "Where is this?"),
+        (2, "What is this?", "No, it is a mug.", "Forget that.", "What is this?"),
+    ),
+    "sv": (
+        (1, "Det här är en kopp.", "Det här är stort.", "Vad är det här?"),
+        (1, "Det här är rött.", "Vilken färg har det här?"),
+        (2, "Det här är en bil.", "Det här är till höger om koppen."),
+        (2, "Var är det här?", "Vad är det här?", "Nej, det är en mugg."),
+        (2, "Glöm det.", "Vad är det här?"),
+    ),
+}
+"""The number of a thing that is pointed at, and what is said of it, by the language."""
+
+
+def _tried(theory: Theory) -> Iterator[Trouble]:
+    """Why the theory fails at a few sentences, whatever code of its own raises."""
+    world = World(_THINGS)
+    text = ""
+    try:
+        game = game_of(theory, world, colours=())  # else no colour is ever judged
+        now = game.begin()
+        for number, *texts in _SAID[theory.language]:
+            event, world = glanced(world.pointed(number), world), world.pointed(number)
+            now = game.take(now, event).run
+            for text in texts:
+                heard = hear(text, language_of(theory), types=meanings_of(theory))
+                now = now if heard is None else game.take(now, heard).run
+    except (Exception, SystemExit) as error:
+        cause = _cause(error)
+        key: Key = (next(it for it in _OWN if getattr(theory, it)),)
+        if isinstance(theory.meanings, Mapping):
+            key = _key_of(theory.meanings, str(cause))
+        where = f"fails at “{text}”" if text else "cannot begin"
+        yield Trouble(key, f"tried out, it {where}: {_why(cause, theory)}")
+
+
+def _why(error: BaseException, theory: Theory) -> str:
+    """What an error says; of what it is, too, and where, in rules of one's own."""
+    file = theory.rules.rpartition(":")[0]
+    line = line_in(file, error)
+    if line:
+        return f"{why(error)} ({Path(file).name}, line {line})"
+    return next(iter(str(error).splitlines()), type(error).__name__)
+
+
+def _cause(error: BaseException) -> BaseException:
+    """What failed first, and made the others fail; a learner's failure names it."""
+    while error.__cause__ is not None and not isinstance(error, ExperimentError):
+        error = error.__cause__
+    return error

@@ -1,0 +1,28 @@
+"""What is no mistake in a study, but is probably not meant.
+
+Such a study can be played, and may say something else than whoever wrote it thinks: two
+theories are the same, what is asked was never taught, or something that is set makes no
+difference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from kille.lab.scenes import opened
+from kille.lab.study import Run, Study
+from kille.lab.study_files.problems import Trouble, told
+from kille.lab.study_files.warnings import phases, scenes, theories, tutors
+
+
+def doubts(study: Study) -> tuple[str, ...]:
+    """A line for all that is probably not meant, of a study without mistakes."""
+    return told(_doubts(study), study.source, study.file)
+
+
+def _doubts(study: Study) -> Iterator[Trouble]:
+    seen = {name: opened(study, Run("", "", name, 0)) for name in study.scenes}
+    yield from theories.doubts(study)
+    yield from tutors.doubts(study, seen)
+    yield from scenes.doubts(study, seen)
+    yield from phases.doubts(study, seen)

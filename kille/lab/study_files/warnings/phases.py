@@ -1,0 +1,109 @@
+"""Phases that measure nothing, or something else than they seem to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from random import Random
+
+from kille.lab.scenes import Scene
+from kille.lab.study import PERSON, Study
+from kille.lab.study_files.dialogue_length import begins
+from kille.lab.study_files.named_words import SPEAKING
+from kille.lab.study_files.problems import Trouble
+from kille.lab.study_files.warnings.topics import TEACHING, is_plain, kind_of, kinds_of
+from kille.lab.study_files.warnings.tutors import lines_of
+
+_ASKING = ("ask", "practise", "find")
+
+
+def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+    """What is probably not meant in the phases of a study."""
+    yield from _unmeasured(study)
+    if any(theory.mode != PERSON for theory in study.theories.values()):
+        yield from _untaught(study)
+        yield from _nameless(study)
+    yield from _faceless(study, opened)
+    yield from _known_before(study)
+    yield from _cut_short(study, opened)
+
+
+def _unmeasured(study: Study) -> Iterator[Trouble]:
+    """That nothing is asked to which an answer is right or wrong."""
+    asked = any(phase.do in _ASKING for phase in study.phases)
+    kinds = {tutor.kind for tutor in study.tutors.values()}
+    if kinds & {"own", "keyboard"} or (asked and kinds & {*SPEAKING}):
+        return
+    scripts = [it for it in study.tutors.values() if it.kind == "scripted"]
+    marks = {line.mark for it in scripts for line in lines_of(it, study)}
+    if "S>" not in marks:
+        told = 'nothing is asked, so that no answers are measured: write do = "ask"'
+        yield Trouble(("phases",), told)
+
+
+def _untaught(study: Study) -> Iterator[Trouble]:
+    """Phases in which a robot needs words of a kind of which none is ever taught."""
+    taught = {kind_of(it) for it in study.phases if it.do in TEACHING}
+    if any(it.settings.get("colours") != "taught" for it in study.scenes.values()):
+        taught.add("adjective")
+    for number, phase in enumerate(study.phases if is_plain(study) else ()):
+        for kind in kinds_of(phase) if phase.do in ("ask", "find") else ():
+            if kind not in taught:
+                told = f"{phase.name} asks for {kind}s, which no phase teaches"
+                yield Trouble(("phases", number), told)
+
+
+def _nameless(study: Study) -> Iterator[Trouble]:
+    """The first phase about places before which no nouns are taught.
+
+    Whoever has no noun for a landmark cannot say where something is.
+    """
+    for number, phase in enumerate(study.phases if is_plain(study) else ()):
+        if phase.do not in (*TEACHING, "ask"):
+            continue
+        if kind_of(phase) == "noun" and phase.do in TEACHING:
+            return
+        if kind_of(phase) == "relation":
+            told = f"no nouns are taught before {phase.name}, and without those of the"
+            told += " landmarks the robot says of nothing where it is"
+            yield Trouble(("phases", number), told)
+            return
+
+
+def _faceless(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+    """Phases that say which way things face, where nothing has a front."""
+    for number, phase in enumerate(study.phases):
+        for name, scene in opened.items() if phase.do == "align" else ():
+            shown = scene.round("relation", False, Random(0))[:1]
+            things = [it.world.thing(x) for it in shown for x in it.world.in_view]
+            if not any(thing.front for thing in things):
+                told = f"nothing in {name} has a front, so that nothing is said in"
+                yield Trouble(("phases", number), f"{told} {phase.name}")
+
+
+def _known_before(study: Study) -> Iterator[Trouble]:
+    """Phases of what is new in which that has been taught before.
+
+    Who asks for what is not new as well knows that there are two sorts of things.
+    """
+    before: dict[str, str] = {}
+    if all(scene.kind == "around" for scene in study.scenes.values()):
+        return
+    asked = [it for it in study.phases if it.do == "ask"]
+    both = {kind_of(it) for it in asked if it.settings.get("of") != "new"}
+    for number, phase in enumerate(study.phases):
+        if phase.settings.get("of") != "new":
+            continue
+        kind = kind_of(phase)
+        if phase.do == "ask" and kind in before.keys() - both:
+            told = f"what is new in {phase.name} has been taught in {before[kind]}"
+            yield Trouble(("phases", number, "of"), told)
+        if phase.do in TEACHING:
+            before.setdefault(kind, phase.name)
+
+
+def _cut_short(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+    """That dialogues end before all is done."""
+    needed = max((begins(study, scene)[-1] for scene in opened.values()), default=0)
+    if needed > study.turns:
+        told = f"a dialogue takes {needed} turns at least, and ends after {study.turns}"
+        yield Trouble(("turns",), f"{told}: write turns = {needed} or more")

@@ -1,0 +1,74 @@
+"""Scenes that have less to show than is asked of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+
+from kille.lab.scenes import SETTINGS, Scene
+from kille.lab.scenes.captured import Captured
+from kille.lab.scenes.statements import Statements
+from kille.lab.settings import filled
+from kille.lab.study import Named, Study
+from kille.lab.study_files.problems import Trouble
+from kille.lab.study_files.warnings.topics import TEACHING, kind_of
+
+
+def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+    """What is probably not meant in the scenes of a study."""
+    for name, scene in study.scenes.items():
+        pictured = scene.kind in ("pictures", "statements")
+        found = (
+            *_unshifted(scene, study),
+            *(_fewer(scene, opened[name], study) if pictured else ()),
+            *_less_in_view(scene, study),
+        )
+        for key, what in found:
+            yield Trouble(("scenes", name, key), what)
+
+
+def _unshifted(scene: Named, study: Study) -> Iterator[tuple[str, str]]:
+    """A landmark that moves when it is not asked about."""
+    asked = [it for it in study.phases if it.settings.get("of") == "new"]
+    if scene.settings.get("shift") and "relation" not in map(kind_of, asked):
+        yield "shift", 'the landmark moves for relations of = "new", which none are'
+
+
+def _fewer(scene: Named, opened: Scene, study: Study) -> Iterator[tuple[str, str]]:
+    """Words of which the data have fewer examples than are to be taught and kept."""
+    taught, kept = (Counter(it) for it in _examples(opened))
+    set_ = filled(scene.settings, SETTINGS[scene.kind])
+    is_asked = any(it.settings.get("of") == "new" for it in study.phases)
+    for word in {**taught, **kept}:
+        for key, found in (("each", taught[word]), ("new", kept[word])):
+            if found < set_[key] and (key == "each" or is_asked):
+                told = f"of {word} there are {found} only, and not {key} = {set_[key]}"
+                yield key if key in scene.settings else "folder", told
+
+
+def _examples(opened: Scene) -> tuple[Sequence[str], Sequence[str]]:
+    """What is taught, and what is kept, by its words, where these are data."""
+    match opened:
+        case Statements():
+            return [it for it, _ in opened.taught], [it for it, _ in opened.kept]
+        case Captured():
+            return [it.group for it in opened.taught], [it.group for it in opened.kept]
+    return (), ()
+
+
+def _less_in_view(scene: Named, study: Study) -> Iterator[tuple[str, str]]:
+    """Phases in which fewer things are in view than there should be."""
+    if scene.kind != "drawn":
+        return
+    set_ = filled(scene.settings, SETTINGS["drawn"])
+    for phase in study.phases:
+        if phase.do not in ("ask", "find", *TEACHING) or kind_of(phase) == "relation":
+            continue
+        of = {"same": "each", "new": "new"}.get(phase.settings.get("of", "same"), "")
+        things = len(set_["kinds"]) * set_[of]
+        if "in_view" in scene.settings and things < set_["in_view"]:
+            told = f"{things} things only are in view in the phase {phase.name}"
+            yield (
+                "in_view",
+                f"{told}: there are no more, by kinds and {of} = {set_[of]}",
+            )

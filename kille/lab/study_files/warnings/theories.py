@@ -1,0 +1,82 @@
+"""Theories that do not differ, and what of them makes no difference."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+from kille.lab.scenes import WHOLE
+from kille.lab.study import PERSON, Study, Theory
+from kille.lab.study_files.problems import Trouble
+from kille.lab.study_files.warnings.topics import is_plain, kinds_in
+from kille.lab.theories import strategy_of
+from kille.lab.theories.classifiers import WORDS
+
+
+def doubts(study: Study) -> Iterator[Trouble]:
+    """What is probably not meant in the theories of a study."""
+    yield from _alike(study)
+    for name, theory in study.theories.items():
+        if theory.mode == PERSON:
+            continue
+        for key, what in (*_disordered(theory), *_idle(theory, study)):
+            yield Trouble(("theories", name, *key), what)
+
+
+def _alike(study: Study) -> Iterator[Trouble]:
+    """Theories that are the same as one before them."""
+    before: list[Theory] = []
+    for name, theory in study.theories.items():
+        same = [it.name for it in before if _bare(it) == _bare(theory)]
+        if same and theory.mode != PERSON:
+            told = f"{name} is the same theory as {same[0]}: they will not differ"
+            yield Trouble(("theories", name), told)
+        before.append(theory)
+
+
+def _bare(theory: Theory) -> tuple[object, ...]:
+    """A theory without what it is called, and what is set to what it is anyhow."""
+    bare = replace(
+        theory,
+        name="",
+        about="",
+        mode="",
+        wording="",
+        strategy={},
+        without=tuple(sorted(theory.without)),
+        learners={k: it for k, it in theory.learners.items() if it != "default"},
+    )
+    return bare, strategy_of(theory) if theory.mode != PERSON else PERSON
+
+
+def _disordered(theory: Theory) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Bands that begin below weaker ones, and so take their place."""
+    bands = strategy_of(theory).bands
+    for stronger, weaker in pairwise(("sure", "think", "likely")):
+        if bands[stronger] < bands[weaker]:
+            told = f"bands.{stronger} = {bands[stronger]:g} is below bands.{weaker} = "
+            told += f"{bands[weaker]:g}, in whose place it is then"
+            yield ("strategy", "bands", stronger), told
+
+
+def _idle(theory: Theory, study: Study) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Learners that judge nothing in the study."""
+    kinds = kinds_in(study)
+    for kind, name in theory.learners.items():
+        if name == "default":
+            continue
+        key = ("learners", kind)
+        if is_plain(study) and kind not in kinds:
+            yield key, f"no phase is about {kind}s, so that {name} judges nothing"
+        elif kind == "adjective" and name not in WORDS and not _taught(study):
+            told = f"{name} judges no colours, as the robot knows them beforehand"
+            yield key, f'{told}: write colours = "taught" for the scenes'
+
+
+def _taught(study: Study) -> bool:
+    """Whether colours are taught in a scene, or it is not simulated."""
+    return any(
+        it.kind in WHOLE or it.settings.get("colours") == "taught"
+        for it in study.scenes.values()
+    )

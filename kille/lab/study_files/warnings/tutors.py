@@ -1,0 +1,114 @@
+"""What makes no difference in tutors, and scripts that nobody understands."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import zip_longest
+
+from kille.dialogue.tutoring import hear
+from kille.lab.scenes import Scene
+from kille.lab.study import PERSON, Named, Study
+from kille.lab.study_files.named_words import SPEAKING, names_in, words_of
+from kille.lab.study_files.problems import Trouble
+from kille.lab.study_files.warnings.topics import TEACHING, kind_of
+from kille.lab.theories import language_of
+from kille.lab.theories.meanings import meanings_of
+from kille.lab.tutors.words import Words
+from kille.lab.worlds.worlds import KINDS
+from ttr.dialogues.stories import Line, read_stories
+
+
+def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+    """What is probably not meant in the tutors of a study."""
+    for name, tutor in study.tutors.items():
+        if tutor.kind in SPEAKING:
+            found = (*_unused(tutor, study, opened), *_speechless(tutor, study, opened))
+            for key, what in found:
+                yield Trouble(("tutors", name, key), what)
+        if tutor.kind == "scripted":
+            yield from _of_script(tutor, study)
+
+
+def _unused(
+    tutor: Named, study: Study, opened: Mapping[str, Scene]
+) -> Iterator[tuple[str, str]]:
+    """What is set and never comes to bear."""
+    does = {phase.do for phase in study.phases}
+    if "feedback" in tutor.settings and not does & {"practise", "talk"}:
+        told = "feedback makes no difference: no phase is practise or talk"
+        yield "feedback", told
+    there = names_in(study, opened).noun
+    for name in tutor.settings.get("calls", ()):
+        if name in KINDS and name not in there:
+            yield "calls", f"there is no {name} in any scene that he could call so"
+    if tutor.settings.get("frame", "viewer") in ("viewer", 0):
+        return
+    for scene in study.scenes.values():
+        if _is_frontless(scene):
+            told = f"the landmark of {scene.name} has no front"
+            yield "frame", f"{told}, so that he speaks there as a viewer always"
+
+
+def _is_frontless(scene: Named) -> bool:
+    alone = scene.kind == "around" and scene.settings.get("front") == ""
+    return alone or scene.kind == "statements"
+
+
+def _speechless(
+    tutor: Named, study: Study, opened: Mapping[str, Scene]
+) -> Iterator[tuple[str, str]]:
+    """Phases for which he has no word, and in which he says nothing."""
+    vocabulary = tutor.settings.get("vocabulary", ())
+    if not vocabulary:
+        return
+    languages = {theory.language for theory in study.theories.values()}
+    spoken = [words_of(language, tutor) for language in sorted(languages)]
+    for name, scene in opened.items():
+        names = names_in(study, {name: scene})
+        for phase in study.phases:
+            if phase.do not in (*TEACHING, "ask"):
+                continue
+            there = getattr(names, kind_of(phase))
+            if not any(_has_one(words, vocabulary, there) for words in spoken):
+                told = f"he has no word for the {kind_of(phase)}s of {name}"
+                yield "vocabulary", f"{told}, and says nothing in {phase.name}"
+
+
+def _has_one(words: Words, own: Iterable[str], there: Iterable[str]) -> bool:
+    """Whether one of his own words is for something that is there."""
+    return bool({words.called(it) for it in own} & {words.called(it) for it in there})
+
+
+# --- scripts --------------------------------------------------------------------------
+
+
+def lines_of(tutor: Named, study: Study) -> tuple[Line, ...]:
+    """The lines of a scripted tutor's file."""
+    path = study.folder / os.path.expanduser(tutor.settings["file"])
+    return tuple(line for story in read_stories(path) for line in story.lines)
+
+
+def _of_script(tutor: Named, study: Study) -> Iterator[Trouble]:
+    key = ("tutors", tutor.name, "file")
+    lines = lines_of(tutor, study)
+    for line in lines:
+        if line.mark in ("S~", "="):
+            told = f"what {line.mark} expects is not measured: write S> and all of it"
+            yield Trouble(key, told, line.place)
+    for line, after in zip_longest(lines, lines[1:]):
+        is_expected = after is not None and after.mark[0] == "S"
+        if line.mark == "U>" and not is_expected and (lost := _lost(line.text, study)):
+            told = f"{lost} does not understand “{line.text}”"
+            yield Trouble(key, told, line.place)
+
+
+def _lost(text: str, study: Study) -> str:
+    """The first theory that does not understand a text, if there is one."""
+    heard = (
+        name
+        for name, theory in study.theories.items()
+        if theory.mode != PERSON
+        and hear(text, language_of(theory), types=meanings_of(theory)) is None
+    )
+    return next(heard, "")

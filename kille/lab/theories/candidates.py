@@ -1,0 +1,211 @@
+"""The methods that take part in a comparison: by name, or from a user's own module.
+
+Anything with `learn_one(x, word)` and `predict_proba_one(x)` may take part. Whatever it
+raises, and whatever it gives that is no degree, is told as a `MethodFailedError`, so
+that the others can go on without it.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from difflib import get_close_matches
+from pathlib import Path
+from reprlib import repr as brief
+from types import ModuleType
+from typing import Any, TypeAlias
+
+from kille.lab.results import ExperimentError
+from kille.perception.learners import check_degrees
+from ttr.aliases import former_names
+from ttr.safety.consent import Consent, NotAllowedError
+from ttr.safety.python_files import run_named
+
+__all__ = ["Make", "Methods", "MethodFailedError", "candidates"]
+
+__getattr__ = former_names(__name__, {"MethodFailed": "MethodFailedError"})
+
+Make: TypeAlias = Callable[[], Any]
+"""Gives a learner that has learned nothing."""
+
+Methods: TypeAlias = Mapping[str, Make]
+
+_WRITTEN = "FILE.py:NAME or MODULE:NAME"
+
+
+class MethodFailedError(ExperimentError):
+    """A learner that failed, or gave what are no degrees; `name` is the method's."""
+
+    def __init__(self, name: str, trouble: str) -> None:
+        super().__init__(f"the method {name} failed: {trouble}")
+        self.name = name
+
+
+def candidates(
+    names: Sequence[str], known: Methods, consent: Consent | None = None
+) -> dict[str, Make]:
+    """The methods of these names, each guarded; ExperimentError for an unknown one.
+
+    A name with a colon is of the user's own: `FILE.py:NAME` or `MODULE:NAME`, where
+    NAME is a class, or a function that makes a learner. Who calls this names them; for
+    names that were found in a file, `consent` says which Python may be run.
+    """
+    return {name: _guarded(name, _maker(name, known, consent)) for name in names}
+
+
+def _maker(name: str, known: Methods, consent: Consent | None) -> Make:
+    if name in known:
+        return known[name]
+    module, colon, thing = name.rpartition(":")
+    if colon:
+        return _of_module(module, thing, consent)
+    near = get_close_matches(name, known, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(known)}."
+    raise ExperimentError(
+        f"there is no method {name}: {hint} Your own is named {_WRITTEN}"
+    )
+
+
+# --- a user's own --------------------------------------------------------------------
+
+
+def _of_module(path: str, thing: str, consent: Consent | None) -> Make:
+    module = _module(path, consent)
+    made: object = getattr(module, thing, None)
+    if callable(made):
+        return made
+    if made is not None:
+        raise ExperimentError(f"{thing} of {path} makes no learner: name a class")
+    own = [it for it in vars(module) if not it.startswith("_")]
+    near = get_close_matches(thing, own, n=1)
+    hint = f": did you mean {near[0]}?" if near else ""
+    raise ExperimentError(f"{path} has no {thing or 'learner without a name'}{hint}")
+
+
+def _module(path: str, consent: Consent | None) -> ModuleType:
+    if path.endswith(".py") and not Path(path).is_file():
+        raise ExperimentError(f"there is no file {path}")
+    try:
+        return run_named(path, Path(), "_measured_", consent)
+    except NotAllowedError as error:
+        raise ExperimentError(error.message) from error
+    except (Exception, SystemExit) as error:
+        if _is_missing(path, error):
+            raise ExperimentError(
+                f"there is no module {path}: name a method as {_WRITTEN}"
+            ) from error
+        raise ExperimentError(f"{path} cannot be run: {_told(error)}") from error
+
+
+def _is_missing(path: str, error: BaseException) -> bool:
+    """Whether there is no module of this name, or none that it would be in."""
+    if not isinstance(error, ModuleNotFoundError) or error.name is None:
+        return False
+    return not path.endswith(".py") and f"{path}.".startswith(f"{error.name}.")
+
+
+# --- the guard -----------------------------------------------------------------------
+
+
+def _guarded(name: str, make: Make) -> Make:
+    def made() -> _Guarded:
+        with _failing_as(name, "it cannot be made"):
+            return _Guarded(name, make())
+
+    return made
+
+
+class _Guarded:
+    """A learner whose failures carry its name."""
+
+    def __init__(self, name: str, learner: Any) -> None:
+        for needed in ("learn_one", "predict_proba_one"):
+            if not callable(getattr(learner, needed, None)):
+                raise MethodFailedError(name, f"a learner needs {needed}, it has none")
+        self._name = name
+        self._learner = learner
+        self._takes_key = _takes_key(learner.learn_one)
+
+    def learn_one(self, x: object, label: str, *, key: object = None) -> None:
+        """Teach it; the key is handed on to those who take one."""
+        named = {"key": key} if self._takes_key and key is not None else {}
+        with _failing_as(self._name, "learn_one"):
+            self._learner.learn_one(x, label, **named)
+
+    def predict_proba_one(self, x: object) -> dict[str, float]:
+        """Its degrees, which are in [0, 1] and sum to 1 at most."""
+        with _failing_as(self._name, "predict_proba_one"):
+            return self._degrees(self._learner.predict_proba_one(x))
+
+    def __getattr__(self, attribute: str) -> Any:
+        """What else the learner can do is left to it."""
+        found = getattr(self._learner, attribute)
+        if not callable(found):
+            return found
+
+        def call(*given: Any, **named: Any) -> Any:
+            with _failing_as(self._name, attribute):
+                return found(*given, **named)
+
+        return call
+
+    def _degrees(self, given: object) -> dict[str, float]:
+        if not isinstance(given, Mapping):
+            raise MethodFailedError(
+                self._name,
+                "predict_proba_one gives a degree for each word, "
+                f"not {_article(type(given).__name__)}",
+            )
+        for word, degree in given.items():
+            self._check_degree(word, degree)
+        degrees = {word: float(degree) for word, degree in given.items()}
+        try:
+            check_degrees(degrees)
+        except AssertionError as broken:
+            told = f"predict_proba_one: {broken}, not to {sum(degrees.values()):.3g}"
+            raise MethodFailedError(self._name, told) from None
+        return degrees
+
+    def _check_degree(self, word: object, degree: Any) -> None:
+        try:
+            check_degrees({"": degree})
+            fine = isinstance(word, str)
+        except (AssertionError, TypeError, ValueError):
+            fine = False
+        if not fine:
+            raise MethodFailedError(
+                self._name,
+                f"predict_proba_one gave {brief(word)} the degree {brief(degree)}",
+            )
+
+
+def _takes_key(method: Callable[..., Any]) -> bool:
+    try:
+        taken = inspect.signature(method).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    return any(it.name == "key" or it.kind is it.VAR_KEYWORD for it in taken)
+
+
+@contextmanager
+def _failing_as(name: str, doing: str) -> Iterator[None]:
+    try:
+        yield
+    except MethodFailedError:
+        raise
+    except (Exception, SystemExit) as error:
+        raise MethodFailedError(name, f"{doing}: {_told(error)}") from error
+
+
+def _told(error: BaseException) -> str:
+    first = next(iter(str(error).splitlines()), "")
+    return f"{type(error).__name__}: {first}".removesuffix(": ")
+
+
+def _article(noun: str) -> str:
+    return (
+        "nothing"
+        if noun == "NoneType"
+        else f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+    )

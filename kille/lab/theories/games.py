@@ -1,0 +1,159 @@
+"""Theories at work: the games that they make, in a simulated world or by a robot.
+
+In what two theories differ is in the value of each, a `Theory`; all else is the same.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
+from typing import Any
+
+from kille.agent.agent import Agent
+from kille.dialogue.sources import language_in
+from kille.dialogue.strategies import strategy
+from kille.lab.errors import TheoryError
+from kille.lab.settings import Setting, shown, unknown
+from kille.lab.study import Theory
+from kille.lab.theories.classifiers import learners_of, words_of
+from kille.lab.theories.meanings import meanings_of
+from kille.lab.theories.rules import algorithm_of
+from kille.lab.theories.simulated_words import acting, known_by
+from kille.lab.worlds.games import simulated
+from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.word_learning import Word
+from kille.lab.worlds.worlds import World
+from kille.sensors.sensor import Sensor
+from ttr import Record, replace
+from ttr.updates import Game
+
+
+def game_of(
+    theory: Theory, world: World, *, colours: Iterable[Record] | None = None
+) -> Game:
+    """The game that the theory makes in front of a simulated world.
+
+    Its robot knows these `colours`, or else all; which words are of colours it knows
+    anyhow. `TheoryError` where the theory cannot be used.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),))
+    >>> game = game_of(Theory("four", wording="four"), world)
+    >>> turns = game.play(map(game.hear, ["This is a cup.", "What is this?"]))
+    >>> [game.say(move) for turn in turns for move in turn.said]
+    ['Please, show me more examples of cup.', 'This is a cup. Am I right?']
+    """
+    types = meanings_of(theory)
+    every = vocabulary(theory.language, types).colours
+    signs = every if colours is None else tuple(colours)
+    game = simulated(
+        world,
+        colours=signs,
+        language=language_of(theory),
+        mode=theory.mode,
+        wording=theory.wording,
+        types=types,
+    )
+    start = replace(game.start, {"private.colours": list(every)})
+    game = dataclasses.replace(game, start=start)
+    makes = words_of(theory)
+    if all(make is Word for make in makes.values()):
+        return changed(game, theory)
+    model = known_by(game.model, makes, signs)
+    game = dataclasses.replace(game, model=model, act=acting(makes))
+    return changed(game, theory)
+
+
+def agent_of(theory: Theory, sensor: str | Sensor, **settings: Any) -> Agent:
+    """The whole robot with this theory, looking through a sensor.
+
+    `settings` are those of `Agent`; errors as it raises them, and `TheoryError`.
+    """
+    return Agent(
+        sensor,
+        language=language_of(theory),
+        mode=theory.mode,
+        wording=theory.wording,
+        learners=learners_of(theory),
+        theory=meanings_of(theory),
+        change=partial(changed, theory=theory),
+        **settings,
+    )
+
+
+def changed(game: Game, theory: Theory) -> Game:
+    """The game with the theory's own strategy and rules."""
+    if not (theory.strategy or theory.rules or theory.without):
+        return game
+    start = replace(game.start, {"private.strategy": strategy_of(theory)})
+    return dataclasses.replace(game, start=start, algorithm=algorithm_of(theory))
+
+
+def language_of(theory: Theory) -> str:
+    """The language as games are told it, with the folder of its own files if any."""
+    if theory.grammar is None:
+        return theory.language
+    return language_in(theory.grammar, theory.language)
+
+
+def strategy_of(theory: Theory) -> Record:
+    """The strategy of a theory; `TheoryError` for what it cannot be set to.
+
+    >>> strategy_of(Theory("sure", strategy={"bands": {"sure": 0.9}})).bands.sure
+    0.9
+    """
+    plain = strategy(theory.mode, theory.wording, language_of(theory))
+    wrong = next(unsettable(theory), None)
+    if wrong is not None:
+        raise TheoryError(wrong[1])
+    return replace(plain, dict(_numbers(theory.strategy)))
+
+
+def unsettable(theory: Theory) -> Iterator[tuple[tuple[str, ...], str]]:
+    """What the strategy cannot be set to: the names that lead to it, and why."""
+    yield from _unsettable(
+        theory.strategy, strategy(theory.mode, theory.wording, language_of(theory)), ()
+    )
+
+
+def _unsettable(
+    given: Mapping[str, Any], known: Record, outer: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], str]]:
+    for name, value in given.items():
+        here = (*outer, name)
+        path = ".".join(here)
+        if name not in known:
+            yield here, f"a strategy has no {path}: {unknown(name, tuple(known))}"
+        elif isinstance(value, dict) and isinstance(known[name], Record):
+            yield from _unsettable(value, known[name], here)
+        elif isinstance(known[name], str):
+            yield (
+                here,
+                f"the {name} of a strategy is that of the theory: write it there",
+            )
+        elif isinstance(known[name], Record):
+            inner = ", ".join(known[name])
+            told = f"is a table of {inner}, found {shown(value)}"
+            yield here, f"{path} of a strategy {told}"
+        elif why := _NUMBERS.get(here[0], _CHANCE).unfit(value):
+            yield here, f"{path} of a strategy: {why}"
+
+
+_CHANCE = Setting(float, most=2.0)
+"""A probability; what more than 1 would be needed for never is."""
+
+_NUMBERS = {
+    "wants": Setting(float, least=-1_000_000, most=1_000_000),
+    "examples": Setting(float, most=1_000_000),
+}
+"""Numbers of a strategy that are no probabilities, by where they stand."""
+
+
+def _numbers(given: Mapping[str, Any], outer: str = "") -> Iterator[tuple[str, float]]:
+    """All numbers that are set, by their paths."""
+    for name, value in given.items():
+        if isinstance(value, dict):
+            yield from _numbers(value, f"{outer}{name}.")
+        else:
+            yield f"{outer}{name}", float(value)

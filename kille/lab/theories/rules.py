@@ -1,0 +1,240 @@
+"""The rules of a theory: the games of tutoring, less some rules, and with one's own."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from kille.dialogue.games import TUTORING
+from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.rules import bind
+from kille.lab.errors import TheoryError
+from kille.lab.own_code import line_in, why
+from kille.lab.settings import no_file, unknown
+from kille.lab.study import Theory
+from kille.lab.theories.meanings import meanings_of
+from ttr import TTRError
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError
+from ttr.safety.python_files import run_named
+from ttr.theories.theory import load
+from ttr.updates import (
+    Algorithm,
+    ByClass,
+    Maybe,
+    Repeat,
+    Rule,
+    Seq,
+    replace_rules,
+    rules_of,
+    seq,
+)
+
+_WRITTEN = "FILE.ttr or FILE.py:NAME"
+
+_NOTHING = seq()
+"""What always applies, and changes nothing."""
+
+
+def algorithm_of(theory: Theory) -> Algorithm:
+    """The games as the theory has them; `TheoryError` where its rules cannot be used.
+
+    A Python file is run anew each time, so that what its rules draw by chance does not
+    depend on what was played before.
+    """
+    whole = _whole(theory)
+    if not theory.without:
+        return whole
+    for told in _absent(theory, whole):
+        raise TheoryError(told)
+    left = lacking(whole, theory.without)
+    if left is None:
+        raise TheoryError(f"without {', '.join(theory.without)} nothing ever applies")
+    return left
+
+
+def absent(theory: Theory) -> Iterator[str]:
+    """What it is to be without, and is not there; `TheoryError` as `algorithm_of`."""
+    yield from _absent(theory, _whole(theory))
+
+
+def _absent(theory: Theory, whole: Algorithm) -> Iterator[str]:
+    known = [one.name for one in rules_of(whole)]
+    for name in theory.without:
+        if name not in known:
+            yield f"there is no rule {name}: {unknown(name, known)}"
+
+
+def _whole(theory: Theory) -> Algorithm:
+    """The games with the rules of one's own, on the types of the theory."""
+    types = meanings_of(theory)
+    usual = bind(TUTORING, types)
+    return bind(_with(usual, theory), types) if theory.rules else usual
+
+
+def lacking(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
+    """The strategy as it is if rules of these names never apply; None if it never does.
+
+    >>> from kille.dialogue.games.naming import NAMING
+    >>> print(lacking(NAMING, ["recognise", "hedge_name", "guess_name"]))
+    seq(first(assert_name, doubt_name, admit_name))
+    """
+    match algorithm:
+        case Rule():
+            return None if algorithm.name in names else algorithm
+        case Maybe(part):
+            left = lacking(part, names)
+            return _NOTHING if left is None else Maybe(left)
+        case Repeat(part):
+            left = lacking(part, names)
+            return None if left is None else dataclasses.replace(algorithm, part=left)
+        case ByClass(classes):
+            few = [
+                (k, tuple(r for r in rs if r.name not in names)) for k, rs in classes
+            ]
+            return ByClass(tuple(few)) if any(rules for _, rules in few) else None
+        case Seq(parts):
+            both = [lacking(part, names) for part in parts]
+            if None in both:
+                return None
+            return Seq(tuple(it for it in both if it is not None and it != _NOTHING))
+    some = [lacking(part, names) for part in algorithm.parts]
+    parts = tuple(it for it in some if it is not None)
+    return dataclasses.replace(algorithm, parts=parts) if parts else None
+
+
+def told(rule: Rule, packaged: Collection[Rule]) -> str:
+    """What a rule is, to be read: in the notation, or what it is for and its Python.
+
+    Of the `packaged` rules it is what they are for.
+    """
+    if rule.text:
+        return f"rule {rule.text}"
+    if rule in packaged:
+        return rule.doc
+    try:
+        code = inspect.getsource(getattr(rule.effect, "func", rule.effect))
+    except (OSError, TypeError):  # a file that has gone, or no function of a file
+        return rule.doc
+    return inspect.cleandoc(code)
+
+
+def packaged_rules(types: DialogueTypes) -> frozenset[Rule]:
+    """The rules of the games of tutoring as they are, on some types."""
+    return frozenset(rules_of(bind(TUTORING, types)))
+
+
+# --- rules of one's own ---------------------------------------------------------------
+
+
+def _with(whole: Algorithm, theory: Theory) -> Algorithm:
+    """The games with a theory's own rules in place of those of their names."""
+    reference, consent = theory.rules, theory.consent
+    if reference.endswith(".ttr"):
+        return _in_place(whole, _of_theory(Path(reference), consent), reference)
+    found = _of_python(reference, consent)
+    if isinstance(found, Algorithm) and not isinstance(found, Rule):
+        return found
+    if callable(found) and not isinstance(found, Rule):
+        return _made(found, whole, reference)
+    return _in_place(whole, _rules(found, reference), reference)
+
+
+def _of_theory(file: Path, consent: Consent | None) -> Mapping[str, Rule]:
+    """The rules of a theory file, by those that they replace.
+
+    Many a rule there cannot have the name of the other, which is that of a predicate:
+    then it is of its kind, `rule silent(…) of admit_name`.
+    """
+    _check_there(file)
+    try:
+        rules = _loaded(file, file.stat().st_mtime_ns, consent or OWN_FOLDER)
+    except TTRError as error:
+        place = f"{error.span.source}:{error.span.line}" if error.span else ""
+        hint = f" ({error.hint})" if error.hint else ""
+        raise TheoryError(f"{error.message}{hint}", place) from error
+    return _each_for_one([(it.kind or it.name, it) for it in rules.values()], str(file))
+
+
+def _each_for_one(rules: Iterable[tuple[str, Rule]], of: str) -> Mapping[str, Rule]:
+    """Rules by the names that they stand for, of which no two may be the same."""
+    found: dict[str, Rule] = {}
+    for name, one in rules:
+        if name in found:
+            both = f"both {found[name]} and {one} stand in place of {name}"
+            raise TheoryError(f"{of}: {both}: write one, or rules in Python")
+        found[name] = one
+    return found
+
+
+@lru_cache
+def _loaded(file: Path, _: int, consent: Consent) -> Mapping[str, Rule]:
+    """The rules of a theory file as it was when it was changed last."""
+    return load(file, allow=consent.folders).rules
+
+
+def _of_python(reference: str, consent: Consent | None) -> Any:
+    path, colon, name = reference.rpartition(":")
+    if not colon or not path.endswith(".py"):
+        raise TheoryError(f"rules are named {_WRITTEN}, found {reference}")
+    _check_there(Path(path))
+    try:
+        module = run_named(path, Path(), "_rules_", consent)
+    except NotAllowedError as error:
+        raise TheoryError(error.message) from error
+    except (Exception, SystemExit) as error:
+        at = f"{path}:{line_in(path, error) or 1}"
+        raise TheoryError(f"{path} cannot be run: {why(error)}", at) from error
+    if name not in vars(module):
+        own = tuple(it for it in vars(module) if not it.startswith("_"))
+        raise TheoryError(f"{path} has no {name}: {unknown(name, own)}")
+    return vars(module)[name]
+
+
+def _check_there(file: Path) -> None:
+    if told := no_file(file):
+        raise TheoryError(told)
+
+
+def _made(change: Callable[[Algorithm], Any], whole: Algorithm, of: str) -> Algorithm:
+    """The games as a function changes them."""
+    try:
+        made = change(whole)
+    except (Exception, SystemExit) as error:
+        path = of.rpartition(":")[0]
+        at = f"{path}:{line_in(path, error) or 1}"
+        raise TheoryError(f"{of} failed: {why(error)}", at) from error
+    if isinstance(made, Algorithm):
+        return made
+    raise TheoryError(f"{of} gives no rules: expected an algorithm, found {made!r}")
+
+
+def _rules(found: object, reference: str) -> Mapping[str, Rule]:
+    """Rules by the names of those in whose place they stand."""
+    match found:
+        case Rule():
+            return {found.name: found}
+        case list() | tuple() if all(isinstance(it, Rule) for it in found):
+            return _each_for_one([(it.name, it) for it in found], reference)
+        case dict() if all(isinstance(it, Rule) for it in found.values()):
+            return found
+    raise TheoryError(
+        f"{reference} is no rules: expected a rule, several, a dict of them by the "
+        "rules that they replace, an algorithm, or a function that gives one"
+    )
+
+
+def _in_place(whole: Algorithm, rules: Mapping[str, Rule], reference: str) -> Algorithm:
+    known = [one.name for one in rules_of(whole)]
+    if not rules:
+        raise TheoryError(f"{reference} has no rule")
+    for name in rules:
+        if name not in known:
+            raise TheoryError(
+                f"{reference}: there is no rule {name} that it could stand for: "
+                f"{unknown(name, known)}"
+            )
+    return replace_rules(whole, rules)

@@ -1,0 +1,145 @@
+"""Words of simulated robots that learn in other ways than by their instances.
+
+The games ask a word how far it is true of what is seen, and teach it by making another
+of it. So whatever judges words stands behind a `Word`: one with a mean of its own, or
+one that asks a learner which has heard all lessons in words of its kind.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from kille.dialogue.meanings import claims, value_at, word_of
+from kille.lab.theories.pupils import Heard, Pupil
+from kille.lab.worlds.games import act, word, words
+from kille.lab.worlds.perception import Vector
+from kille.lab.worlds.word_learning import Observation, Word
+from kille.scene import Configuration
+from ttr import Model, Record, RecordType
+from ttr.types import TypeNode
+
+MakeWord = Callable[[Record], Word]
+"""Makes the word of a sign that was not taught yet."""
+
+
+class Prototype(Word):
+    """A word that is true of what is like the mean of all that it was said of.
+
+    As often as it was said of something, so often it counts: with m the mean of k
+    lessons and K the kernel, k K(m, x) takes the place of Σ K(xᵢ, x). Source: Rosch and
+    Mervis 1975, "Family resemblances".
+    """
+
+    def speaking(self, aspect: int, of: Observation, holds: bool) -> float:
+        """How much all lessons speak for the word, or against it, in an aspect."""
+        lessons = (*self.prior, *self.lessons)
+        told = [it.of[aspect] for it in lessons if it.holds is holds]
+        if not told:
+            return 0.0
+        return len(told) * self.alike(_mean(told), of[aspect], aspect)
+
+
+@dataclass(frozen=True, eq=False)
+class Guest(Word):
+    """A word judged by a pupil who has heard the lessons in all words of its kind.
+
+    What is known of a word without any lesson, as of colours, it judges by itself.
+    """
+
+    pupil: Pupil[Any] | None = None
+    heard: tuple[Heard[Any], ...] = ()
+
+    def degree(self, of: Observation) -> float:
+        """The degree to which it is true of what is seen."""
+        if self.prior or self.pupil is None:
+            return super().degree(of)
+        degrees = self.pupil.degrees(self.heard, shown(self.sign.kind, of))
+        return min(max(degrees.get(word_of(self.sign).name, 0.0), 0.0), 1.0)
+
+
+def shown(kind: str, of: Observation) -> object:
+    """What a pupil is shown: a relation as a configuration in metres, else numbers.
+
+    >>> shown("adjective", ((0.9, 0.1, 0.1), (0.5,)))
+    (0.9, 0.1, 0.1, 0.5)
+    >>> shown("relation", ((0.0, 1.0), (0.3,))).offset
+    (0.0, 0.3, 0.0)
+    """
+    if kind != "relation":
+        return tuple(number for aspect in of for number in aspect)
+    (right, ahead), (far,) = of
+    return Configuration((right * far, ahead * far, 0.0))
+
+
+def known_by(
+    model: Model, makes: Mapping[str, MakeWord], signs: Sequence[Record]
+) -> Model:
+    """The model in which these words are judged by those that are made for their kind.
+
+    What a word is known to be true of without lessons stays known.
+    """
+    for sign in signs:
+        before = word(model, word_of(sign))
+        if before is None or before.lessons:
+            continue
+        made = replace(makes[sign.kind](sign), prior=before.prior)
+        model = model.witnessed(word_of(sign), by=made)
+    return model
+
+
+def acting(
+    makes: Mapping[str, MakeWord],
+) -> Callable[[TypeNode, Model], tuple[Record, Model]]:
+    """How moves are made by a robot whose new words are made so, by their kinds."""
+
+    def acted(planned: TypeNode, model: Model) -> tuple[Record, Model]:
+        move, after = act(planned, _ready(planned, model, makes))
+        return move, _all_heard(after)
+
+    return acted
+
+
+def _ready(planned: TypeNode, model: Model, makes: Mapping[str, MakeWord]) -> Model:
+    """The model that has the words in which something is about to be learned."""
+    assert isinstance(planned, RecordType)
+    for content in value_at(planned, "teaches"):
+        sign = next(it for it in value_at(planned, "signs") if claims(content, it))
+        if word(model, word_of(sign)) is None:
+            model = model.witnessed(word_of(sign), by=makes[sign.kind](sign))
+    return model
+
+
+def _all_heard(model: Model) -> Model:
+    """The model in which every guest has heard the lessons in all words of its kind."""
+    guests = [it for it in words(model) if isinstance(it, Guest)]
+    for kind in dict.fromkeys(it.sign.kind for it in guests):
+        own = [it for it in guests if it.sign.kind == kind]
+        heard = _lessons(own)
+        for guest in own:
+            if guest.heard != heard:
+                by = replace(guest, heard=heard)
+                model = model.witnessed(word_of(guest.sign), by=by)
+    return model
+
+
+def _lessons(guests: Sequence[Guest]) -> tuple[Heard[Any], ...]:
+    """All lessons, in the order in which they were given."""
+    given = [(it, lesson) for it in guests if not it.prior for lesson in it.lessons]
+    return tuple(
+        Heard(
+            lesson.key,
+            shown(it.sign.kind, lesson.of),
+            word_of(it.sign).name,
+            lesson.holds,
+        )
+        for it, lesson in sorted(given, key=lambda found: found[1].number)
+    )
+
+
+def _mean(vectors: Sequence[Vector]) -> Vector:
+    return tuple(
+        math.fsum(column) / len(vectors) for column in zip(*vectors, strict=True)
+    )

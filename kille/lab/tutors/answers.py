@@ -1,0 +1,90 @@
+"""What a simulated tutor answers to what the robot wants to know."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kille.lab.robots.replies import Reply
+from kille.lab.tutors.beliefs import ACTS, Holding
+from kille.lab.tutors.tutor import Says
+
+_WANTED = {
+    "admit_name": "noun",
+    "ask_thing": "noun",
+    "ask_which": "noun",
+    "admit_quality": "adjective",
+    "ask_which_quality": "adjective",
+    "admit_place": "relation",
+    "ask_relation": "relation",
+    "ask_which_place": "relation",
+}
+"""The kind of word that the robot wants to be told."""
+
+
+def answer(holding: Holding, reply: Reply, latest: Says | None) -> Says | None:
+    """What he answers to what the robot wants to know, if he can."""
+    match reply.wants:
+        case "ask_frame":
+            return Says(holding.words.perspective(holding.frame), "take_frame")
+        case "offer_word":
+            return Says(holding.words.plainly("deny"), "deny")
+        case "ask_referent" | "offer_referents":
+            return _which(holding, latest)
+        case "ask_example":
+            return _example(holding, reply.word)
+    return _telling(holding, reply)
+
+
+def _which(holding: Holding, latest: Says | None) -> Says:
+    """Which thing he meant: that of which he spoke by a phrase, or points at."""
+    spoken = None if latest is None else latest.of
+    meant = spoken or holding.task.occasion.thing
+    phrase = holding.coloured(meant)
+    return Says(holding.words.mentioning(phrase), "mention", of=meant)
+
+
+def _example(holding: Holding, word: str) -> Says | None:
+    """Another thing in view that is called so, by its colour."""
+    occasion, words = holding.task.occasion, holding.words
+    for x in occasion.world.in_view:
+        thing = occasion.world.thing(x)
+        is_other = x != occasion.x and thing.colour and holding.is_only(thing.colour)
+        if is_other and words.called(thing.kind) == word:
+            phrase = words.described(thing, "adjective")
+            text = words.lesson("noun", word, target=phrase)
+            return Says(text, ACTS["noun"], of=thing)
+    return None
+
+
+def _telling(holding: Holding, reply: Reply) -> Says | None:
+    """What something is, which colour it has, or where it is, if that is wanted."""
+    occasion = holding.task.occasion
+    kind = occasion.kind if reply.wants == "ask_again" else _WANTED.get(reply.wants)
+    if kind is None:
+        return None
+    if kind == "relation":
+        return _placing(holding, reply)
+    x = reply.focus if reply.wants == "ask_thing" else occasion.x
+    if x is None or x not in occasion.world:
+        return None
+    about = occasion if x == occasion.x else replace(occasion, x=x, said="")
+    about = replace(about, kind=kind)
+    if not holding.has_word(about):
+        return None
+    return Says(holding.words.lesson(kind, holding.held(about)), ACTS[kind])
+
+
+def _placing(holding: Holding, reply: Reply) -> Says | None:
+    """How the two things stand of which the robot speaks."""
+    occasion = holding.task.occasion
+    x, y = (*reply.things, None, None)[:2]
+    if x is None or y is None or not {x, y} <= set(occasion.world.in_view):
+        return None
+    about = replace(occasion, kind="relation", x=x, y=y)
+    about = about if (x, y) == (occasion.x, occasion.y) else replace(about, said="")
+    if not holding.has_word(about):
+        return None
+    word, things = holding.held(about), (about.thing, about.world.thing(y))
+    target, landmark = (holding.phrase(it, reply.state) for it in things)
+    text = holding.words.lesson("relation", word, landmark, target)
+    return Says(text, "relate", of=about.landmark)

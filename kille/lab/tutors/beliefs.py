@@ -1,0 +1,189 @@
+"""What a simulated tutor holds to be so in a task, and how he speaks of it.
+
+All chance is that of the task: what he holds to be so does not depend on the robot.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from kille.dialogue.beliefs import knows
+from kille.lab.scenes.occasions import Occasion
+from kille.lab.tutors.place_words import Speaker
+from kille.lab.tutors.tutor import Asked, Says, Task
+from kille.lab.tutors.words import Words
+from kille.lab.worlds.sayings import Phrase
+from kille.lab.worlds.worlds import STEP, Thing
+from ttr import Record
+
+ACTS = {"noun": "instruct", "adjective": "describe", "relation": "relate"}
+"""The moves that teach words, by their kinds."""
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How a tutor is: his words and his way to speak of places; `other` is a judge.
+
+    He has only the words of his `vocabulary`, or all where that is empty. In a share of
+    his lessons, the `errors`, he says what is true of other `kinds`, `hues` or places.
+    He answers so many questions of a task as he has `patience`, and says "Thank you."
+    in a share of cases, by his `politeness`. If he `orients` it, the robot is told
+    which way a landmark faces before he speaks of places.
+    """
+
+    words: Words
+    speaker: Speaker
+    other: Speaker
+    kinds: tuple[str, ...] = ()
+    hues: tuple[str, ...] = ()
+    vocabulary: tuple[str, ...] = ()
+    errors: float = 0.0
+    feedback: str = "both"
+    patience: int = 3
+    politeness: float = 0.0
+    orients: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Holding:
+    """What a tutor of this manner holds to be so in a task."""
+
+    manner: Manner
+    task: Task
+
+    @property
+    def words(self) -> Words:
+        """His words."""
+        return self.manner.words
+
+    @property
+    def has_words(self) -> bool:
+        """Whether he has a word for what the task is about."""
+        return self.task.of is None or self.has_word(self.task.of)
+
+    def has_word(self, occasion: Occasion) -> bool:
+        """Whether he has a word for this."""
+        return not self.manner.vocabulary or self.true(occasion) in self._own
+
+    @property
+    def _own(self) -> set[str]:
+        """All the words that he has, where they are named."""
+        return {self.words.called(it) for it in self.manner.vocabulary}
+
+    # --- what is so ------------------------------------------------------------------
+
+    def true(self, occasion: Occasion) -> str:
+        """The word that he takes to be right; nothing where he has none for a place."""
+        if occasion.said:
+            return self.words.called(occasion.said)
+        match occasion.kind:
+            case "noun":
+                return self.words.called(occasion.thing.kind)
+            case "adjective":
+                return self.words.called(occasion.thing.colour)
+        return self._place(self.manner.speaker, occasion, "place")
+
+    def _place(self, speaker: Speaker, occasion: Occasion, chance: str) -> str:
+        front = "" if occasion.landmark is None else occasion.landmark.front
+        word = speaker.says(_offset(occasion), front, self.task.chance(chance))
+        return self.words.called(word)
+
+    @cached_property
+    def frame(self) -> str:
+        """In whose frame he speaks of places now."""
+        return self.manner.speaker.frame(self.task.chance("place"))
+
+    def held(self, occasion: Occasion) -> str:
+        """The word that he says: the right one, or now and then another."""
+        return self._or_slip(self.true(occasion), occasion, "error")
+
+    def _or_slip(self, word: str, occasion: Occasion, by: str) -> str:
+        chance = self.task.chance(by)
+        others = [it for it in self._others(occasion) if it != word]
+        errs = chance.random() < self.manner.errors and others
+        return chance.choice(others) if errs else word
+
+    def _others(self, occasion: Occasion) -> list[str]:
+        """The words that he might say by mistake."""
+        names = {"noun": self.manner.kinds, "adjective": self.manner.hues}
+        words = names.get(occasion.kind) or self.manner.speaker.words
+        called = {self.words.called(it) for it in words}
+        return sorted(called & self._own if self.manner.vocabulary else called)
+
+    def asked(self, occasion: Occasion) -> Asked:
+        """The question for the word that is right here."""
+        right = self.true(occasion)
+        accepted, judge = frozenset({right}), self._judged(occasion)
+        if occasion.kind == "relation" and not occasion.said:
+            front = "" if occasion.landmark is None else occasion.landmark.front
+            well = self.manner.speaker.accepts(_offset(occasion), front)
+            accepted |= {self.words.called(it) for it in well}
+        return Asked(occasion.kind, right, occasion.x, occasion.y, accepted, judge)
+
+    def _judged(self, occasion: Occasion) -> str:
+        """What another person says, who errs as often.
+
+        Nothing of what people have said themselves: nobody else was asked.
+        """
+        if occasion.said:
+            return ""
+        word = self.true(occasion)
+        if occasion.kind == "relation":
+            word = self._place(self.manner.other, occasion, "judge")
+        return self._or_slip(word, occasion, "judge's error")
+
+    # --- how he says it --------------------------------------------------------------
+
+    def lesson(self, s: Record | None) -> Says:
+        """What is so; things are called by their nouns if the robot knows these."""
+        occasion = self.task.occasion
+        kind, word = occasion.kind, self.held(occasion)
+        text = self.words.lesson(kind, word, self.beside(s))
+        return Says(text, ACTS[kind], of=occasion.landmark)
+
+    def correction(self, s: Record) -> Says:
+        """What is so instead of what the robot said."""
+        occasion = self.task.occasion
+        word = self.held(occasion)
+        text = self.words.correction(occasion.kind, word, self.beside(s))
+        return Says(text, "correct", corrects=True, of=occasion.landmark)
+
+    def beside(self, s: Record | None) -> Phrase | None:
+        """A phrase for what a thing is beside, if that is talked of."""
+        landmark = self.task.occasion.landmark
+        return None if landmark is None else self.phrase(landmark, s)
+
+    def phrase(self, thing: Thing, s: Record | None) -> Phrase:
+        """A phrase for a thing that the robot may understand, and only for this one.
+
+        That is its noun, if it knows that, or its colour; or both.
+        """
+        noun = self.words.sign("noun", self.words.called(thing.kind))
+        known = s is not None and knows(s.private.nouns, noun)
+        if known and self.is_only(thing.kind):
+            return self.words.described(thing, "noun")
+        return self.coloured(thing)
+
+    def coloured(self, thing: Thing) -> Phrase:
+        """A phrase for a thing by its colour; with its noun, if that is not enough."""
+        if not thing.colour:
+            return self.words.described(thing, "noun")
+        by = ("adjective",) if self.is_only(thing.colour) else ("adjective", "noun")
+        return self.words.described(thing, *by)
+
+    def is_only(self, look: str) -> bool:
+        """Whether one thing only is of this kind, or this colour, of those in view."""
+        world = self.task.occasion.world
+        things = [world.thing(it) for it in world.in_view]
+        return sum(look in (it.kind, it.colour) for it in things) == 1
+
+
+def _offset(occasion: Occasion) -> tuple[float, float]:
+    """Where a thing is from what it is beside: metres right and away."""
+    assert occasion.y is not None
+    (ax, ay), (bx, by) = (
+        occasion.world.place(occasion.x),
+        occasion.world.place(occasion.y),
+    )
+    return STEP * (ax - bx), STEP * (ay - by)

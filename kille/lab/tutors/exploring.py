@@ -1,0 +1,335 @@
+"""A tutor of a simulated world: what he says and does next, by the state of the talk.
+
+He knows the world. When he is asked something he mostly answers that; else he teaches,
+asks, confirms, corrects, points, forgets, talks nonsense, and moves things.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import lru_cache, partial
+from itertools import chain, product
+from random import Random
+
+from hypothesis import strategies as st
+
+from kille.dialogue.language import understand
+from kille.dialogue.meanings import CLAIMS, is_denial, value_at, word_of
+from kille.dialogue.tutoring import heard
+from kille.lab.tutors.openings import Situation, by_side, leads, situation
+from kille.lab.worlds.games import world_of
+from kille.lab.worlds.perception import glanced, number_of, seen
+from kille.lab.worlds.sayings import (
+    NOTHING,
+    THIS,
+    Claim,
+    Saying,
+    acts,
+    phrases_of,
+    sayings,
+    settled,
+    true_of,
+)
+from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.worlds import World
+from ttr import Model, Pred, Record, RecordType
+from ttr.testing.strategies import Tutor
+from ttr.types import Negation, PType
+
+NONSENSE = (
+    "",
+    "?!",
+    "Colourless green ideas sleep furiously.",
+    "no no no",
+    "You are stupid.",
+    "import os; os.remove('x')",
+    "[x : Ind, c : cup(x)]",
+    "☃" * 30,
+    "This is a",
+    "Where is the cupp?",
+    "Is this a muug?",
+    "Forget bokk.",
+    "cup " * 90,
+)
+"""What means nothing in any grammar."""
+
+OTHERS = 5
+"""How often it is not clear what was said, and something happens, as each move is."""
+
+CERTAINTIES = ((0.9, 0.05), (0.5, 0.4), (0.2, 0.1), (0.05, 0.02))
+"""How probable it is that the one, and the other, of two things was said."""
+
+Options = Sequence[object]
+Talk = Sequence[Saying]
+Look = tuple[Callable[[World, World], Record], World]
+
+
+def tutoring(language: str = "en", **shares: float) -> Tutor:
+    """A tutor who speaks this language; `shares` are those of `ttr.testing.Tutor`."""
+    moves, replies = partial(_moves, language), partial(_replies, language)
+    return Tutor(moves=moves, replies=replies, **shares)
+
+
+def _moves(language: str, s: Record, model: Model) -> Options:
+    """All that may be said or done, each kind of thing as often as any other."""
+    world = world_of(s)
+    return [*_anything(language, settled(world)), *[_happened(world)] * OTHERS]
+
+
+@lru_cache(256)
+def _anything(language: str, world: World) -> Options:
+    """All that may be said, clearly or not."""
+    everything = _all(language, world)
+    unclear = [_mumbled(everything)] * OTHERS
+    return [*map(_spoken, everything), *unclear, st.sampled_from(NONSENSE)]
+
+
+def _all(language: str, world: World) -> Sequence[Talk]:
+    """All that may be said, move by move."""
+    said = (sayings(language, act, world) for act in acts(language))
+    return [one for one in said if one]
+
+
+def _replies(language: str, s: Record, model: Model) -> Options:
+    """What answers what the robot has said, or else a lesson or a question.
+
+    Half of what needs no answer is what leads on from the state.
+    """
+    world = world_of(s)
+    if s.shared.qud:
+        return _choosing(language, world, s.shared.qud[0].ask)
+    now = situation(language, s)
+    leading = [*_leading(now), _idled(world)]
+    if s.shared.pending:
+        judging = _judging(language, world, s.shared.pending)
+        return [*judging, *judging, st.one_of(leading)]
+    said = [*_chatting(language, now.world, now.known), *[_happened(world)] * OTHERS]
+    return [*said, *leading * (len(said) // len(leading))]
+
+
+@lru_cache(256)
+def _leading(now: Situation) -> Sequence[st.SearchStrategy[object]]:
+    """What leads on, topic by topic."""
+    return [*map(_spoken, leads(now))]
+
+
+@lru_cache(256)
+def _chatting(language: str, world: World, known: frozenset[Pred]) -> Options:
+    """What a tutor may say who was not asked anything, clearly or not."""
+    free = _free(language, world, known)
+    unclear = [_mumbled(free), _misspelt(free, known)]
+    return [*map(_spoken, free), *unclear * OTHERS]
+
+
+def _free(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
+    """What a tutor may say who was not asked anything, mostly in words that are known.
+
+    Half of it are lessons.
+    """
+    everything = [
+        [it for it in said if known.issuperset(map(word_of, it.about.signs))] or said
+        for said in _all(language, world)
+    ]
+    if world.attended is None:
+        return everything
+    lessons = [
+        Saying(language, _teaching(claim), claim)
+        for phrase in phrases_of(language, world, world.attended)
+        for claim in true_of(language, world, world.attended, phrase)
+        if known.issuperset(map(word_of, (*phrase.signs, *claim.landmark.signs)))
+    ]
+    return [*everything, *[lessons] * len(everything)]
+
+
+def _judging(language: str, world: World, pending: Sequence[RecordType]) -> Options:
+    """Whether what the robot claims is so: yes if it is, and no if it is not.
+
+    What is not so is mostly corrected. Now and then he errs.
+    """
+    true = [claim for claim in pending if is_true(language, world, claim)]
+    agreeing = _spoken(_agreeing(language, "affirm" if true else "deny"))
+    erring = _spoken(_agreeing(language, "deny" if true else "affirm"))
+    asking = [_spoken(_agreeing(language, act)) for act in _WONDERING]
+    if _label(pending[0]) == "rel":
+        asking.append(_spoken(by_side(language, world)))
+    if true and len(pending) == 1:
+        return [agreeing, agreeing, erring, *asking]
+    right = list(_corrections(language, world, pending[0]))
+    return [agreeing, erring, *asking, *[_spoken(right)] * (3 if right else 0)]
+
+
+_WONDERING = ("ask_certainty", "ask_why")
+"""What one may ask about a claim."""
+
+
+def _corrections(language: str, world: World, content: RecordType) -> Iterator[Saying]:
+    """What is right where a claim is not, as a correction or by itself."""
+    x = number_of(str(value_at(_part(content, "target"), "x")))
+    if x not in world:
+        return
+    label = _label(content)
+    shortly = [] if label == "rel" else [NOTHING]
+    for phrase in (THIS, *phrases_of(language, world, x), *shortly):
+        for claim in true_of(language, world, x, phrase):
+            if _label(claim.content) == label:
+                yield Saying(language, "correct", claim)
+                if phrase is not NOTHING:
+                    yield Saying(language, _teaching(claim), claim)
+
+
+def is_true(language: str, world: World, content: RecordType) -> bool:
+    """Whether a claim is true of the world, as the tutor sees it."""
+    x = number_of(str(value_at(_part(content, "target"), "x")))
+    if x not in world:
+        return False
+    known = vocabulary(language)
+    label = _label(content)
+    signs: Iterable[Record | None] = known.words_of(world, x)
+    if label == "rel":
+        y = number_of(str(value_at(_part(content, "landmark"), "x")))
+        front = str(value_at(content, "frame"))
+        signs = [known.relation_of(world, x, y, front)] if y in world else []
+    claim = content[label]
+    said = claim.body if isinstance(claim, Negation) else claim
+    assert isinstance(said, PType)
+    so = any(sign is not None and word_of(sign) is said.pred for sign in signs)
+    return so is not is_denial(content)
+
+
+def _label(content: RecordType) -> str:
+    """The label of what a content claims."""
+    return next(label for label in CLAIMS if label in content)
+
+
+def _part(content: RecordType, label: str) -> RecordType:
+    part = content[label]
+    assert isinstance(part, RecordType)
+    return part
+
+
+def _teaching(claim: Claim) -> str:
+    """The move that teaches a claim."""
+    kind = "" if claim.sign is None else str(claim.sign.kind)
+    return {"noun": "instruct", "adjective": "describe"}.get(kind, "relate")
+
+
+def _choosing(language: str, world: World, asked: str) -> Options:
+    """Which of several moves was meant: in words, by pointing, or none of them."""
+    agreeing = [it for act in _YES_OR_NO for it in _agreeing(language, act)]
+    settling = _settling(language, world, asked)
+    mentions = sayings(language, "mention", world)
+    pointing = [(glanced, world.pointed(x)) for x in world.in_view]
+    return [
+        _spoken(agreeing),
+        _spoken(settling),
+        _spoken(settling),
+        _spoken([it for it in mentions if len(it.about.signs) == 1]),
+        *([_shown(world, pointing)] if pointing else []),
+    ]
+
+
+_YES_OR_NO = ("affirm", "deny")
+
+
+def _settling(language: str, world: World, asked: str) -> Talk:
+    """What plainly answers a question of the robot's."""
+    match asked:
+        case "AskFrame":
+            return by_side(language, world)
+        case "OfferWord" | "AskHeard":
+            return [it for act in _YES_OR_NO for it in _agreeing(language, act)]
+    return sayings(language, "mention", world)
+
+
+def _agreeing(language: str, act: str) -> Talk:
+    return sayings(language, act, World())
+
+
+def _spoken(options: Talk) -> st.SearchStrategy[str]:
+    """One of these, as a text."""
+    return st.sampled_from(options).map(lambda one: one.text)
+
+
+def _mumbled(said: Sequence[Talk]) -> st.SearchStrategy[object]:
+    """What was heard of what may have been the one or the other of two texts."""
+    random = Random(len(said))
+    pairs = [
+        (random.choice(random.choice(said)), random.choice(random.choice(said)), p)
+        for p in CERTAINTIES
+        for _ in said
+    ]
+    return st.sampled_from(pairs).map(_either)
+
+
+def _either(mumbled: tuple[Saying, Saying, tuple[float, float]]) -> object:
+    """The event that one of two texts was heard, each so probable."""
+    *both, p = mumbled
+    sentences = [understand(one.text, one.language)[0] for one in both]
+    return heard(*sentences, p=p)
+
+
+def _misspelt(said: Sequence[Talk], known: frozenset[Pred]) -> st.SearchStrategy[str]:
+    """Questions with a word in them that nearly is one that the robot knows."""
+    asked = [
+        one for talk in said for one in talk if one.act in ("ask_place", "ask_find")
+    ]
+    pairs = [
+        (one, sign.form)
+        for one in asked
+        for sign in one.about.signs
+        if sign.kind == "noun" and word_of(sign) in known
+    ]
+    if not pairs:
+        return st.sampled_from(NONSENSE)
+    return st.sampled_from(pairs).map(lambda it: it[0].text.replace(it[1], f"{it[1]}q"))
+
+
+# --- what happens in the world -------------------------------------------------------
+
+
+def _happened(world: World) -> st.SearchStrategy[Record]:
+    """One of the things that may happen, as the event in which it is seen.
+
+    Each kind of thing happens as often as any other.
+    """
+    looks = (glanced, seen)
+    kinds = [_shown(world, list(product(looks, it))) for it in _kinds(world)]
+    return st.one_of(kinds)
+
+
+def _idled(world: World) -> st.SearchStrategy[Record]:
+    """The robot looks, and it is its turn: all is as it was, or other things are there.
+
+    What is pointed at is the tutor's to speak of.
+    """
+    changed = [it for it in happenings(world) if it.focus == world.focus]
+    return _shown(world, [(seen, it) for it in (world.looked(), *changed)])
+
+
+def _shown(world: World, after: Sequence[Look]) -> st.SearchStrategy[Record]:
+    """One of these looks, as an event."""
+    return st.sampled_from(after).map(lambda one: one[0](one[1], world))
+
+
+def happenings(world: World) -> tuple[World, ...]:
+    """What may become of a world: things are put, taken, moved, pointed at."""
+    return tuple(chain.from_iterable(_kinds(world)))
+
+
+@lru_cache(256)
+def _kinds(world: World) -> Sequence[Sequence[World]]:
+    """What may become of a world, kind by kind."""
+    random = Random(world.name)
+    free = list(world.free())
+    hidden = [n for n in range(1, len(world.things) + 1) if n not in world.in_view]
+    kinds = [
+        [world.looked()],
+        [world.seen_flat()],
+        [world.cleared()],
+        [world.pointed(number) for number in world.in_view],
+        [world.moved(number, random.choice(free)) for number in hidden],
+    ]
+    if world.in_view:
+        one, other = random.choices(world.in_view, k=2)
+        kinds += [[world.moved(one, None)], [world.moved(other, random.choice(free))]]
+    return tuple(kind for kind in kinds if kind)

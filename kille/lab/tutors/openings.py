@@ -1,0 +1,270 @@
+"""What leads on: what a tutor may say by what the talk, as it is, makes possible.
+
+Most of what may be said at any time leads to the same few answers. What is rarer has to
+be prepared: a perspective is asked about only when a thing is known to face some way, a
+rival is named only where two words were learned of like things. So it is here that a
+state says what is worth trying in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import permutations, product
+from typing import NamedTuple
+
+from kille.dialogue.meanings import word_of
+from kille.dialogue.reference import thing_at
+from kille.dialogue.state import words
+from kille.lab.worlds.games import world_of
+from kille.lab.worlds.perception import number_of
+from kille.lab.worlds.sayings import (
+    Claim,
+    Matter,
+    Phrase,
+    Saying,
+    acts,
+    coloured,
+    phrases_of,
+    sayings,
+    settled,
+)
+from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.worlds import World
+from ttr import Pred, Record
+
+Talk = Sequence[Saying]
+
+OF_PLACES = ("relate", "correct", "reject", "ask_whether")
+"""The moves that claim a relation, or ask for one."""
+
+
+class Situation(NamedTuple):
+    """What a state has of all that decides what leads on from it.
+
+    Things are numbers: `untold` are those in view of which nothing was said; `fronts`
+    face some way that is known. `is_taught` says that it was just learned where
+    something is beside one of these, `is_new` that the robot has said nothing yet.
+    """
+
+    language: str
+    world: World
+    known: frozenset[Pred]
+    untold: tuple[int, ...]
+    fronts: tuple[tuple[int, str], ...]
+    is_taught: bool
+    is_new: bool
+
+
+def situation(language: str, s: Record) -> Situation:
+    """The situation of a tutor who speaks this language."""
+    told = {thing_at(it, "target") for it in s.shared.here}
+    return Situation(
+        language,
+        settled(world_of(s)),
+        frozenset(word_of(sign) for sign in words(s)),
+        tuple(number_of(x) for x in s.view.things if x not in told),
+        tuple((number_of(it.x), str(it.front)) for it in s.shared.turned),
+        _is_of_turned(s),
+        not s.private.last,
+    )
+
+
+def leads(now: Situation) -> Sequence[Talk]:
+    """What leads on from a situation, topic by topic."""
+    language, world = now.language, now.world
+    if now.is_taught:
+        return [by_side(language, world)]
+    untold = [_names(language, world, now.untold)] if now.untold else []
+    unsaid = [sayings(language, "ask_repeat", world)] if now.is_new else []
+    return [
+        *_by_words(language, world, now.known),
+        *_by_fronts(language, world, now.fronts),
+        *untold * 2,
+        *unsaid,
+    ]
+
+
+def _by_words(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
+    """What can be talked of in the words that are known, and in one that is not."""
+    found = [
+        *_nothing_there(language, world, known),
+        _nothing_known(language, world, known),
+        _bare(language, world),
+        _names(language, world, world.in_view),
+        _others(language, world),
+        _same(language, world),
+        *_mistakes(language, world, known),
+        *_unplaced(language, world),
+        *_strange(language, world, known),
+    ]
+    return [talk for talk in found if talk]
+
+
+SEVERAL = ("ask_places", "instruct_several")
+"""The moves about all things of a kind."""
+
+
+def _nothing_there(
+    language: str, world: World, known: frozenset[Pred]
+) -> Iterator[Talk]:
+    """What one may ask, and say, in front of nothing."""
+    if world.in_view:
+        return
+    yield sayings(language, "ask_view", world)
+    for act in SEVERAL:
+        said = sayings(language, act, world)
+        yield [it for it in said if known.issuperset(map(word_of, it.about.signs))]
+
+
+def _nothing_known(language: str, world: World, known: frozenset[Pred]) -> Talk:
+    """What one may ask who knows nothing."""
+    return () if known else sayings(language, "ask_knowledge", world)
+
+
+BARE = ("ask_certainty", "ask_why", "forget_that")
+"""The moves that may be about what was said last, without saying so."""
+
+
+def _bare(language: str, world: World) -> Talk:
+    """What is about what was said last."""
+    said = (one for act in BARE for one in sayings(language, act, world))
+    return [one for one in said if isinstance(one.about, Matter)]
+
+
+def _names(language: str, world: World, things: Sequence[int]) -> Talk:
+    """What each of these things is."""
+    phrases = (phrases_of(language, world, x)[0] for x in things)
+    return [Saying(language, "ask_name", Claim(None, phrase)) for phrase in phrases]
+
+
+def _others(language: str, world: World) -> Talk:
+    """What the others are than what was talked of."""
+    other = Claim(None, Phrase("Other"))
+    acts_ = ("ask_name", "ask_place") if len(world.in_view) > 1 else ()
+    return [Saying(language, act, other) for act in acts_]
+
+
+def _same(language: str, world: World) -> Talk:
+    """Lessons that something stands beside itself."""
+    left = vocabulary(language).relations["left"]
+    ways = (phrases_of(language, world, x) for x in world.in_view)
+    claims = (Claim(left, one, other) for one, *_, other in ways)
+    return [Saying(language, "relate", claim) for claim in claims]
+
+
+def _mistakes(language: str, world: World, known: frozenset[Pred]) -> Iterator[Talk]:
+    """What calls a thing by a noun that is known, but is not its own."""
+    nouns = [it for it in vocabulary(language).nouns.values() if word_of(it) in known]
+    claims = [
+        Claim(noun, coloured(language, world, x))
+        for x, noun in product(world.in_view, nouns)
+        if noun != vocabulary(language).noun_of(world, x)
+    ]
+    for act in ("instruct", "ask_whether"):
+        yield [Saying(language, act, claim) for claim in claims]
+
+
+def _unplaced(language: str, world: World) -> Iterator[Talk]:
+    """What may be said of places in a picture that does not show them."""
+    if world.deep:
+        return
+    relations = vocabulary(language).relations.values()
+    claims = [
+        Claim(relation, *_pair(language, world, x, y))
+        for relation in relations
+        for x, y in permutations(world.in_view, 2)
+    ]
+    for act in OF_PLACES:
+        yield [_placing(language, act, claim) for claim in claims]
+
+
+def _pair(language: str, world: World, x: int, y: int) -> tuple[Phrase, Phrase]:
+    return coloured(language, world, x), coloured(language, world, y)
+
+
+def _placing(language: str, act: str, claim: Claim) -> Saying:
+    """What is said of places by way of a move; who rejects something denies it."""
+    return Saying(language, act, replace(claim, denies=act == "reject"))
+
+
+STRANGE = (
+    "ask_whether",
+    "ask_certainty",
+    "ask_why",
+    "ask_count",
+    "ask_meaning",
+    "forget_word",
+)
+"""The moves in which one may ask for a word that is not known."""
+
+
+def _strange(language: str, world: World, known: frozenset[Pred]) -> Iterator[Talk]:
+    """What has a word in it that is not known, of things that can be told apart."""
+    for act in STRANGE:
+        if act in acts(language):
+            said = sayings(language, act, world)
+            yield [it for it in said if _is_strange(it, known)]
+
+
+def _is_strange(one: Saying, known: frozenset[Pred]) -> bool:
+    """Whether all words are known but the last one, which is said of the others."""
+    about = one.about
+    claimed = (about.sign,) if isinstance(about, Claim) else about.signs
+    return bool(claimed) and all(
+        sign is not None and (word_of(sign) in known) is not (sign in claimed)
+        for sign in (*about.signs, *claimed)
+    )
+
+
+# --- perspectives --------------------------------------------------------------------
+
+
+def _by_fronts(
+    language: str, world: World, fronts: Sequence[tuple[int, str]]
+) -> Sequence[Talk]:
+    """What perspectives make of it where things face some way, or that they do."""
+    turned = [(y, front) for y, front in fronts if y in world]
+    if not turned:
+        return [sayings(language, "orient", world)] if len(world.in_view) > 1 else []
+    beside = list(_beside(language, world, turned))
+    claims = [[_placing(language, act, it) for it in beside] for act in OF_PLACES]
+    phrases = [Phrase("", (it.sign, *it.landmark.signs)) for it in beside if it.sign]
+    asked = [
+        Saying(language, act, Claim(None, phrase))
+        for act in ("ask_name", "ask_find")
+        for phrase in phrases
+    ]
+    places = [
+        Saying(language, "ask_place", Claim(None, coloured(language, world, x)))
+        for x in world.in_view
+    ]
+    taking = sayings(language, "take_frame", world), by_side(language, world)
+    return [talk for talk in (*claims, asked, places, places, *taking) if talk]
+
+
+def _beside(
+    language: str, world: World, turned: Sequence[tuple[int, str]]
+) -> Iterator[Claim]:
+    """Where things are beside what faces some way: for a viewer, and for itself."""
+    known = vocabulary(language)
+    for y, front in turned:
+        for x, way in product(world.in_view, ("away", front)):
+            relation = None if x == y else known.relation_of(world, x, y, way)
+            if relation is not None:
+                pair = _pair(language, world, x, y)
+                yield Claim(relation, *pair)
+
+
+def by_side(language: str, world: World) -> Talk:
+    """Whose perspective is meant, where nobody is named but the robot and the thing."""
+    taking = sayings(language, "take_frame", world)
+    return [one for one in taking if not one.about.signs]
+
+
+def _is_of_turned(s: Record) -> bool:
+    """Whether it was just learned where something is beside what faces some way."""
+    said = s.shared.latest
+    taught = said.teaches if "teaches" in said else ()
+    turned = {it.x for it in s.shared.turned}
+    return any("rel" in it and thing_at(it, "landmark") in turned for it in taught)

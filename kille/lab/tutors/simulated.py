@@ -1,0 +1,225 @@
+"""The simulated tutor: he knows the world, and sees what the robot makes of his words.
+
+He teaches and asks by pointing, answers what the robot asks as long as his patience
+lasts, and says after an answer whether it was right. Now and then he errs. All chance
+is that of the task, so that two robots meet the same tutor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping
+from dataclasses import dataclass, replace
+
+from kille.lab.robots.replies import Reply
+from kille.lab.scenes.occasions import KINDS, Occasion
+from kille.lab.tutors.answers import answer
+from kille.lab.tutors.beliefs import Holding, Manner
+from kille.lab.tutors.tutor import Asked, Move, Says, Shows, Task, Turns, Waits
+
+FEEDBACK = ("none", "confirm", "correct", "both")
+"""What he says of answers: whether they are right, what is right instead, or both."""
+
+CERTAIN = ("assert", "think", "doubt", "yes", "probably", "rather")
+"""The ways of an answer that claims one thing."""
+
+LOOKS = 2
+"""How often the tutor lets the robot look before it is his turn again."""
+
+BY = {"both": ("adjective", "noun"), "noun": ("noun",), "colour": ("adjective",)}
+"""The kinds of the words by which he asks for a thing, by what a phase says of it."""
+
+_QUESTIONS = {"noun": "ask_name", "adjective": "ask_quality", "relation": "ask_place"}
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A tutor of this manner."""
+
+    name: str
+    manner: Manner
+
+    def turns(self, task: Task) -> Turns:
+        """The moves by which he does a task of a phase."""
+        holding = Holding(self.manner, task)
+        if holding.has_words:
+            yield from _DOES[task.do](_Doing(holding))
+
+
+class _Doing:
+    """A task as a tutor does it, as long as his patience lasts."""
+
+    def __init__(self, holding: Holding) -> None:
+        self._holding, self._task, self._words = holding, holding.task, holding.words
+        self._manner, self._left = holding.manner, holding.manner.patience
+
+    # --- what he does ----------------------------------------------------------------
+
+    def teach(self) -> Turns:
+        """He shows something, says what is so, and answers what the robot asks."""
+        reply = yield Shows(self._task.occasion)
+        yield from self._orienting(reply)
+        yield from self._lesson(reply)
+
+    def _lesson(self, reply: Reply) -> Turns:
+        """He says what is so of the thing he points at."""
+        says = self._holding.lesson(reply.state)
+        reply = yield says
+        if "see_no_such" in reply.acts or "same_thing" in reply.acts:
+            reply = yield self._holding.lesson(None)
+        yield from self._answering(reply, says)
+
+    def ask(self) -> Turns:
+        """He shows something and asks for a word, and says nothing of the answer."""
+        yield from self._asking()
+
+    def practise(self) -> Turns:
+        """He asks, and then says of the answer what his feedback is."""
+        reply = yield from self._asking()
+        yield from self._judging(reply)
+
+    def _asking(self) -> Generator[Move, Reply, Reply]:
+        """He shows something and asks for a word: the reply that answers it."""
+        occasion = self._task.occasion
+        reply = yield Shows(occasion)
+        yield from self._orienting(reply)
+        asked = self._holding.asked(occasion)
+        text, act = self._words.question(occasion.kind), _QUESTIONS[occasion.kind]
+        return (yield from self._until_clear(Says(text, act, asked)))
+
+    def _orienting(self, reply: Reply) -> Turns:
+        """He says which way the landmark faces, if he does so and it is not known."""
+        landmark, y = self._task.occasion.landmark, self._task.occasion.y
+        if landmark is None or not landmark.front or not self._manner.orients:
+            return
+        if f"faces_{landmark.front}" == reply.fronts.get(y):
+            return
+        phrase = self._holding.phrase(landmark, reply.state)
+        yield Says(self._words.facing(landmark.front, phrase), "orient")
+
+    def talk(self) -> Turns:
+        """He shows something and leaves the robot the floor, and tells what it asks.
+
+        To a robot that is driven by him he tells what is so himself. What it says to
+        have learned alone he sets right, where it is not so, as he does with answers.
+        """
+        occasion = self._task.occasion
+        reply = yield Shows(occasion)
+        driven = reply.state.private.strategy.mode == "driven"
+        for _ in range(LOOKS):
+            if driven:
+                break
+            occasion = occasion.looked()
+            reply = yield Waits(occasion)
+            if reply.moves:
+                break
+        if "learned_alone" in reply.acts:
+            yield from self._unlearning(occasion, reply)
+        elif reply.wants:
+            yield from self._answering(reply, None)
+        elif driven:
+            yield from self._lesson(reply)
+
+    def _unlearning(self, occasion: Occasion, reply: Reply) -> Turns:
+        """He sets right what the robot has learned by itself, if that is not so.
+
+        If it was another thing than that at which he points, he points there first.
+        """
+        x = next(iter(reply.things), None)
+        if self._manner.feedback not in ("correct", "both") or x not in occasion.world:
+            return
+        about = occasion.looked().of_noun(x)
+        held = self._holding.held(about)
+        if reply.said("noun") == held or not self._holding.has_word(about):
+            return
+        if x != occasion.x:
+            yield Shows(about)
+        text = self._words.correction("noun", held)
+        yield Says(text, "correct", corrects=True)
+
+    def find(self) -> Turns:
+        """He asks for a thing by its words."""
+        occasion = self._task.occasion
+        phrase = self._words.described(occasion.thing, *BY[self._task.settings["by"]])
+        yield Shows(occasion.unpointed())
+        asked = Asked("reference", occasion.name(occasion.x), occasion.x)
+        text = self._words.finding(phrase)
+        yield from self._until_clear(Says(text, "ask_find", asked, of=occasion.thing))
+
+    def _until_clear(self, says: Says) -> Generator[Move, Reply, Reply]:
+        """He says something, and clears up what the robot asks about it."""
+        reply = yield says
+        while reply.is_open and self._left > 0:
+            told = answer(self._holding, reply, says)
+            if told is None:
+                break
+            self._left -= 1
+            reply = yield replace(told, asks=says.asks)
+        return reply
+
+    def forget(self) -> Turns:
+        """He has a word forgotten."""
+        kind, word = KINDS[self._task.settings["what"]], self._task.settings["word"]
+        text = self._words.forgetting(kind, self._words.called(word))
+        yield Says(text, "forget_word")
+
+    def align(self) -> Turns:
+        """He says which way things face, and, if he is to, in whose frame he speaks."""
+        occasion = self._task.occasion
+        reply = yield Shows(occasion)
+        for number in occasion.world.in_view:
+            thing = occasion.world.thing(number)
+            if thing.front:
+                phrase = self._holding.phrase(thing, reply.state)
+                reply = yield Says(self._words.facing(thing.front, phrase), "orient")
+        if self._task.settings["announce"]:
+            yield Says(self._words.perspective(self._holding.frame), "take_frame")
+
+    # --- what he says of answers -----------------------------------------------------
+
+    def _judging(self, reply: Reply) -> Turns:
+        """What he says of the answer to his question."""
+        occasion = self._task.occasion
+        held, said = self._holding.held(occasion), reply.said(occasion.kind)
+        confirms = self._manner.feedback in ("confirm", "both")
+        corrects = self._manner.feedback in ("correct", "both")
+        if said == held and reply.way == "hedge" and corrects:
+            yield from self._lesson(reply)
+        elif said == held and (confirms or reply.way in CERTAIN):
+            if confirms:
+                reply = yield Says(self._words.plainly("affirm"), "affirm")
+                yield from self._answering(reply, None)
+            yield from self._thanking()
+        elif corrects and said:
+            says = self._holding.correction(reply.state)
+            reply = yield says
+            yield from self._answering(reply, says)
+        elif corrects:
+            yield from self._answering(reply, None)
+        elif confirms and said:
+            yield Says(self._words.plainly("deny"), "deny", corrects=True)
+
+    def _thanking(self) -> Turns:
+        if self._task.chance("thanks").random() < self._manner.politeness:
+            yield Says(self._words.plainly("thank"), "thank")
+
+    def _answering(self, reply: Reply, latest: Says | None) -> Turns:
+        """He answers what the robot asks, as long as his patience lasts."""
+        while reply.wants and self._left > 0:
+            told = answer(self._holding, reply, latest)
+            if told is None:
+                return
+            self._left -= 1
+            latest = told
+            reply = yield told
+
+
+_DOES: Mapping[str, Callable[[_Doing], Turns]] = {
+    "teach": _Doing.teach,
+    "ask": _Doing.ask,
+    "practise": _Doing.practise,
+    "talk": _Doing.talk,
+    "find": _Doing.find,
+    "forget": _Doing.forget,
+    "align": _Doing.align,
+}
+"""What he does, by what is to be done in a phase."""

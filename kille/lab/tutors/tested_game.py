@@ -1,0 +1,60 @@
+"""The games of tutoring in a simulated world, with who plays them: to be tested.
+
+ttr test kille.lab.tutors.tested_game:game
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from hypothesis import strategies as st
+
+from kille.lab.tutors.exploring import tutoring
+from kille.lab.tutors.question_answers import DROPPING, answers_in
+from kille.lab.worlds.games import simulated
+from kille.lab.worlds.robot_profiles import ROBOTS
+from kille.lab.worlds.worlds import drawn
+from ttr import Model, Record
+from ttr.testing import Roles
+
+
+def words(event: Record) -> str | None:
+    """How the tutor worded an event; None for what was not said."""
+    return str(event.text) if "text" in event else None
+
+
+def roles_in(language: str) -> Roles:
+    """Where in a state the things are that properties speak of, in a language."""
+    return Roles(
+        qud="shared.qud",
+        commitments="shared.commitments",
+        latest="shared.latest",
+        words=words,
+        answers=answers_in(language),
+        drops=DROPPING,
+        retracts=frozenset({"keep"}),
+        moves=8,  # where each of the things that there are is
+    )
+
+
+game = simulated(drawn(1))
+"""The games, in front of a table with four things on it and four beside it."""
+
+tutor = tutoring()
+roles = roles_in("en")
+
+WORLDS = 4
+"""In how many worlds each robot begins."""
+
+_ENGLISH = [robot for robot in ROBOTS if robot.language == "en"]
+
+
+@lru_cache(len(_ENGLISH) * WORLDS)
+def _begun(robot: int, seed: int) -> tuple[Record, Model]:
+    """The state and the model in which a dialogue with a robot begins."""
+    begun = _ENGLISH[robot].game(seed)
+    return begun.start, begun.model
+
+
+starts = st.builds(_begun, st.integers(0, len(_ENGLISH) - 1), st.integers(1, WORLDS))
+"""Where dialogues begin: with every robot that speaks English, in some worlds."""

@@ -1,0 +1,238 @@
+"""The games of tutoring in a simulated world: what is seen, and what becomes of moves.
+
+Nothing is kept but in the state and the model: a look is named by the world that it is
+at, and the words that the robot knows are the witness functions of the model, which
+learning replaces. So a dialogue can be played again, and go on from any of its states.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    is_denial,
+    packaged_types,
+    value_at,
+    word_of,
+)
+from kille.dialogue.state import blank_model
+from kille.dialogue.tutoring import tutoring
+from kille.lab.worlds.perception import across, number_of, thing, view
+from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.word_learning import Taught, Word, observed
+from kille.lab.worlds.worlds import World
+from ttr import Model, Pred, Record, RecordType, record, replace
+from ttr.types import TypeNode
+from ttr.updates import Game
+
+__all__ = ["act", "known", "simulated", "word", "world_of"]
+
+
+def simulated(
+    world: World,
+    signs: Iterable[Record] = (),
+    *,
+    colours: Iterable[Record] | None = None,
+    types: DialogueTypes | None = None,
+    **settings: Any,
+) -> Game:
+    """The games of tutoring, played in front of this world by a robot of these words.
+
+    It has not been taught them; it knows these `colours`, or else all. `settings` are
+    those of `tutoring`.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> game = simulated(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> turns = game.play(map(game.hear, ["This is a cup.", "What is this?"]))
+    >>> [game.say(move) for turn in turns for move in turn.said]
+    ['OK, I learned a cup.', 'This is a cup.']
+    """
+    types = types or packaged_types()
+    if colours is None:
+        colours = vocabulary(settings.get("language", "en"), types).colours
+    colours = tuple(colours)
+    signs = [*signs, *colours]
+    game = tutoring(
+        signs,
+        model=model_of(world, signs, types),
+        act=act,
+        colours=colours,
+        types=types,
+        **settings,
+    )
+    start = replace(game.start, {"view": view(world)})
+    return dataclasses.replace(game, name="simulated", start=start)
+
+
+def model_of(
+    world: World, signs: Iterable[Record] = (), types: DialogueTypes | None = None
+) -> Model:
+    """The model of what can be seen in such a world, by what the words are true of."""
+    types = types or packaged_types()
+    model = blank_model(types).witnessed(types["Look"], by=_is_look)
+    for number in range(1, len(world.things) + 1):
+        model = model.given(thing(number), types["Ind"])
+    return known(model.witnessed(types["across"], by=_across), signs)
+
+
+def known(model: Model, signs: Iterable[Record]) -> Model:
+    """The model in which these words are judged, by what they know without lessons."""
+    for sign in signs:
+        if word(model, word_of(sign)) is None:
+            model = model.witnessed(word_of(sign), by=Word.known(sign))
+    return model
+
+
+def word(model: Model, pred: Pred) -> Word | None:
+    """What a predicate is true of in a model, as a word that was learned."""
+    found = model.facts.functions.get(pred)
+    return found if isinstance(found, Word) else None
+
+
+def words(model: Model) -> tuple[Word, ...]:
+    """All words that a model judges by what it has learned, in order of their names."""
+    found = [it for it in model.facts.functions.values() if isinstance(it, Word)]
+    return tuple(sorted(found, key=lambda it: word_of(it.sign).name))
+
+
+def world_of(s: Record) -> World:
+    """The world that a state has the latest look at."""
+    world = World.named(s.view.look)
+    return World() if world is None else world
+
+
+def _is_look(name: object) -> bool:
+    return isinstance(name, str) and World.named(name) is not None
+
+
+def _across(x: str, look: str) -> float:
+    world = World.named(look)
+    return (
+        0.0
+        if world is None or number_of(x) not in world
+        else across(world, number_of(x))
+    )
+
+
+# --- acting --------------------------------------------------------------------------
+
+
+def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
+    """Make a planned move: the event, with what came of it, and the model after it."""
+    move, model = model.create(planned)
+    keys = []
+    for content in move.teaches:
+        sign = next(it for it in move.signs if claims(content, it))
+        key, model = _learned(model, sign, content)
+        keys.append(key)
+    dropped = [key for sign in move.drops for key in keys_of(model, sign)]
+    undone = _latest(model, len(move.undoes))
+    keys_undone = [it.key for it in undone]
+    lost, model = _unlearned(model, (*move.forgets, *dropped, *keys_undone))
+    explained = [_reason(model, claim) for claim in move.explains]
+    recalled = [_recalled(model, sign) for sign in move.recalls]
+    done = {
+        "keys": keys,
+        "dropped": dropped,
+        "undone": undone or move.undone,
+        "lost": lost,
+        "reasons": explained,
+        "recalled": recalled,
+    }
+    return replace(move, done), model
+
+
+def keys_of(model: Model, sign: Record) -> tuple[str, ...]:
+    """The keys of all lessons of a word."""
+    found = word(model, word_of(sign))
+    return () if found is None else tuple(lesson.key for lesson in found.lessons)
+
+
+def _learned(model: Model, sign: Record, content: RecordType) -> tuple[str, Model]:
+    """The model in which a content was learned, and the key of the lesson."""
+    pred = word_of(sign)
+    number = max((it.number for _, it in _lessons(model)), default=0) + 1
+    taught = (word(model, pred) or Word(sign)).taught(
+        *arguments(sign, content), holds=not is_denial(content), number=number
+    )
+    return taught.lessons[-1].key, model.witnessed(pred, by=taught)
+
+
+def arguments(sign: Record, content: RecordType) -> tuple[str, ...]:
+    """What a content claims its word to be true of."""
+    look, target = value_at(content, "look"), content["target"]
+    assert isinstance(target, RecordType)
+    x = str(value_at(target, "x"))
+    if sign.kind != "relation":
+        return x, str(look)
+    landmark = content["landmark"]
+    assert isinstance(landmark, RecordType)
+    return x, str(value_at(landmark, "x")), str(look), str(value_at(content, "frame"))
+
+
+def _unlearned(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], Model]:
+    """The words that are lost without these lessons, and the model without them."""
+    forgotten = set(keys)
+    lost = []
+    for it in words(model):
+        left = it
+        for lesson in it.lessons:
+            if lesson.key in forgotten:
+                left = left.without(lesson.key)
+        if left is it:
+            continue
+        model = model.witnessed(word_of(it.sign), by=left)
+        if it.is_known and not left.is_known:
+            lost.append(it.sign)
+    return tuple(lost), model
+
+
+def _lessons(model: Model) -> Iterator[tuple[Record, Taught]]:
+    """All lessons, each with the sign that it is about."""
+    for it in words(model):
+        for lesson in it.lessons:
+            yield it.sign, lesson
+
+
+def _latest(model: Model, count: int) -> list[Record]:
+    """So many of the lessons that were given last, as reminders."""
+    ordered = sorted(_lessons(model), key=lambda it: -it[1].number)
+    return [_reminder(sign, lesson) for sign, lesson in ordered[:count]]
+
+
+def _recalled(model: Model, sign: Record) -> Record:
+    return record(sign=sign, lessons=float(len(keys_of(model, sign))), confused=[])
+
+
+def _reason(model: Model, claim: RecordType) -> Record:
+    """Why a claim is thought to be so: by which cues, and by which lesson.
+
+    In a simulated world it is always now, and what was said in a lesson is its word.
+    """
+    sign = next(it.sign for it in words(model) if claims(claim, it.sign))
+    known = word(model, word_of(sign))
+    of = observed(sign.kind, *arguments(sign, claim))
+    if known is None or of is None:
+        return record(claim=claim, p=0.0, cues=[], reminders=[])
+    cues = [record(name=name, share=share) for name, share in known.cues(of)]
+    nearest = known.nearest(of)
+    reminders = [] if nearest is None else [_reminder(sign, nearest)]
+    return record(claim=claim, p=known.degree(of), cues=cues, reminders=reminders)
+
+
+def _reminder(sign: Record, lesson: Taught) -> Record:
+    return record(
+        key=lesson.key,
+        sign=sign,
+        examples=float(lesson.holds),
+        text=sign.form,
+        dialogue="0",
+        turn="0",
+        age=0.0,
+        day="today",
+        time="00:00",
+    )

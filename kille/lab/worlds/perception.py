@@ -1,0 +1,178 @@
+"""What is seen in a look at a world: views as events, and what words can be about."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from random import Random
+
+from kille.lab.worlds.worlds import COLOURS, SIDE, STEP, World
+from ttr import Record, record
+
+__all__ = [
+    "Vector",
+    "across",
+    "colour",
+    "direction",
+    "distance",
+    "glanced",
+    "number_of",
+    "oddness",
+    "seen",
+    "size",
+    "thing",
+    "traits",
+    "view",
+]
+
+Vector = tuple[float, ...]
+
+TRAITS = 4
+"""How many numbers there are in what a kind looks like."""
+
+LOOKS = 0.25
+"""How much two looks at one thing differ, as a share of how much two things do."""
+
+
+def thing(number: int) -> str:
+    """The name of the thing with this number."""
+    return f"o{number}"
+
+
+def number_of(x: str) -> int:
+    """The number of the thing with this name.
+
+    >>> number_of(thing(3))
+    3
+    """
+    return int(x[1:])
+
+
+# --- views ---------------------------------------------------------------------------
+
+
+def view(world: World) -> Record:
+    """What is in view."""
+    things = [thing(number) for number in world.in_view]
+    return record(
+        look=world.name,
+        things=things,
+        placed=things if world.deep else [],
+        focus=[] if world.attended is None else [thing(world.attended)],
+    )
+
+
+def seen(world: World, before: World) -> Record:
+    """The event of looking, on the robot's own turn."""
+    return _event(world, before, "robot")
+
+
+def glanced(world: World, before: World) -> Record:
+    """The event of looking while the tutor has the floor."""
+    return _event(world, before, "tutor")
+
+
+def _event(world: World, before: World, floor: str) -> Record:
+    kept = [thing(it) for it in world.in_view if _has_stayed(it, world, before)]
+    return record(view=view(world), kept=kept, floor=floor)
+
+
+def _has_stayed(number: int, world: World, before: World) -> bool:
+    """Whether a thing stands where it stood.
+
+    What has been moved is not known again. So it is for the whole robot, which follows
+    nothing through the air, and what was said of where it was says nothing of now.
+    """
+    return number in before and world.place(number) == before.place(number)
+
+
+# --- what is seen of a thing ---------------------------------------------------------
+
+
+@lru_cache(65536)
+def traits(world: World, number: int) -> Vector:
+    """What a thing looks like: its kind, and how it and this look at it differ."""
+    kind = world.thing(number).kind
+    typical = _uniform(f"kind {world.traits} {kind}", TRAITS)
+    return _blurred(typical, world, number)
+
+
+@lru_cache(65536)
+def colour(world: World, number: int) -> Vector:
+    """The colour of a thing, as it looks."""
+    return _blurred(COLOURS[world.thing(number).colour], world, number)
+
+
+def size(world: World, number: int) -> Vector:
+    """How big a thing is."""
+    return (world.thing(number).size,)
+
+
+def across(world: World, number: int) -> float:
+    """How far to the right a thing is seen, from 0 to 1."""
+    return world.place(number)[0] / SIDE
+
+
+def direction(world: World, x: int, y: int, front: str) -> Vector | None:
+    """Which way x is from y, for somebody with this front: to the right, and ahead.
+
+    A thing's own front, as `faces_left`, is what a viewer would call its back: in front
+    of a car is before it, but in front of what one looks at is on one's own side. None
+    where places are not known, or are one and the same.
+    """
+    way = front.removeprefix("faces_")
+    if not world.deep or way not in _TURNS or x == y:
+        return None
+    (ax, ay), (bx, by) = world.place(x), world.place(y)
+    dx, dy = float(ax - bx), float(ay - by)
+    far = (dx * dx + dy * dy) ** 0.5
+    if not far:
+        return None
+    cos, sin = _TURNS[way]
+    ahead = (sin * dx + cos * dy) / far
+    return (cos * dx - sin * dy) / far, (ahead if way == front else -ahead)
+
+
+_TURNS = {"away": (1, 0), "left": (0, -1), "right": (0, 1), "towards": (-1, 0)}
+"""The cosine and sine of the turn after which that front is ahead."""
+
+
+def distance(world: World, x: int, y: int) -> float:
+    """How far two things are from each other, in metres.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> things = Thing("cup", "red", place=(2, 3)), Thing("car", "red", place=(5, 7))
+    >>> distance(World(things), 1, 2)
+    0.5
+    """
+    (ax, ay), (bx, by) = world.place(x), world.place(y)
+    return STEP * math.hypot(ax - bx, ay - by)
+
+
+def oddness(world: World, number: int) -> float:
+    """How little a thing looks like what is typical of its kind, on the whole."""
+    own = _normal(f"thing {world.traits} {number} {TRAITS}", TRAITS)
+    return math.hypot(*own)
+
+
+def _blurred(typical: Vector, world: World, number: int) -> Vector:
+    """What is typical, as it is of this thing, and as it is seen now."""
+    n = len(typical)
+    own = _normal(f"thing {world.traits} {number} {n}", n)
+    now = _normal(f"look {world.traits} {number} {world.glance} {n}", n)
+    return tuple(
+        a + world.noise * (b + LOOKS * c)
+        for a, b, c in zip(typical, own, now, strict=True)
+    )
+
+
+@lru_cache(8192)
+def _uniform(seed: str, n: int) -> Vector:
+    random = Random(seed)
+    return tuple(random.random() for _ in range(n))
+
+
+@lru_cache(65536)
+def _normal(seed: str, n: int) -> Vector:
+    random = Random(seed)
+    return tuple(random.gauss(0.0, 1.0) for _ in range(n))

@@ -1,0 +1,98 @@
+"""The robots that are talked to in tests: what they know and see, and how they talk.
+
+Together they apply every rule.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from kille.lab.worlds.games import simulated, world_of
+from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.schooling import rested, resumed, schooled
+from kille.lab.worlds.worlds import drawn
+from ttr.updates import Game
+
+
+@dataclass(frozen=True)
+class Robot:
+    """Who the tutor talks to, in which language, in which share of the dialogues.
+
+    It has been told so many `times` what it sees, and something has become of it
+    `since`; `knows` is what else it knows.
+    """
+
+    name: str
+    share: float
+    language: str = "en"
+    times: int = 0
+    strategy: Mapping[str, str] = field(default_factory=dict)
+    world: Mapping[str, Any] = field(default_factory=dict)
+    knows: Mapping[str, Any] = field(default_factory=dict)
+    since: Callable[[Game], Game] | None = None
+
+    def game(self, seed: int) -> Game:
+        """The games that it plays, in the world that is drawn by a seed."""
+        world = drawn(seed, **self.world)
+        settings = {"language": self.language, **self.strategy, **self.knows}
+        game = simulated(world, **settings)
+        if self.times:
+            game = schooled(game, self.language, self.times)
+        return game if self.since is None else self.since(game)
+
+
+def _flattened(game: Game) -> Game:
+    """The game when it is no longer seen where things are."""
+    world = world_of(game.start)
+    return resumed(game, [glanced(world.seen_flat(), world)])
+
+
+def _relaid(game: Game) -> Game:
+    """The game when all that is in view is taken away, and all else is put there."""
+    world = before = world_of(game.start)
+    for number in range(1, len(world.things) + 1):
+        place = None if number in before else next(iter(world.free()))
+        world = world.moved(number, place)
+    return resumed(game, [glanced(world, before)])
+
+
+FOUR = {"wording": "four"}
+ALONE = {"mode": "autonomous"}
+FLAT = {"deep": False}
+DIM = {"noise": 0.15, "kinds": ("cup", "mug", "book")}
+ALIKE = {"kinds": ("cup", "mug", "book"), "colours": ("red", "green", "blue")}
+
+ROBOTS = (
+    Robot("assisted", 0.1),
+    Robot("assisted, after school", 0.1, times=1),
+    Robot("assisted, after school, among like things", 0.1, times=1, world=ALIKE),
+    Robot("assisted, after school, seeing badly", 0.05, times=1, world=DIM),
+    Robot("assisted, seeing badly", 0.05, world=DIM),
+    Robot("assisted, seeing flat pictures", 0.05, world=FLAT),
+    Robot(
+        "assisted, after school, seeing flat pictures",
+        0.05,
+        times=1,
+        since=_flattened,
+    ),
+    Robot("assisted, on another day", 0.05, times=1, since=rested),
+    Robot("assisted, knowing no colours", 0.05, knows={"colours": ()}),
+    Robot("assisted, Swedish", 0.05, "sv"),
+    Robot("assisted, Swedish, after school", 0.05, "sv", times=1),
+    Robot("four bands", 0.05, strategy=FOUR),
+    Robot(
+        "four bands, after school, seeing other things badly",
+        0.05,
+        times=1,
+        strategy=FOUR,
+        world=DIM,
+        since=_relaid,
+    ),
+    Robot("autonomous", 0.05, strategy=ALONE),
+    Robot("autonomous, after school", 0.05, times=3, strategy=ALONE),
+    Robot("autonomous, four bands", 0.05, strategy={**ALONE, **FOUR}),
+    Robot("driven", 0.05, strategy={"mode": "driven"}),
+)
+"""All of them: each in a share of the dialogues."""

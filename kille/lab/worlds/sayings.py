@@ -1,0 +1,282 @@
+"""What a tutor may say about a simulated world, in the wordings of the lexicon.
+
+For each of the tutor's moves the lexicon has wordings with slots; here they are filled
+with all that can be talked about: things in view and not, words that are true of them
+and words that are not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import islice, permutations
+from string import Formatter
+
+from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import denied, merge_of, named, placed
+from kille.dialogue.reference import meant_by
+from kille.dialogue.wording import tell
+from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.worlds import World
+from ttr import Rec, Record, RecordType, record, rectype
+
+TEMPLATES = {"noun": "Naming", "adjective": "Having", "relation": "Relation"}
+"""What a claim means, by the kind of its word."""
+
+SLOTS = {"a_word": "noun", "so": "adjective", "relation": "relation"}
+"""The kind of word that a slot of a claim is for."""
+
+TALK = (
+    "It",
+    "Other",
+    "First",
+    "Second",
+    "Third",
+    "Last",
+    "Leftmost",
+    "Rightmost",
+)
+"""Phrases that any thing may be called by, as the talk is."""
+
+PAIRS = 8
+"""About how many pairs of things one talks, at most."""
+
+
+@dataclass(frozen=True)
+class Phrase:
+    """A noun phrase by its parts: what the talk makes of it, and the words in it.
+
+    Without either it is none: what is talked about follows from the talk.
+    """
+
+    talk: str = ""
+    signs: tuple[Record, ...] = ()
+
+    @property
+    def meaning(self) -> RecordType:
+        """What it means."""
+        meant = meant_by(self.signs) if self.signs else rectype()
+        return merge_of(meant, named(self.talk)) if self.talk else meant
+
+
+NOTHING, THIS = Phrase(), Phrase("This")
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What may be said: that a word is true of a target, or of a target and a landmark.
+
+    It may be said that it is not. Without a word it only speaks of the target.
+    """
+
+    sign: Record | None = None
+    target: Phrase = NOTHING
+    landmark: Phrase = NOTHING
+    denies: bool = False
+
+    @property
+    def content(self) -> RecordType:
+        """What is said."""
+        parts = {
+            label: part.meaning
+            for label, part in (("target", self.target), ("landmark", self.landmark))
+            if part is not NOTHING
+        }
+        sign = self.sign
+        said = named("Asked") if sign is None else placed(sign, TEMPLATES[sign.kind])
+        content = merge_of(said, rectype(parts))
+        return denied(content) if self.denies else content
+
+    @property
+    def signs(self) -> tuple[Record, ...]:
+        """The words in it."""
+        own = () if self.sign is None else (self.sign,)
+        return (*self.target.signs, *own, *self.landmark.signs)
+
+
+@dataclass(frozen=True)
+class Matter:
+    """Anything else that is talked about: a word, a number, a perspective."""
+
+    content: RecordType = Rec
+    signs: tuple[Record, ...] = ()
+
+
+@dataclass(frozen=True)
+class Saying:
+    """Something to be said: a move of the tutor's, and what it is about."""
+
+    language: str
+    act: str
+    about: Claim | Matter = Matter()
+
+    @property
+    def text(self) -> str:
+        """The text of it, in the lexicon's wording."""
+        return _text(self)
+
+
+@lru_cache(65536)
+def _text(saying: Saying) -> str:
+    about = saying.about
+    move = record(content=about.content, signs=about.signs)
+    return tell(lexicon(saying.language), saying.act, move)
+
+
+def acts(language: str) -> tuple[str, ...]:
+    """The moves of the tutor's for which the lexicon has a wording."""
+    return tuple(lexicon(language).tells)
+
+
+def sayings(language: str, act: str, world: World) -> tuple[Saying, ...]:
+    """What may be said by way of a move: its wordings, about all that there is.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),))
+    >>> sayings("en", "instruct", world)[0].text
+    'This is a cup.'
+    """
+    return _sayings(language, act, settled(world))
+
+
+def settled(world: World) -> World:
+    """A world as it is, however often it was looked at: what may be said of it."""
+    return replace(world, glance=0)
+
+
+@lru_cache(1024)
+def _sayings(language: str, act: str, world: World) -> tuple[Saying, ...]:
+    found = (
+        Saying(language, act, about)
+        for wording in lexicon(language).tells[act]
+        for about in _about(language, _slots(wording), world)
+    )
+    return tuple(dict.fromkeys(found))
+
+
+def _slots(wording: str) -> frozenset[str]:
+    return frozenset(slot for _, slot, _, _ in Formatter().parse(wording) if slot)
+
+
+def _about(
+    language: str, slots: frozenset[str], world: World
+) -> Iterable[Claim | Matter]:
+    """What a wording with these slots may be about, if the slots are known."""
+    claiming = next((slot for slot in slots if _plainly(slot) in SLOTS), "")
+    if claiming:
+        kind = SLOTS[_plainly(claiming)]
+        claims = _relations if kind == "relation" else _claims
+        said = claims(language, world, kind, "the_target" in slots)
+        denies = claiming != _plainly(claiming)
+        return (replace(claim, denies=denies) for claim in said)
+    if slots == {"the_target"}:
+        return (Claim(None, phrase) for phrase in _phrases(language, world))
+    known = vocabulary(language)
+    nouns = known.nouns.values()
+    match sorted(slots):
+        case []:
+            return [Matter()]
+        case ["word"]:
+            return (Matter(rectype(word=it.meaning), (it,)) for it in known.all)
+        case ["counted"]:
+            return (Matter(rectype(counted=it.meaning), (it,)) for it in nouns)
+        case ["front", "the_target"]:
+            return _facing(language, world)
+        case ["the_landmark"]:
+            return (_perspective(Phrase("", (noun,))) for noun in nouns)
+        case ["by"]:
+            return [Matter(named("ByViewer")), Matter(named("ByLandmark"))]
+    return ()
+
+
+def _facing(language: str, world: World) -> Iterator[Matter]:
+    """Which way things face: as they do, and, where they have no front, some way."""
+    for x in world.in_view:
+        front = world.thing(x).front or "left"
+        for phrase in phrases_of(language, world, x):
+            faces = named(f"Faces{front.capitalize()}")
+            content = merge_of(faces, rectype(target=phrase.meaning))
+            yield Matter(content, phrase.signs)
+
+
+def _perspective(phrase: Phrase) -> Matter:
+    """That places are meant as this thing sees them."""
+    content = merge_of(named("ByLandmark"), rectype(landmark=phrase.meaning))
+    return Matter(content, phrase.signs)
+
+
+def _plainly(slot: str) -> str:
+    return slot.removeprefix("not_")
+
+
+def _claims(language: str, world: World, kind: str, phrased: bool) -> Iterator[Claim]:
+    """Claims with a noun or an adjective, as many of them true as not."""
+    known = vocabulary(language)
+    rest = known.nouns if kind == "noun" else known.adjectives
+    for x in world.in_view:
+        true = [it for it in known.words_of(world, x) if it.kind == kind]
+        for target in phrases_of(language, world, x) if phrased else [NOTHING]:
+            for sign in (*true, *islice(rest.values(), 2)):
+                yield Claim(sign, target)
+
+
+def _relations(
+    language: str, world: World, kind: str, phrased: bool
+) -> Iterator[Claim]:
+    """Claims with a relation, as many of them true as not."""
+    known = vocabulary(language)
+    some = tuple(known.relations.values())[:1]
+    for x, y in islice(permutations(world.in_view, 2), PAIRS):
+        true = known.relation_of(world, x, y)
+        for sign in some if true is None else (true, *some):
+            for target in phrases_of(language, world, x) if phrased else [NOTHING]:
+                for landmark in phrases_of(language, world, y):
+                    yield Claim(sign, target, landmark)
+
+
+def true_of(
+    language: str, world: World, x: int, phrase: Phrase = THIS
+) -> Iterator[Claim]:
+    """What is true of a thing, of which one speaks by this phrase.
+
+    Where things are is not known of a flat picture, but talked of all the same.
+    """
+    known = vocabulary(language)
+    for sign in known.words_of(world, x):
+        yield Claim(sign, phrase)
+    for y in world.in_view:
+        if y != x:
+            relation = known.relation_of(world, x, y) or known.relations["left"]
+            yield Claim(relation, phrase, coloured(language, world, y))
+
+
+def coloured(language: str, world: World, x: int) -> Phrase:
+    """A phrase for a thing in words that are known from the start: "the red one"."""
+    return Phrase("", vocabulary(language).adjectives_of(world, x)[:1])
+
+
+def phrases_of(language: str, world: World, x: int) -> tuple[Phrase, ...]:
+    """How one may speak of a thing: "this", if it is attended to, and by its words."""
+    known = vocabulary(language)
+    noun, (colour, *_) = known.noun_of(world, x), known.adjectives_of(world, x)
+    described = [Phrase("", it) for it in ((colour,), (noun,), (colour, noun))]
+    return (THIS, *described) if x == world.attended else tuple(described)
+
+
+def _phrases(language: str, world: World) -> Iterator[Phrase]:
+    """The phrases for things in view, and such as may fit anything, or nothing."""
+    known = vocabulary(language)
+    for x in world.in_view:
+        yield from phrases_of(language, world, x)
+    yield THIS
+    for talk in TALK:
+        yield Phrase(talk)
+    for noun in known.nouns.values():
+        yield Phrase("", (noun,))
+        yield Phrase("Other", (noun,))
+    for x, y in islice(permutations(world.in_view, 2), PAIRS):
+        where = known.relation_of(world, x, y)
+        if where is not None:
+            nouns = known.noun_of(world, x), known.noun_of(world, y)
+            yield Phrase("", (nouns[0], where, nouns[1]))

@@ -1,0 +1,90 @@
+"""Robots that have been to school: games that begin when some lessons have been given.
+
+What needs many words is talked of only in long dialogues with a robot that has none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from itertools import permutations
+
+from kille.dialogue.state import initial, words
+from kille.lab.worlds.games import words as learned
+from kille.lab.worlds.games import world_of
+from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.sayings import THIS, Claim, Saying, phrases_of, sayings
+from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.worlds import World
+from ttr import Record, record
+from ttr import replace as updated
+from ttr.updates import Game
+
+__all__ = ["lessons", "rested", "resumed", "schooled"]
+
+
+def schooled(game: Game, language: str = "en", times: int = 1) -> Game:
+    """The game with a robot that was told so often what it sees, and where things are.
+
+    After school the table was cleared and laid again, and all that anybody has said of
+    the things that are now in view is which way one of them faces.
+
+    >>> from kille.lab.worlds.games import simulated
+    >>> from kille.lab.worlds.worlds import drawn
+    >>> after = schooled(simulated(drawn(1)))
+    >>> [sign.form for sign in after.start.private.nouns]
+    ['box', 'bowl', 'car', 'cup']
+    """
+    world = world_of(game.start)
+    given: list[str | Record] = []
+    for _ in range(times):
+        given += lessons(language, world)
+        world = world.looked()
+    cleared = world.cleared()
+    laid = replace(world, glance=cleared.glance + 1)
+    given += [glanced(cleared, world), glanced(laid, cleared)]
+    facing = sayings(language, "orient", laid)[-1:]
+    return resumed(game, [*given, *(one.text for one in facing)])
+
+
+def lessons(language: str, world: World) -> Iterator[str | Record]:
+    """What each thing in view is, pointed at, and then where they are, once a word."""
+    known = vocabulary(language)
+    for x in world.in_view:
+        yield glanced(world.pointed(x), world)
+        claim = Claim(known.noun_of(world, x), THIS)
+        yield Saying(language, "instruct", claim).text
+    said: set[Record] = set()
+    for x, y in permutations(world.in_view, 2):
+        relation = known.relation_of(world, x, y)
+        if relation is None or relation in said:
+            continue
+        said.add(relation)
+        yield glanced(world.pointed(x), world)
+        claim = Claim(relation, THIS, phrases_of(language, world, y)[-1])
+        yield Saying(language, "relate", claim).text
+
+
+def resumed(game: Game, given: Iterable[str | Record]) -> Game:
+    """The game as it goes on after all this: texts, and what was seen."""
+    now = game.begin()
+    for one in given:
+        heard = game.hear(one) if isinstance(one, str) and game.hear else one
+        now = game.take(now, heard).run
+    return replace(game, start=now.state, model=now.model)
+
+
+def rested(game: Game) -> Game:
+    """The game on another day: it is known what was taught, but not what was said."""
+    known, s = game.start, initial(words(game.start), game.start.private.strategy)
+    taught = [
+        record(sign=it.sign, lessons=float(sum(x.holds for x in it.lessons)))
+        for it in learned(game.model)
+        if it.lessons
+    ]
+    changes = {
+        "private.taught": taught,
+        "private.colours": known.private.colours,
+        "view": known.view,
+    }
+    return replace(game, start=updated(s, changes))

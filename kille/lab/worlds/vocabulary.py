@@ -1,0 +1,126 @@
+"""The words in which tutors speak of simulated worlds, in each language."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import DialogueTypes, packaged_types
+from kille.lab.worlds.perception import direction
+from kille.lab.worlds.worlds import COLOURS, KINDS, World
+from ttr import Record
+
+SIZES = {0.1: "small", 0.9: "big"}
+"""What the sizes of things are called."""
+
+SIDES = {
+    "left": (-1.0, 0.0),
+    "right": (1.0, 0.0),
+    "behind": (0.0, 1.0),
+    "in front": (0.0, -1.0),
+}
+"""Where a thing may be: how far to the right, and how far ahead."""
+
+_SWEDISH = {
+    "cup": "kopp",
+    "mug": "mugg",
+    "bowl": "skål",
+    "book": "bok",
+    "box": "låda",
+    "apple": "äpple",
+    "car": "bil",
+    "shoe": "sko",
+    "red": "röd",
+    "orange": "orange",
+    "yellow": "gul",
+    "green": "grön",
+    "blue": "blå",
+    "black": "svart",
+    "white": "vit",
+    "brown": "brun",
+    "small": "liten",
+    "big": "stor",
+    "left": "till vänster om",
+    "right": "till höger om",
+    "behind": "bakom",
+    "in front": "framför",
+}
+_ENGLISH = {
+    "left": "to the left of",
+    "right": "to the right of",
+    "in front": "in front of",
+}
+
+
+@dataclass(frozen=True)
+class Vocabulary:
+    """The signs for what there is in a world, by what they are called here."""
+
+    nouns: Mapping[str, Record]
+    adjectives: Mapping[str, Record]
+    relations: Mapping[str, Record]
+
+    @property
+    def all(self) -> tuple[Record, ...]:
+        """All the words."""
+        kinds = self.nouns, self.adjectives, self.relations
+        return tuple(sign for signs in kinds for sign in signs.values())
+
+    @property
+    def colours(self) -> tuple[Record, ...]:
+        """The adjectives for colours, which are known without lessons."""
+        return tuple(self.adjectives[name] for name in COLOURS)
+
+    def noun_of(self, world: World, number: int) -> Record:
+        """The noun for a thing."""
+        return self.nouns[world.thing(number).kind]
+
+    def adjectives_of(self, world: World, number: int) -> tuple[Record, ...]:
+        """The adjectives that are true of a thing."""
+        thing = world.thing(number)
+        size = [SIZES[thing.size]] if thing.size in SIZES else []
+        return tuple(self.adjectives[it] for it in [thing.colour, *size])
+
+    def words_of(self, world: World, number: int) -> tuple[Record, ...]:
+        """The words that are true of a thing by itself."""
+        return self.noun_of(world, number), *self.adjectives_of(world, number)
+
+    def relation_of(
+        self, world: World, x: int, y: int, front: str = "away"
+    ) -> Record | None:
+        """The relation in which one thing stands to another, seen from there."""
+        way = direction(world, x, y, front)
+        if way is None:
+            return None
+        right, ahead = way
+        side = max(SIDES, key=lambda it: SIDES[it][0] * right + SIDES[it][1] * ahead)
+        return self.relations[side]
+
+
+def vocabulary(language: str = "en", types: DialogueTypes | None = None) -> Vocabulary:
+    """The words of a language, by default as the packaged theory has their meanings.
+
+    >>> vocabulary("sv").nouns["cup"].form
+    'kopp'
+    """
+    return (types or packaged_types()).derive(_vocabulary, language)
+
+
+def _vocabulary(types: DialogueTypes, language: str) -> Vocabulary:
+    forms = {"en": _ENGLISH, "sv": _SWEDISH}[language]
+    means = lexicon(language).means
+
+    def signs(kind: str, *names: str) -> dict[str, Record]:
+        found = {}
+        for name in names:
+            form = forms.get(name, name)
+            meant = means.get(form, "") if kind == "adjective" else ""
+            found[name] = types.sign(form, kind, means=meant)
+        return found
+
+    return Vocabulary(
+        signs("noun", *KINDS),
+        signs("adjective", *COLOURS, *SIZES.values()),
+        signs("relation", *SIDES),
+    )

@@ -1,0 +1,253 @@
+"""Words that learn: what a word is true of, as a value that lessons make another of.
+
+A word judges what is seen by how near it is to what it was said, or denied, to be true
+of. With p the sum of a kernel over the lessons that say so, and n over those that deny
+it, the degree is p / (p + n + r), where r is how little a word is sure of from afar. A
+word is judged by its own lessons only, so that what one word learns changes no other,
+and to take a lesson away is to have never had it.
+
+An adjective may speak of the colour or of the size: that aspect counts in which things
+that it is true of are alike, and those that it is not true of are not. A relation is
+taken to speak of the direction, until what it is true of is more alike in how far away
+it is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import combinations
+from typing import NamedTuple
+
+from kille.dialogue.meanings import word_of
+from kille.lab.worlds.perception import (
+    Vector,
+    colour,
+    direction,
+    distance,
+    number_of,
+    size,
+    traits,
+)
+from kille.lab.worlds.worlds import COLOURS, World
+from ttr import Record
+
+Observation = tuple[Vector, ...]
+"""What is seen, aspect by aspect."""
+
+ASPECTS = {
+    "noun": ("features",),
+    "adjective": ("colour", "size"),
+    "relation": ("configuration", "distance"),
+}
+"""What words of a kind may speak of."""
+
+BY_CHANCE = (0.32, 0.4)
+"""How alike in direction and in distance any two lessons of places are."""
+
+EXPECTED = 2
+"""So many pairs of lessons speak for the direction before there are any."""
+
+FARTHER = 0.6
+"""By which logarithm one thing may be farther away than another, and still as far."""
+
+UNKNOWN = (0.0, 1.0)
+BACKGROUND = 0.25
+"""How much speaks against every word, wherever nothing else does."""
+
+WIDTH = 0.3
+"""How far apart two things may be, and still be alike."""
+
+LEAST = 0.02
+"""How much an aspect always counts."""
+
+
+class Taught(NamedTuple):
+    """A lesson: its key, what was seen, and whether the word was said to hold of it.
+
+    Lessons of all words are numbered in the order in which they were given.
+    """
+
+    key: str
+    of: Observation
+    holds: bool = True
+    number: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Word:
+    """What a word is true of, as far as its lessons go; called to judge its predicate.
+
+    `prior` is what is known of it without any lesson, `count` how many it has had.
+
+    >>> from kille.dialogue.meanings import noun
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> things = Thing("cup", "red", place=(2, 3)), Thing("car", "red", place=(5, 3))
+    >>> world = World(things)
+    >>> cup = Word(noun("cup")).taught("o1", world.name)
+    >>> cup("o1", world.name), round(cup("o2", world.name), 3)
+    (0.8, ...)
+    """
+
+    sign: Record
+    lessons: tuple[Taught, ...] = ()
+    prior: tuple[Taught, ...] = ()
+    count: int = 0
+
+    @classmethod
+    def known(cls, sign: Record) -> Word:
+        """A word that was never taught: colours are known all the same."""
+        shade = COLOURS.get(word_of(sign).name.removeprefix("is_"))
+        if sign.kind != "adjective" or shade is None:
+            return cls(sign)
+        return cls(sign, prior=(Taught("", (shade,)),))
+
+    def __call__(self, *args: str) -> float | tuple[float, float]:
+        """The degree to which it is true of a thing, or two, in a look."""
+        of = observed(self.sign.kind, *args)
+        if of is None or not (self.lessons or self.prior):
+            return UNKNOWN if of is None or self.sign.kind == "adjective" else 0.0
+        return self.degree(of)
+
+    def degree(self, of: Observation) -> float:
+        """The degree to which it is true of what is seen."""
+        shares = self.weights()
+        return math.fsum(
+            share * self._degree(aspect, of) for aspect, share in enumerate(shares)
+        )
+
+    def taught(self, *args: str, holds: bool = True, number: int = 0) -> Word:
+        """The word after one more lesson, which is about this in a look."""
+        of = observed(self.sign.kind, *args)
+        if of is None:
+            raise ValueError(
+                f"{args} is not to be seen, so that nothing is to be learned"
+            )
+        count = self.count + 1
+        lesson = Taught(f"{word_of(self.sign).name}/{count}", of, holds, number)
+        return replace(self, lessons=(*self.lessons, lesson), count=count)
+
+    def without(self, key: str) -> Word:
+        """The word as if it had never had this lesson."""
+        left = tuple(lesson for lesson in self.lessons if lesson.key != key)
+        return replace(self, lessons=left)
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it is known to be true of anything."""
+        return any(lesson.holds for lesson in (*self.prior, *self.lessons))
+
+    def nearest(self, of: Observation) -> Taught | None:
+        """Of the lessons that say that it holds, the one most like what is seen."""
+        holding = [lesson for lesson in self.lessons if lesson.holds]
+        return max(holding, key=lambda it: self._alike(it.of, of), default=None)
+
+    def cues(self, of: Observation) -> Sequence[tuple[str, float]]:
+        """What speaks for it, and how much of all that does: the most first."""
+        speaks = {
+            name: share * self._degree(aspect, of)
+            for aspect, (name, share) in enumerate(
+                zip(ASPECTS[self.sign.kind], self.weights(), strict=False)
+            )
+        }
+        whole = math.fsum(speaks.values())
+        shares = [(name, it / whole) for name, it in speaks.items() if it > 0.0]
+        return sorted(shares, key=lambda it: -it[1])
+
+    def weights(self) -> Sequence[float]:
+        """How much of it each aspect counts."""
+        return self._weights
+
+    @cached_property
+    def _weights(self) -> Sequence[float]:
+        if self.prior:
+            return (1.0,)
+        kinds = ASPECTS[self.sign.kind]
+        if len(kinds) == 1:
+            return (1.0,)
+        agreeing = self._placing if self.sign.kind == "relation" else self._agreement
+        agreement = [agreeing(aspect) for aspect in range(len(kinds))]
+        whole = math.fsum(agreement)
+        return [one / whole for one in agreement] if whole else (1.0, 0.0)
+
+    def _placing(self, aspect: int) -> float:
+        """How much more alike than by chance the places are that it is true of.
+
+        At first it is the direction that is expected to be alike, and nothing else.
+        """
+        pairs = combinations([it.of for it in self.lessons if it.holds], 2)
+        same = [self.alike(one[aspect], other[aspect], aspect) for one, other in pairs]
+        expected = EXPECTED if aspect == 0 else 0.0
+        mean = (math.fsum(same) + expected) / (len(same) + EXPECTED)
+        return max(0.0, (mean - BY_CHANCE[aspect]) / (1.0 - BY_CHANCE[aspect]))
+
+    def _agreement(self, aspect: int) -> float:
+        """How well an aspect tells what the word is true of from what it is not."""
+        same, apart = [], []
+        for one, other in combinations(self.lessons, 2):
+            if one.holds and other.holds:
+                same.append(self.alike(one.of[aspect], other.of[aspect], aspect))
+            elif one.holds or other.holds:
+                apart.append(self.alike(one.of[aspect], other.of[aspect], aspect))
+        return max(LEAST, _mean(same, 1.0) - _mean(apart, 0.0))
+
+    def _degree(self, aspect: int, of: Observation) -> float:
+        says, denies = (self.speaking(aspect, of, holds) for holds in (True, False))
+        return says / (says + denies + BACKGROUND)
+
+    def speaking(self, aspect: int, of: Observation, holds: bool) -> float:
+        """How much the lessons that say that it holds, or does not, speak of this."""
+        seen = of[aspect]
+        lessons = (it for it in (*self.prior, *self.lessons) if it.holds is holds)
+        return math.fsum(self.alike(it.of[aspect], seen, aspect) for it in lessons)
+
+    def _alike(self, one: Observation, other: Observation) -> float:
+        shares = self.weights()
+        return math.fsum(
+            w * self.alike(one[i], other[i], i) for i, w in enumerate(shares)
+        )
+
+    def alike(self, one: Vector, other: Vector, aspect: int) -> float:
+        """How alike two things are in an aspect: the kernel, 1 for the same."""
+        if self.sign.kind != "relation":
+            return _gaussian(one, other)
+        return (_cosine, _as_far)[aspect](one, other)
+
+
+def observed(kind: str, *args: str) -> Observation | None:
+    """What is seen of what a word is said of; None if it is not in view."""
+    *things, look = args[:3] if kind == "relation" else args
+    world = World.named(look)
+    numbers = [number_of(x) for x in things]
+    if world is None or not all(number in world for number in numbers):
+        return None
+    match kind:
+        case "noun":
+            return (traits(world, numbers[0]),)
+        case "adjective":
+            return colour(world, numbers[0]), size(world, numbers[0])
+    way = direction(world, numbers[0], numbers[1], args[3])
+    return None if way is None else (way, (distance(world, *numbers),))
+
+
+def _cosine(a: Vector, b: Vector) -> float:
+    """How alike two directions are: the cosine of the angle between them, if any."""
+    dot = math.fsum(p * q for p, q in zip(a, b, strict=True))
+    return max(0.0, dot) / ((math.hypot(*a) * math.hypot(*b)) or 1.0)
+
+
+def _as_far(a: Vector, b: Vector) -> float:
+    """How alike two distances are."""
+    farther = math.log(a[0] / b[0])
+    return math.exp(-((farther / FARTHER) ** 2))
+
+
+def _gaussian(a: Vector, b: Vector) -> float:
+    far = math.fsum((p - q) ** 2 for p, q in zip(a, b, strict=True))
+    return math.exp(-far / WIDTH**2)
+
+
+def _mean(values: Sequence[float], none: float) -> float:
+    return math.fsum(values) / len(values) if values else none

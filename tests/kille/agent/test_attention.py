@@ -1,0 +1,89 @@
+"""What is looked at: things keep their numbers from look to look."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from kille.agent.attention import Gaze, View
+from kille.scene import Frame
+from kille.sensors.sensor import SensorError
+
+sys.path.append(str(Path(__file__).parents[1] / "perception"))
+
+from tabletop import Camera, Card, frame_of, share
+
+NEAR, MIDDLE, FAR = Card(0.15, 0.7), Card(-0.15, 0.8), Card(0.02, 1.0)
+NEW = Card(0.0, 0.62, width=0.06, height=0.06)
+
+
+def gaze_at(*scenes: tuple[Card, ...]) -> Gaze:
+    """A gaze at a table on which things come and go from look to look."""
+    return Gaze(Camera(*(frame_of(*cards) for cards in scenes)), scans=1)
+
+
+def numbers(view: View, frame: Frame) -> list[int]:
+    """The number in view of each thing in the frame, in the order of its outlines."""
+    return [
+        1 + int(np.argmax([share(mask, it.region) for it in view.look.percepts]))
+        for mask in frame.outlines.values()
+    ]
+
+
+def test_things_are_numbered_by_nearness_at_first() -> None:
+    gaze = gaze_at((FAR, NEAR, MIDDLE))
+    view = gaze.look()
+    assert numbers(view, view.look.frame) == [3, 1, 2]
+    assert view.focus == 1
+
+
+def test_what_stays_keeps_its_number_when_something_new_comes() -> None:
+    gaze = gaze_at((NEAR, MIDDLE), (NEAR, MIDDLE, NEW))
+    gaze.look()
+    view = gaze.look()
+    assert numbers(view, view.look.frame) == [1, 2, 3]
+    assert view.focus == 3
+
+
+def test_what_is_new_gets_the_number_of_what_went() -> None:
+    gaze = gaze_at((NEAR, MIDDLE, FAR), (NEW, MIDDLE, FAR))
+    gaze.look()
+    view = gaze.look()
+    assert numbers(view, view.look.frame) == [1, 2, 3]
+
+
+def test_later_things_move_up_when_one_goes() -> None:
+    gaze = gaze_at((NEAR, MIDDLE, FAR), (NEAR, FAR))
+    gaze.look()
+    view = gaze.look()
+    assert numbers(view, view.look.frame) == [1, 2]
+
+
+def test_the_focus_stays_where_it_was_while_the_same_things_are_in_view() -> None:
+    level = Card(0.15, 0.8), Card(-0.15, 0.8)
+    gaze = Gaze(Camera(*(frame_of(*level, noise=0.004, seed=i) for i in range(6))), 1)
+    views = [gaze.look() for _ in range(6)]
+    assert {view.focus for view in views} == {views[0].focus}
+    assert all(numbers(it, it.look.frame) == [1, 2] for it in views) or all(
+        numbers(it, it.look.frame) == [2, 1] for it in views
+    )
+
+
+def test_pointing_by_number_is_at_the_thing_of_the_latest_view() -> None:
+    gaze = gaze_at((NEAR, MIDDLE), (NEAR, MIDDLE, NEW), (NEAR, MIDDLE, NEW))
+    gaze.look()
+    gaze.look()
+    gaze.point("#2")
+    view = gaze.look()
+    assert view.focus == 2
+    assert numbers(view, view.look.frame) == [1, 2, 3]
+
+
+def test_there_is_nothing_to_point_at_on_an_empty_table() -> None:
+    gaze = gaze_at(())
+    assert gaze.look().focus is None
+    with pytest.raises(SensorError, match="nothing is in view"):
+        gaze.point("1")

@@ -1,0 +1,67 @@
+"""The tutor says everything that he has words for, and knows what is true."""
+
+from string import Formatter
+
+import pytest
+
+from kille.dialogue.language import LANGUAGES, understand
+from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import denied, kind_in, noun, placed, predicate_at, set_at
+from kille.lab.tutors.exploring import happenings, is_true
+from kille.lab.worlds.sayings import acts, sayings
+from kille.lab.worlds.worlds import Thing, World, drawn
+from ttr import RecordType
+
+WORLD = drawn(1)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_move_is_said_and_understood(language):
+    for act in acts(language):
+        said = sayings(language, act, WORLD)
+        assert said, f"the tutor never says {act}"
+        for one in said[::7]:
+            heard = understand(one.text, language)
+            found = {
+                predicate_at(it.type, "e").name
+                for sentence in heard
+                for it in sentence.readings
+            }
+            assert act in found, one.text
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_all_slots_are_filled(language):
+    for act, wordings in lexicon(language).tells.items():
+        slots = {it for text in wordings for _, it, _, _ in Formatter().parse(text)}
+        texts = [one.text for one in sayings(language, act, WORLD)]
+        assert not any("{" in text for text in texts)
+        assert len(texts) > 1 or not slots - {None, "by"}
+
+
+def test_he_knows_what_is_true():
+    world = World(
+        (Thing("cup", "red", place=(2, 3)), Thing("box", "red", place=(5, 3)))
+    )
+
+    def naming(form, x):
+        content = set_at(placed(noun(form), "Naming"), "target.x", x)
+        assert kind_in("Naming") == "noun"
+        assert isinstance(content, RecordType)
+        return content
+
+    assert is_true("en", world, naming("cup", "o1"))
+    assert not is_true("en", world, naming("cup", "o2"))
+    assert is_true("en", world, denied(naming("cup", "o2")))
+    assert not is_true("en", world.moved(1, None), naming("cup", "o1"))
+
+
+def test_things_are_put_taken_moved_and_pointed_at():
+    after = happenings(WORLD)
+    views = {it.in_view for it in after}
+    assert any(len(view) < len(WORLD.in_view) for view in views)
+    assert any(len(view) > len(WORLD.in_view) for view in views)
+    assert {it.focus for it in after} >= set(WORLD.in_view)
+    assert any(not it.deep for it in after)
+    assert () in views
+    assert happenings(WORLD) == after

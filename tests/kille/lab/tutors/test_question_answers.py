@@ -1,0 +1,42 @@
+"""What answers which question, by itself."""
+
+import pytest
+
+from kille.lab.tutors.question_answers import answers_in
+from kille.lab.worlds.games import simulated
+from kille.lab.worlds.worlds import drawn
+from ttr import record
+
+GAME = simulated(drawn(1))
+ONE, TWO, THREE = ([record(n=float(i)) for i in range(n)] for n in (1, 2, 3))
+
+
+@pytest.mark.parametrize(
+    ("text", "ask", "options", "answers"),
+    [
+        ("That is correct.", "OfferWord", TWO, True),
+        ("That is wrong.", "OfferWord", TWO, True),
+        ("Hello.", "OfferWord", TWO, False),
+        ("That is correct.", "AskHeard", ONE, True),
+        ("That is correct.", "AskHeard", TWO, False),
+        ("That is wrong.", "AskReferent", TWO, True),
+        ("The first one.", "AskReferent", TWO, True),
+        ("The third one.", "AskReferent", TWO, False),
+        ("The third one.", "AskReferentAgain", THREE, True),
+        ("The red one.", "AskReferent", TWO, False),
+        ("From your side.", "AskFrame", TWO, True),
+        ("As the cup sees it.", "AskFrame", TWO, False),
+        ("That is correct.", "AskFrame", TWO, False),
+    ],
+)
+def test_what_answers_what(text, ask, options, answers):
+    (heard,) = (
+        step.event for step in GAME.take(GAME.begin(), GAME.hear(text)).trace[:1]
+    )
+    assert answers_in("en")(heard, record(ask=ask, options=options)) is answers
+
+
+def test_what_happens_and_is_not_said_answers_nothing():
+    asked = record(ask="OfferWord", options=TWO)
+    assert not answers_in("en")(record(floor="tutor"), asked)
+    assert not answers_in("en")("Yes.", asked)

@@ -1,0 +1,53 @@
+"""Games that begin when some lessons have been given."""
+
+import pytest
+
+from kille.dialogue.meanings import named
+from kille.lab.worlds.games import simulated, words
+from kille.lab.worlds.schooling import rested, schooled
+from kille.lab.worlds.worlds import drawn
+
+WORLD = drawn(1)
+BLANK = simulated(WORLD)
+AFTER = schooled(BLANK)
+
+
+@pytest.mark.parametrize("language", ["en", "sv"])
+@pytest.mark.parametrize("times", [1, 3])
+def test_all_that_is_in_view_was_named_and_placed(language, times):
+    game = schooled(simulated(WORLD, language=language), language, times)
+    lessons = [len(it.lessons) for it in words(game.model) if it.sign.kind == "noun"]
+    assert lessons == [times] * len(WORLD.in_view)
+    assert len(game.start.private.relations) > 1
+    assert game.model.judge(game.start, named("State")).holds
+
+
+def test_nothing_was_said_of_what_is_in_view_now_but_a_front():
+    assert AFTER.start.view.things == BLANK.start.view.things
+    assert not AFTER.start.shared.here
+    assert len(AFTER.start.shared.turned) == 1
+
+
+def test_on_another_day_words_are_known_and_talk_is_not():
+    game = rested(AFTER)
+    private, shared = game.start.private, game.start.shared
+    for kind in ("nouns", "adjectives", "relations", "colours"):
+        assert private[kind] == AFTER.start.private[kind]
+    assert not private.lessons
+    assert not shared.commitments
+    assert not shared.turned
+    taught = {it.sign: it.lessons for it in private.taught}
+    assert taught == {
+        it.sign: float(len(it.lessons)) for it in words(game.model) if it.lessons
+    }
+
+
+def test_the_latest_lesson_of_another_day_is_taken_back():
+    game = rested(AFTER)
+    turn = game.take(game.begin(), game.hear("Forget the last thing."))
+    (undone,) = turn.said[0].sit.undone
+    before, after = (
+        [x.key for it in words(model) for x in it.lessons]
+        for model in (game.model, turn.model)
+    )
+    assert set(before) - set(after) == {undone.key}
