@@ -27,6 +27,9 @@ from ttr.types import TypeNode
 
 Echo = Callable[[str], None]
 
+Make = Callable[..., Agent]
+"""Makes a robot of a sensor and a memory; `language` is that of the story."""
+
 _DEFAULT_SCENE = "synthetic:empty"
 
 
@@ -34,28 +37,25 @@ def play(
     story: Story,
     memory: Memory | None = None,
     echo: Echo = lambda line: None,
-    theory: Theory | None = None,
+    make: Make = Agent,
 ) -> Mismatch | None:
     """Plays a story to a robot with this memory, an empty one if there is none.
 
-    The robot has this theory, by default the packaged one.
-
     The first difference, or None if there is none. `echo` is given each line as it is
-    played. Raises StoryError for a line that cannot be played.
+    played; `make` makes the robot, by default one of the packaged theory. Raises
+    StoryError for a line that cannot be played.
     """
     if story.game is not None:
         raise story.game.wrong("a story that names its game is played by `ttr play`")
     try:
-        robot = Agent(
-            _first_scene(story), memory, language=_language(story), theory=theory
-        )
+        robot = make(_first_scene(story), memory, language=story_language(story))
     except SensorError as error:
         raise story.lines[0].wrong(str(error)) from error
     with robot:
         return _Playing(robot, echo).play(story)
 
 
-def _language(story: Story) -> str:
+def story_language(story: Story) -> str:
     """The language of a story: that of its file's name, as in `naming.sv.dlg`."""
     suffixes = [suffix.lstrip(".") for suffix in Path(story.lines[0].file).suffixes]
     return next((it for it in suffixes if it in LANGUAGES), LANGUAGES[0])

@@ -167,13 +167,7 @@ def _add_talk(commands: Any) -> None:
         default="paper",
         help="how certain it sounds: the paper's wordings, or four bands (paper)",
     )
-    talk.add_argument(
-        "--theory",
-        metavar="T",
-        help="the theory that it has: FILE.ttr, a folder that `kille init` made, or "
-        "STUDY.toml:NAME (the packaged one)",
-    )
-    add_consent(talk)
+    _add_theory(talk)
     talk.add_argument("--trace", action="store_true", help="show the judgements")
     talk.add_argument(
         "--speech",
@@ -194,6 +188,16 @@ def _add_talk(commands: Any) -> None:
     talk.set_defaults(run=_talk)
 
 
+def _add_theory(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--theory",
+        metavar="T",
+        help="the theory that it has: FILE.ttr, a folder that `kille init` made, or "
+        "STUDY.toml:NAME (the packaged one)",
+    )
+    add_consent(command)
+
+
 def _add_replay(commands: Any) -> None:
     replay = commands.add_parser("replay", help="play dialogue files, compare answers")
     replay.add_argument("files", nargs="+", type=Path, metavar="FILE.dlg")
@@ -203,6 +207,7 @@ def _add_replay(commands: Any) -> None:
     replay.add_argument(
         "--junit", type=Path, metavar="FILE", help="write a report for CI (.xml)"
     )
+    _add_theory(replay)
     replay.set_defaults(run=_replay)
 
 
@@ -219,6 +224,7 @@ def _add_ros(commands: Any) -> None:
             for name in ("lang", "mode", "wording"):
                 shown = name[0].upper()
                 node.add_argument(f"--{name}", metavar=shown, help="as in kille talk")
+            _add_theory(node)
         if part in ("perception", "dialogue", "all"):
             waiting = "how long to wait for other nodes (10)"
             node.add_argument("--patience", type=float, metavar="SECONDS", help=waiting)
@@ -491,7 +497,8 @@ def _talk(options: argparse.Namespace) -> int:
     if options.theory:
         from functools import partial
 
-        from kille.interfaces.experiment.checking import MISTAKES, complain_all
+        from kille.interfaces.experiment.checking import MISTAKES
+        from kille.interfaces.terminal import complain_all
         from kille.interfaces.theories import robot_of, theory_named
         from kille.lab.theories import language_of
 
@@ -524,7 +531,16 @@ def _replay(options: argparse.Namespace) -> int:
     from kille.interfaces.replay import as_json, in_brief, in_full, replay
 
     report = in_brief if options.quiet else in_full
-    return replay(options.files, as_json if options.json else report, options.junit)
+    if options.json:
+        report = as_json
+    if not options.theory:
+        return replay(options.files, report, options.junit)
+    from functools import partial
+
+    from kille.interfaces.theories import maker_of
+
+    robots = partial(maker_of, options.theory, consent_of(options))
+    return replay(options.files, report, options.junit, robots)
 
 
 def _record(options: argparse.Namespace) -> int:
@@ -686,7 +702,9 @@ def _ros(options: argparse.Namespace) -> int:
     opened = OPENING[options.over]
     if options.part == "talk":
         return talk_as_node(opened, options.remapped)
-    return run_nodes(opened, options.part, vars(options), options.remapped)
+    return run_nodes(
+        opened, options.part, vars(options), options.remapped, consent_of(options)
+    )
 
 
 def _doctor(options: argparse.Namespace) -> int:

@@ -7,15 +7,26 @@ import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import Any, Protocol
 
 from kille.bus import Bus, BusError, Text
-from kille.interfaces.terminal import FAILED, FINE, complain, console, memory_path
+from kille.interfaces.terminal import (
+    FAILED,
+    FINE,
+    complain,
+    complain_all,
+    console,
+    memory_path,
+)
+from kille.lab.errors import StudyError
 from kille.memory import MemoryFileError
 from kille.nodes.topics import PROBLEMS
 from kille.sensors.sensor import SensorError
+from ttr.safety.consent import Consent
 
 PARTS = ("sensor", "perception", "dialogue")
 """What the robot is made of, from the senses on."""
@@ -29,6 +40,7 @@ DEFAULTS: Mapping[str, Any] = {
     "lang": "en",
     "mode": "assisted",
     "wording": "paper",
+    "theory": "",
     "patience": 10.0,
 }
 """The parameters of nodes, with what is meant where they are not set."""
@@ -83,21 +95,31 @@ OPENING: Mapping[str, Opening] = {"ros": _over_ros, "ros2": _over_ros2}
 
 
 def run_nodes(
-    opened: Opening, part: str, options: Mapping[str, Any], arguments: Sequence[str]
+    opened: Opening,
+    part: str,
+    options: Mapping[str, Any],
+    arguments: Sequence[str],
+    consent: Consent,
 ) -> int:
     """Runs a part of the robot, or all of it, until it is told to end; the exit code.
 
-    What is not among the options is a parameter of the node.
+    What is not among the options is a parameter of the node. Others on the network can
+    set parameters: a theory that is named by one runs no Python, whatever the user
+    consents to.
     """
+    if not options.get("theory"):
+        consent = replace(consent, python=False)
     try:
         bus = opened("kille" if part == ALL else f"kille_{part}", arguments)
         with _ended_by_terminate(), ExitStack() as running:
             running.callback(bus.close)
             bus.subscribe(PROBLEMS, _print_event)
             for one in PARTS if part == ALL else (part,):
-                running.callback(_STARTS[one](bus, _setting(bus, options)))
+                running.callback(_STARTS[one](bus, _setting(bus, options), consent))
             console().print(f"{bus.node} is running; Ctrl-C ends it.", markup=False)
             bus.wait()
+    except StudyError as error:
+        return complain_all(error)
     except (BusError, SensorError, MemoryFileError) as error:
         return complain(error)
     return FINE
@@ -125,7 +147,7 @@ def launch(arguments: Sequence[str]) -> int:
 # --- the parts -----------------------------------------------------------------------
 
 
-def _sensor(bus: Bus, setting: Setting) -> Callable[[], None]:
+def _sensor(bus: Bus, setting: Setting, consent: Consent) -> Callable[[], None]:
     """Starts the sensor node; what ends it."""
     from kille.nodes.sensor import Sensing
     from kille.sensors.sources import open_sensor
@@ -141,27 +163,30 @@ def _sensor(bus: Bus, setting: Setting) -> Callable[[], None]:
     return end
 
 
-def _perception(bus: Bus, setting: Setting) -> Callable[[], None]:
+def _perception(bus: Bus, setting: Setting, consent: Consent) -> Callable[[], None]:
     """Starts the perception node; what ends it."""
     from kille.nodes.perception import Seeing
 
     return Seeing(bus, patience=setting("patience") / 2).close
 
 
-def _dialogue(bus: Bus, setting: Setting) -> Callable[[], None]:
+def _dialogue(bus: Bus, setting: Setting, consent: Consent) -> Callable[[], None]:
     """Starts the dialogue node; what ends it."""
     from kille.agent.agent import Agent
+    from kille.interfaces.theories import robot_of, theory_named
     from kille.nodes.dialogue import Talking
     from kille.nodes.remote_sensor import Eyes
 
     patience = setting("patience")
     memory = memory_path(Path(setting("memory")) if setting("memory") else None)
-    how = {
-        "language": setting("lang"),
-        "mode": setting("mode"),
-        "wording": setting("wording"),
-    }
-    return Talking(bus, lambda: Agent(Eyes(bus, patience), memory, **how)).close
+    language, mode, wording = map(setting, ("lang", "mode", "wording"))
+    make: Callable[..., Agent] = partial(
+        Agent, language=language, mode=mode, wording=wording
+    )
+    if named := setting("theory"):
+        theory = theory_named(named, language, mode, wording, consent)
+        make = partial(robot_of, theory)
+    return Talking(bus, lambda: make(Eyes(bus, patience), memory)).close
 
 
 _STARTS = {"sensor": _sensor, "perception": _perception, "dialogue": _dialogue}

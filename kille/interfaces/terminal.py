@@ -90,6 +90,13 @@ def complain(problem: object, code: int = WRONG_USE) -> int:
     return code
 
 
+def complain_all(error: Exception) -> int:
+    """Print all `faults` of an error, each in a line, or the error; the exit code."""
+    for fault in getattr(error, "faults", [error]):
+        complain(fault)
+    return WRONG_USE
+
+
 def memory_path(given: Path | None) -> Path:
     """The memory file to use: the one named, or else the user's own."""
     from kille.memory import default_path

@@ -9,7 +9,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from kille.agent.agent import Agent
@@ -22,6 +24,8 @@ from kille.lab.study_files import read
 from kille.lab.study_files.consent import check_allowed
 from kille.lab.study_files.theory_trials import troubles
 from kille.lab.theories import agent_of
+from kille.memory import Memory
+from kille.sensors.sensor import Sensor
 from ttr.safety.consent import Consent
 
 
@@ -43,9 +47,22 @@ def theory_named(
     return theory
 
 
-def robot_of(theory: Theory, sensor: str, memory: Path, **_: str) -> Agent:
+def robot_of(
+    theory: Theory, sensor: str | Sensor, memory: Memory | Path | None, **_: str
+) -> Agent:
     """The robot of a theory; its language, mode and wording are those of that."""
     return agent_of(theory, sensor, memory=memory)
+
+
+def maker_of(named: str, consent: Consent, language: str) -> Callable[..., Agent]:
+    """What makes robots of the theory of this name that speak a language.
+
+    `StudyError` where the theory cannot be used, or has another language.
+    """
+    theory = theory_named(named, language, "assisted", "paper", consent)
+    if theory.language != language:
+        raise StudyError([f"{named} speaks {theory.language}, not {language}"])
+    return partial(robot_of, theory)
 
 
 def _of_study(file: Path, name: str, consent: Consent) -> Theory:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from kille.interfaces.experiment.people import people_summary
-from kille.interfaces.terminal import FINE, WRONG_USE, complain, console
+from kille.interfaces.terminal import FINE, complain, complain_all, console
 from kille.lab.errors import StudyError
 from kille.lab.study import Study
 from kille.lab.study_files import checked
@@ -39,13 +39,6 @@ def tell_doubts(study: Study) -> None:
     """Report what is no mistake, but probably not intended."""
     for it in doubts(study):
         complain(f"{it} (this can be played)")
-
-
-def complain_all(error: StudyError | TTRError) -> int:
-    """Report everything that is wrong, each in a line; returns the exit code."""
-    for fault in getattr(error, "faults", [error]):
-        complain(fault)
-    return WRONG_USE
 
 
 def in_numbers(study: Study) -> str:

@@ -8,9 +8,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.text import Text
 
-from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.experiment.checking import MISTAKES
 from kille.interfaces.grids import print_table
-from kille.interfaces.terminal import FINE, console
+from kille.interfaces.terminal import FINE, complain_all, console
 from kille.lab import log, reports
 from kille.lab.log import write_tables
 from kille.lab.results import Result

@@ -12,7 +12,6 @@ from typing import TypeAlias
 from kille.interfaces.experiment.bars import bar
 from kille.interfaces.experiment.checking import (
     MISTAKES,
-    complain_all,
     in_numbers,
     tell_doubts,
 )
@@ -20,7 +19,7 @@ from kille.interfaces.experiment.logs import study_of_log
 from kille.interfaces.experiment.people import crew_for, has_people
 from kille.interfaces.experiment.reporting import print_summary
 from kille.interfaces.experiment.stopping import stoppable
-from kille.interfaces.terminal import FAILED, FINE, complain, console
+from kille.interfaces.terminal import FAILED, FINE, complain, complain_all, console
 from kille.lab import log, reports
 from kille.lab.errors import StudyError
 from kille.lab.log import write_tables

@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -141,7 +142,7 @@ def test_a_robot_of_another_theory_never_asks_for_the_packaged_one(
     renamed: DialogueTypes, without_packaged: None
 ) -> None:
     for one in read_stories(STORIES / "offering.dlg"):
-        assert play(one, theory=renamed.theory) is None
+        assert play(one, make=partial(Agent, theory=renamed.theory)) is None
 
 
 # --- many theories at once -----------------------------------------------------------
@@ -284,7 +285,7 @@ OF_THE_PACKAGED = {
 }
 """What is about the packaged theory."""
 
-ITS_OWN = {"properties.py", "sayings.py", "words.py"}
+ITS_OWN = {"dialogue_properties.py", "sayings.py", "words.py"}
 """Modules of tutors who are simulated: they speak by the packaged theory."""
 
 
@@ -301,7 +302,7 @@ def test_only_tutors_speak_by_the_packaged_theory() -> None:
 
 
 def test_what_needs_types_in_a_game_is_given_them() -> None:
-    files_ = [*(ROOM / "dialogue").rglob("*.py"), ROOM / "agent.py", ROOM / "body.py"]
+    files_ = [*(ROOM / "dialogue").rglob("*.py"), *(ROOM / "agent").rglob("*.py")]
     trees = {file: ast.parse(file.read_bytes()) for file in files_}
     wanting = {
         (module_of(file), node.name)

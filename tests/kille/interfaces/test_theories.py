@@ -217,3 +217,40 @@ def test_python_of_a_study_is_run_only_with_consent(kille: Run, study: Path) -> 
     assert done.code == 2
     assert "own.py" in done.err
     assert not (study.parent / "ran").exists()
+
+
+# --- other commands that have a robot ------------------------------------------------
+
+
+def test_stories_are_played_to_the_robot_of_a_theory(
+    kille: Run, study: Path, tmp_path: Path
+) -> None:
+    story = tmp_path / "greeting.dlg"
+    story.write_text("U> Hello.\nS> Goodbye.\n")
+    assert kille("replay", str(story)).code == 1
+    for named in (study.parent / "mine.ttr", f"{study}:bold"):
+        done = kille("replay", str(story), "--theory", str(named))
+        assert (done.code, done.err) == (0, "")
+
+
+def test_a_story_is_played_in_its_own_language(
+    kille: Run, study: Path, tmp_path: Path
+) -> None:
+    for name, text in (("a.dlg", "Hello."), ("a.sv.dlg", "Hej.")):
+        (tmp_path / name).write_text(f"U> {text}\nS~ ...\n")
+    mine, stories = str(study.parent / "mine.ttr"), ("a.dlg", "a.sv.dlg")
+    done = kille("replay", *(str(tmp_path / it) for it in stories), "--theory", mine)
+    assert "Goodbye." in done.out
+    assert "Hej då." in done.out
+    done = kille("replay", str(tmp_path / "a.sv.dlg"), "--theory", f"{study}:bold")
+    assert (done.code, done.complaint) == (2, f"kille: {study}:bold speaks en, not sv")
+
+
+def test_a_story_cannot_be_played_to_what_is_no_theory(
+    kille: Run, study: Path, tmp_path: Path
+) -> None:
+    story = tmp_path / "greeting.dlg"
+    story.write_text("U> Hello.\nS> Goodbye.\n")
+    done = kille("replay", str(story), "--theory", f"{study}:blod")
+    assert (done.code, done.out) == (2, "")
+    assert "has no theory blod: did you mean bold?" in done.complaint
