@@ -188,7 +188,10 @@ class Stage:
             case "dlg":
                 story = self.folder / f"{number}.dlg"
                 story.write_text(block.text, encoding="utf-8")
-                code, printed = self.program("kille", "replay", "--quiet", str(story))
+                theory = ("--theory", block.file) if block.file else ()
+                code, printed = self.program(
+                    "kille", "replay", "--quiet", str(story), *theory
+                )
                 assert code == 0, printed
             case "console":
                 for command in commands(block):
@@ -407,7 +410,15 @@ def seeing() -> dict[str, set[str]]:
 
 def talking() -> dict[str, set[str]]:
     """The public names of what a game of one's own is made of, and played with."""
-    dialogue = ("tutoring", "moves", "rules", "meanings", "reference", "describing")
+    dialogue = (
+        "games",
+        "tutoring",
+        "moves",
+        "rules",
+        "meanings",
+        "reference",
+        "describing",
+    )
     more = ("language", "strategies")
     worlds = ("worlds", "perception", "games", "schooling")
     named = [f"kille.dialogue.{module}" for module in (*dialogue, *more)]

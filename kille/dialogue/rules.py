@@ -14,15 +14,15 @@ from types import FunctionType
 from typing import NoReturn, TypeAlias
 
 from kille.dialogue.meanings import DialogueTypes, any_of
-from kille.dialogue.moves import unanswered
-from ttr import Rec, RecordType
+from kille.dialogue.moves import plan, unanswered
+from ttr import Rec, Record, RecordType
 from ttr.errors import UpdateError
 from ttr.probability import CERTAIN
 from ttr.updates import Algorithm, ByClass, Maybe, Repeat, Rule
 from ttr.updates import rule as rule_on
 from ttr.updates.rules import Effect
 
-__all__ = ["NamedRule", "bind", "rule"]
+__all__ = ["NamedRule", "bind", "reply", "rule"]
 
 When: TypeAlias = str | Callable[[DialogueTypes], RecordType]
 """A condition: the name of a record type, or what makes one of the types."""
@@ -105,6 +105,21 @@ def rule(
         )
 
     return make_rule
+
+
+def reply(move: str, act: str, doc: str) -> NamedRule:
+    """The rule that answers every such move by this act, without a thought.
+
+    >>> print(reply("Thank", "Welcome", "Thanks are acknowledged.").name)
+    Welcome to Thank
+    """
+
+    def answer(s: Record, *, types: DialogueTypes) -> Record:
+        return plan(s, act, types=types)
+
+    answer.__name__ = f"{act} to {move}"
+    answer.__doc__ = doc
+    return rule(answers=move)(answer)
 
 
 def bind(algorithm: Algorithm, types: DialogueTypes) -> Algorithm:

@@ -3,7 +3,7 @@
 | `--theory` | has |
 | --- | --- |
 | `FILE.ttr` | the types of this file |
-| `FOLDER` | what there is of the files that `kille init` writes |
+| `FOLDER` | what there is of the files that `kille init` writes; RULES of `rules.py` |
 | `STUDY.toml:NAME` | all that the theory has in the study |
 """
 
@@ -27,6 +27,9 @@ from kille.lab.theories import agent_of
 from kille.memory import Memory
 from kille.sensors.sensor import Sensor
 from ttr.safety.consent import Consent
+
+RULES = "rules.py"
+"""The file of a folder that has rules, as `RULES`."""
 
 
 def theory_named(
@@ -89,12 +92,14 @@ def _of_files(place: Path, theory: Theory, consent: Consent) -> Theory:
     own = [it.format(theory.language) for it in FILES]
     has_words = any((place / it).is_file() for it in (*own, STRATEGIES))
     has_types = (place / SOURCE).is_file()
-    if not (has_words or has_types):
+    has_rules = (place / RULES).is_file()
+    if not (has_words or has_types or has_rules):
         names = ", ".join((SOURCE, *own, STRATEGIES))
         raise StudyError([f"{place} has none of {names}: `kille init` writes them"])
     return replace(
         theory,
         grammar=place if has_words else None,
         meanings=str(place / SOURCE) if has_types else "",
-        consent=consent,
+        rules=f"{place / RULES}:RULES" if has_rules else "",
+        consent=consent.with_folders(place),
     )

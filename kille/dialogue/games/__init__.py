@@ -34,7 +34,9 @@ from kille.dialogue.games.placing import PLACING
 from kille.dialogue.games.referring import REFERRING
 from kille.dialogue.games.several import SEVERAL
 from kille.dialogue.games.surveying import SURVEYING
-from ttr.updates import first, maybe, seq
+from ttr.updates import Algorithm, Rule, first, maybe, seq
+
+__all__ = ["TUTORING", "games_with"]
 
 ANSWERING = first(
     ACKNOWLEDGING,
@@ -57,25 +59,37 @@ ANSWERING = first(
 )
 """What answers a move of the tutor's whose phrases are resolved."""
 
-TUTORING = first(
-    seq(
-        LISTENING,
-        first(
-            REPEATING,
-            MISHEARD,
-            OFFER_ANSWERED,
-            SETTLING,
-            seq(maybe(CLARIFYING), maybe(OFFERING)),
+
+def games_with(*answers: Rule) -> Algorithm:
+    """The games of tutoring, and rules for what no rule of theirs answers.
+
+    >>> from kille.dialogue.rules import reply
+    >>> games = games_with(reply("Okay", "Part", "Whoever says OK wants to leave."))
+    >>> games == TUTORING, games_with() == TUTORING
+    (False, True)
+    """
+    return first(
+        seq(
+            LISTENING,
+            first(
+                REPEATING,
+                MISHEARD,
+                OFFER_ANSWERED,
+                SETTLING,
+                seq(maybe(CLARIFYING), maybe(OFFERING)),
+            ),
+            maybe(FRAMING),
+            maybe(REFERRING),
+            maybe(ASKING_FRAME),
+            maybe(first(*ANSWERING.parts, *answers)),
+            maybe(EXEMPLIFYING),
         ),
-        maybe(FRAMING),
-        maybe(REFERRING),
-        maybe(ASKING_FRAME),
-        maybe(ANSWERING),
-        maybe(EXEMPLIFYING),
-    ),
-    SAID,
-    GLANCED,
-    seq(STAYING, SEEN, maybe(IDLING)),
-    seq(SEEN, maybe(INITIATING)),
-)
+        SAID,
+        GLANCED,
+        seq(STAYING, SEEN, maybe(IDLING)),
+        seq(SEEN, maybe(INITIATING)),
+    )
+
+
+TUTORING = games_with()
 """What becomes of every event: something heard, said, glanced at or seen."""

@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.games.courtesy import reply
 from kille.dialogue.games.referring import about, asking, differing
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import Judging, fits_well, phrase_at
-from kille.dialogue.rules import rule
+from kille.dialogue.rules import reply, rule
 from ttr import Model, Record, replace
 from ttr.updates import first, maybe, seq
 

@@ -3,21 +3,9 @@
 from __future__ import annotations
 
 from kille.dialogue.meanings import DialogueTypes, set_to
-from kille.dialogue.moves import plan
-from kille.dialogue.rules import NamedRule, rule
+from kille.dialogue.rules import reply, rule
 from ttr import Record, replace
 from ttr.updates import first
-
-
-def reply(move: str, act: str, doc: str) -> NamedRule:
-    """The rule that answers every such move by this act."""
-
-    def answer(s: Record, *, types: DialogueTypes) -> Record:
-        return plan(s, act, types=types)
-
-    answer.__name__ = f"{act} to {move}"
-    answer.__doc__ = doc
-    return rule(answers=move)(answer)
 
 
 @rule(answers="AskRepeat")

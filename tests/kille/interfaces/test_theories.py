@@ -146,6 +146,28 @@ def test_the_strategies_of_the_folder_decide(
     assert "strategies.toml:1: these strategies cannot be used" in done.err
 
 
+RULES = """\
+from kille.dialogue.rules import reply
+RULES = {"GreetBack to Greet": reply("Greet", "Part", "It does not stay to talk.")}
+"""
+
+
+def test_the_rules_of_the_folder_are_played(kille: Run, mine: Path) -> None:
+    (mine / "rules.py").write_text(RULES)
+    assert answers(kille, mine, "Hello.") == ["Goodbye."]
+    for name in NAMES["en"]:
+        (mine / name).unlink()
+    assert answers(kille, mine, "Hello.") == ["Goodbye."]
+
+
+def test_the_rules_of_the_folder_need_consent(kille: Run, mine: Path) -> None:
+    (mine / "rules.py").write_text(f"open('ran', 'w')\n{RULES}")
+    done = kille("talk", "--theory", str(mine), "--no-python", typed="Hello.\n")
+    assert (done.code, done.out) == (2, "")
+    assert "rules.py is Python, which may not be run here" in done.complaint
+    assert not (mine / "ran").exists()
+
+
 def test_swedish_is_spoken_by_a_folder_of_its_own(kille: Run, tmp_path: Path) -> None:
     folder = tmp_path / "min"
     kille("init", str(folder), "--lang", "sv")
