@@ -339,12 +339,12 @@ def _study(folder: Path) -> Reader:
 
 
 def _lexicon(folder: Path) -> Reader:
-    from kille.dialogue.lexicon import lexicon
+    from kille.dialogue import lexicon
     from kille.lab.study import Theory
     from kille.lab.study_files.languages import _of_lexicon
 
     def read(path: Path) -> object:
-        lexicon.cache_clear()
+        lexicon._lexicon.cache_clear()
         theory = Theory("a", language="en", grammar=path.parent)
         return list(_of_lexicon(theory, path))
 
