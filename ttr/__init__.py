@@ -51,6 +51,7 @@ PROVIDERS = {
     "ttr.types.notebook_display.as_html": "ttr.display.render",
     "ttr.types.notebook_display.as_latex": "ttr.display.render",
     "ttr.types.objects.as_application": "ttr.types.syntax",
+    "ttr.types.paths.merge_by_form": "ttr.types.merges",
     "ttr.types.syntax.as_function_type": "ttr.types.derived_types",
     "ttr.types.syntax.is_subtype": "ttr.computing.subtyping",
     "ttr.computing.subtyping.counterexample": "ttr.judging.counterexamples",

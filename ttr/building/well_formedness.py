@@ -17,6 +17,7 @@ from ttr.signature.signature import Signature, signature_of
 from ttr.types.objects import BOUND, Object, Path
 from ttr.types.paths import free_paths, parts
 from ttr.types.printing import notation
+from ttr.types.substitution import substitute_variable
 from ttr.types.syntax import (
     Application,
     Function,
@@ -209,6 +210,9 @@ def _field(T: TypeNode, label: str) -> TypeNode | None:
             return T.get(label)
         case Singleton(base, _):
             return _field(base, label)
+        case Application():
+            value = _value_of(T)
+            return _field(value, label) if isinstance(value, TypeNode) else None
         case Meet(parts):
             found = [_field(part, label) for part in parts]
             fields = [field for field in found if field is not None]
@@ -220,12 +224,29 @@ def _field(T: TypeNode, label: str) -> TypeNode | None:
     return None
 
 
+def _value_of(T: Application) -> Object | None:
+    """What a written function gives for its argument, whatever that is; else None.
+
+    That the argument fits is checked where it stands.
+    """
+    function: Object = T.function
+    if isinstance(function, Application):
+        function = _value_of(function)
+    if not isinstance(function, Function):
+        return None
+    return substitute_variable(function.body, T.argument)
+
+
 def _labels(T: TypeNode) -> Iterator[str]:
     match T:
         case RecordType():
             yield from T
         case Singleton(base, _):
             yield from _labels(base)
+        case Application():
+            value = _value_of(T)
+            if isinstance(value, TypeNode):
+                yield from _labels(value)
         case Meet(parts) | Join(parts):
             for part in parts:
                 yield from _labels(part)

@@ -7,7 +7,7 @@ is asked for. What they do not derive is not sure; the `Finding` then says why n
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -47,6 +47,7 @@ from ttr.types.syntax import (
     Join,
     ListOf,
     Meet,
+    Merge,
     Negation,
     NonEmpty,
     Plus,
@@ -228,6 +229,8 @@ class Prover:
         return no(where, partial(self._why_not_equal, wanted, where))
 
     def _prove_universe(self, term: Object, T: Universe, where: Where) -> Finding:
+        if isinstance(term, Merge):
+            return every(self.prove(part, T, where) for part in term.parts)
         if isinstance(term, TypeNode) and not isinstance(term, Application):
             outside = why_outside(term, T)
             if not outside:
@@ -487,15 +490,21 @@ class Prover:
 
     def _follows_from_function(self, term: Application, T: TypeNode) -> bool:
         """Is a value of T because of the type of the function that gives it?"""
-        for known in self._types_of(term.function):
-            if not isinstance(known, FunType):
-                continue
-            result = substitute_variable(known.result, term.argument)
+        for result in self._result_types(term):
             further = self._assume_new([(term, result)])
-            inside = further is not self and self.prove(term.argument, known.domain).yes
-            if inside and further.prove(term, T).yes:
+            if further is not self and further.prove(term, T).yes:
                 return True
         return False
+
+    def _result_types(self, term: Application) -> Iterator[TypeNode]:
+        """What the types of a function say of its value; also of f(a), in f(a)(b)."""
+        function, argument = term.function, term.argument
+        known = self._types_of(function)
+        if isinstance(function, Application):
+            known = [*known, *self._result_types(function)]
+        for one in known:
+            if isinstance(one, FunType) and self.prove(argument, one.domain).yes:
+                yield substitute_variable(one.result, argument)
 
     def _prove_application(self, term: Object, T: Application, where: Where) -> Finding:
         wanted = self.witness.normalise(T)

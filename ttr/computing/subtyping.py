@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from ttr.computing.case_analysis import cases, cases_or_whole
 from ttr.computing.findings import Finding
 from ttr.computing.generic_witness import ITSELF, Assumption
+from ttr.computing.normalisation import normal_type
 from ttr.computing.path_cycles import has_fields_in_order
 from ttr.computing.prover import Prover
 from ttr.errors import TooLargeError
@@ -169,6 +170,8 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     no: [x : Ind] has no field c
     """
     S, T, theory = as_type(S), as_type(T), signature_of(theory)
+    if S is not T:
+        S, T = normal_type(S, theory), normal_type(T, theory)
     if S is T:
         return Answer("yes", lambda: f"{S} is below itself")
     found = cases(S)
@@ -247,8 +250,8 @@ def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     >>> consistent(Ind, Basic("Event")).yes
     True
     """
-    T = meet(*types)
     signature = signature_of(theory)
+    T = meet(*[normal_type(as_type(one), signature) for one in types])
     open_cases = [
         case
         for case in cases_or_whole(T)

@@ -40,6 +40,7 @@ from ttr.types.syntax import (
     Join,
     ListOf,
     Meet,
+    Merge,
     Negation,
     NonEmpty,
     Plus,
@@ -302,6 +303,9 @@ def layout_of(value: Object, scope: Scope = ()) -> Layout:
             return Matrix("[", _COLON, rows, "]")
         case Singleton(base, obj):
             return Subscript(_tight(base, scope), _tight_object(obj, scope))
+        case Merge(parts):
+            inside = tuple([layout_of(T, scope) for T in parts])
+            return _call(Word("merge", "text"), inside)
         case Meet(parts):
             return Chain(Sign(" ∧ "), _operands(parts, scope))
         case Join(parts):

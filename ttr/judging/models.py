@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import Any, Protocol, TypeAlias, cast
 
 from ttr.aliases import Alias
+from ttr.computing.normalisation import normal_type, normal_value
 from ttr.errors import (
     IllFormedError,
     RefusedError,
@@ -50,6 +51,7 @@ from ttr.types.printing import notation
 from ttr.types.syntax import (
     Application,
     Basic,
+    Function,
     NonEmpty,
     Plus,
     Pred,
@@ -170,7 +172,7 @@ class Model:
         >>> print(M.judge("a", A).p, M.judge("a", A & B).p)
         0.6 [0.42, 0.48]
         """
-        sit, T = _check_closed(sit, T)
+        sit, T = self._computed(*_check_closed(sit, T))
         p = _degree_of(f"{notation(sit)} : {T}", p)
         pairs = conditions(when)
         if pairs:
@@ -191,6 +193,13 @@ class Model:
                 f"{notation(sit)} : {T} cannot be given: it denies what it says"
             )
         return self._with(facts)
+
+    def _computed(self, sit: Object, T: TypeNode) -> tuple[Object, TypeNode]:
+        """The object and the type as what they compute to in the theory."""
+        theory = self._facts.theory
+        if isinstance(sit, TypeNode | Function):
+            sit = normal_value(sit, theory)
+        return sit, normal_type(T, theory)
 
     def with_conditional(self, T: TypeNode, /, p: object, *, when: Types) -> Model:
         """The model in which p(T || S, …) is p, for every object of the conditions S.
@@ -292,10 +301,11 @@ class Model:
         """
         sit, T = _check_closed(sit, T)
         pairs = conditions(when)
+        computed = self._computed(sit, T)
         why = (
-            derive_conditional(self._facts, sit, T, pairs)
+            derive_conditional(self._facts, *computed, pairs)
             if pairs
-            else derivation(self._facts, sit, T)
+            else derivation(self._facts, *computed)
         )
         return Judgement(sit, T, why.p, why, self)
 
@@ -313,7 +323,7 @@ class Model:
         >>> print(j)
         {c = e1, x = o1} : [x : Ind, c : cup(x)]   p = 0.75
         """
-        sit, T = _check_closed(sit, T)
+        sit, T = self._computed(*_check_closed(sit, T))
         if not isinstance(sit, Record):
             return self.judge(sit, T)
         seen, facts = fill_fields(self._facts, sit, T)
@@ -329,7 +339,7 @@ class Model:
         >>> a, M.judge(a, Ind).holds
         ('a1', True)
         """
-        _, T = _check_closed((), T)
+        _, T = self._computed(*_check_closed((), T))
         witness, facts = create_witness(self._facts, T)
         return witness, self._with(facts)
 
@@ -368,7 +378,7 @@ class Model:
         >>> print(*M.witnesses(rectype(x=Ind, c=dog(this.x))))
         {c = s1, x = fido}
         """
-        _, T = _check_closed((), T)
+        _, T = self._computed(*_check_closed((), T))
         return tuple(witnesses(self._facts, T))
 
     @within_budget(otherwise=_truth_unknown)

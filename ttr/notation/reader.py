@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
 from ttr.building.constructors import Pi, fun, rectype
-from ttr.building.merging import amerge, merge
+from ttr.building.merging import amerge
 from ttr.errors import IllFormedError, NotationError, TTRError, suggestion
 from ttr.notation.error_location import is_ill_formed, locate_error, locate_misfit
 from ttr.notation.names import Names, is_declared, meaning_of, vocabulary_of
@@ -54,8 +54,9 @@ from ttr.notation.syntax_trees import (
 from ttr.notation.syntax_trees import Application as Call
 from ttr.probability import degree
 from ttr.safety.budgets import within_budget
-from ttr.signature.signature import Interval, Signature
+from ttr.signature.signature import Interval
 from ttr.types.derived_types import function_type, star
+from ttr.types.merges import merge_terms
 from ttr.types.objects import (
     BOUND,
     EventString,
@@ -95,10 +96,7 @@ _TYPE_CONSTRUCTORS: Mapping[str, Callable[[TypeNode], TypeNode]] = {
 }
 """Words that make a type of a type in brackets."""
 
-_TYPE_OPERATIONS: Mapping[str, Callable[[TypeNode, TypeNode, Signature], TypeNode]] = {
-    "merge": merge,
-    "amerge": amerge,
-}
+_TYPE_OPERATIONS = ("merge", "amerge")
 """Words that make a type of two types in brackets."""
 
 _NOT_RESERVED = frozenset(("star", *_TYPE_OPERATIONS))
@@ -325,12 +323,15 @@ class Reader:
         return self._apply(term, LIST_OPERATIONS[word], self._objects(term.args, scope))
 
     def _merge_of(self, term: Call, word: str, scope: Scope) -> TypeNode:
-        """merge(S, T) or amerge(S, T)."""
-        if len(term.args) != 2:
+        """merge(S, T), of two types or more, or amerge(S, T)."""
+        if len(term.args) < 2 or (len(term.args) > 2 and word == "amerge"):
             self.refuse(term, f"{word} takes two types, but has {len(term.args)}")
-        S, T = [self.type(arg, scope) for arg in term.args]
+        types = [self.type(arg, scope) for arg in term.args]
         try:
-            return _TYPE_OPERATIONS[word](S, T, self.theory.signature)
+            if word == "merge":
+                return merge_terms(*types)
+            S, T = types
+            return amerge(S, T, self.theory.signature)
         except TTRError as error:
             raise error.at(self.source.span(term)) from None
 

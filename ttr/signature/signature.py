@@ -121,6 +121,8 @@ class Signature:
     givens: tuple[Given | Expected, ...] = ()
     definitions: Mapping[str, Object] = field(default_factory=_no_definitions)
     exclusions: tuple[Exclusion, ...] = ()
+    declared: Mapping[str, TypeNode] = field(default_factory=dict)
+    """The types with which objects are declared: they hold in every model."""
 
     @cached_property
     def _memo(self) -> dict[object, Any]:
@@ -150,7 +152,10 @@ def signature_of(theory: object) -> Signature:
     else.
     """
     if theory is None:
-        return Signature()
+        return _EMPTY
     if not isinstance(theory, Signature):
         raise IllFormedError(f"expected a theory, found {kind_of(theory)}")
     return theory
+
+
+_EMPTY = Signature()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, assert_never
 
 from ttr.building.merging import amerge, merge
+from ttr.computing.definitional_equality import equal
 from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.subtyping import subtype
 from ttr.errors import Span, TooLargeError, TTRError, UndecidedError
@@ -136,8 +137,8 @@ def _evaluate(query: Query, theory: Theory, model: Model) -> _Answer:
             answer = subtype(lower, upper, theory)
             return _Answer(answer.verdict, answer.verdict, answer.why)
         case IsSame(left, right):
-            same = identity(left) == identity(right)
-            return _yes_or_no(same, f"{notation(left)} is not {notation(right)}")
+            answer = equal(left, right, theory)
+            return _Answer(answer.verdict, answer.verdict, answer.why)
         case Merges():
             return _merges(query, theory)
         case Creates(T):

@@ -125,6 +125,7 @@ class StatementReader:
             self._check_free(word, "an object", self.draft.objects)
         span = self.source.span(tree)
         self.draft.objects.update([word.text for word in tree.names])
+        self.draft.declared.update({word.text: kind for word in tree.names})
         self.draft.givens += [Given(word.text, kind, span=span) for word in tree.names]
 
     def _read_given(self, tree: trees.GivenFact) -> None:

@@ -121,7 +121,12 @@ class Theory(Signature):
     def signature(self) -> Signature:
         """The theory without its names, rules and checks."""
         return Signature(
-            self.axioms, self.opened, self.givens, self.definitions, self.exclusions
+            self.axioms,
+            self.opened,
+            self.givens,
+            self.definitions,
+            self.exclusions,
+            self.declared,
         )
 
     @cached_property
@@ -229,4 +234,5 @@ def theory_of_draft(draft: Draft) -> Theory:
         rules=dict(draft.rules),
         strategies=dict(draft.strategies),
         openings=dict(draft.openings),
+        declared=dict(draft.declared),
     )

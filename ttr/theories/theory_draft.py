@@ -16,7 +16,7 @@ from ttr.signature.signature import (
 )
 from ttr.theories.queries import Check
 from ttr.types.objects import Object
-from ttr.types.syntax import Basic, Pred
+from ttr.types.syntax import Basic, Pred, TypeNode
 from ttr.updates.rules import Rule
 from ttr.updates.update_strategies import Algorithm
 
@@ -48,6 +48,7 @@ class Draft:
     openings: dict[str, Opening] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
     gathered: dict[str, str] = field(default_factory=dict)
+    declared: dict[str, TypeNode] = field(default_factory=dict)
 
     @classmethod
     def of(cls, theory: Theory) -> Draft:
@@ -66,6 +67,7 @@ class Draft:
             rules=dict(theory.rules),
             strategies=dict(theory.strategies),
             openings=dict(theory.openings),
+            declared=dict(theory.declared),
         )
 
     @property
@@ -75,5 +77,9 @@ class Draft:
 
     @property
     def signature(self) -> Signature:
-        """The axioms, which are all that well-formedness depends on."""
-        return Signature(tuple(self.axioms), exclusions=tuple(self.exclusions))
+        """The axioms and declared objects, all that well-formedness depends on."""
+        return Signature(
+            tuple(self.axioms),
+            exclusions=tuple(self.exclusions),
+            declared=self.declared,
+        )

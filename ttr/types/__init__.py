@@ -5,6 +5,7 @@ makes equal structure one object; `derived_types` and `substitution` build what 
 need; `printing` writes any of it as notation or Python. May import: safety.
 """
 
+from ttr.types.merges import merge_terms
 from ttr.types.objects import (
     EventString,
     FiniteSet,
@@ -28,6 +29,7 @@ from ttr.types.syntax import (
     Join,
     ListOf,
     Meet,
+    Merge,
     Negation,
     NonEmpty,
     Plus,
@@ -57,6 +59,7 @@ __all__ = [
     "Join",
     "ListOf",
     "Meet",
+    "Merge",
     "Negation",
     "NonEmpty",
     "Operation",
@@ -78,6 +81,7 @@ __all__ = [
     "fst",
     "join",
     "meet",
+    "merge_terms",
     "outer",
     "record",
     "replace",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
+from ttr.hooks import hook
 from ttr.safety.budgets import spend
 from ttr.types.interning import cache_on_node
 from ttr.types.objects import (
@@ -28,6 +29,7 @@ from ttr.types.syntax import (
     Join,
     ListOf,
     Meet,
+    Merge,
     Negation,
     NonEmpty,
     Plus,
@@ -43,6 +45,12 @@ from ttr.types.syntax import (
 )
 
 Parts = tuple[Object, ...]
+
+
+@hook
+def merge_by_form(*parts: Object) -> TypeNode:
+    """The merge of types by their form: `ttr.types.merges.merge_terms`."""
+    raise NotImplementedError
 
 
 def parts(value: Object) -> tuple[Parts, Parts]:
@@ -95,6 +103,8 @@ def map_parts(value: Object, change: Callable[[Object, int], Object]) -> Object:
             return RecordType(tuple([(k, change(T, 1)) for k, T in fields]))
         case Singleton(base, obj):
             return Singleton(change(base, 0), change(obj, 0))
+        case Merge(inner):
+            return merge_by_form(*[change(part, 0) for part in inner])
         case Meet(inner):
             return meet(*[change(part, 0) for part in inner])
         case Join(inner):
@@ -231,23 +241,38 @@ def replace_paths(
     """The value with every path that escapes it replaced by at(path).
 
     `at` sees a path as from where the value stands and gives what stands for it there;
-    further in, the replacement is moved along, so that nothing captures it.
+    further in, the replacement is moved along, so that nothing captures it. A type that
+    stands in several places is rebuilt once.
     """
+    return _replace(value, at, depth, {})
+
+
+def _replace(
+    value: Object,
+    at: Callable[[Path], Object],
+    depth: int,
+    made: dict[tuple[TypeNode, int], Object],
+) -> Object:
     if isinstance(value, Path):
         if depth == 0:
             return at(value)
         if value.up < depth:
             return value
         return shift_paths(at(Path(value.up - depth, value.labels)), depth)
-    if isinstance(value, TypeNode) and not _reaches_out(value, depth):
-        return value
     if isinstance(value, str):
         return value
 
     def change(part: Object, deeper: int) -> Object:
-        return replace_paths(part, at, depth + deeper)
+        return _replace(part, at, depth + deeper, made)
 
-    return map_parts(value, change)
+    if not isinstance(value, TypeNode):
+        return map_parts(value, change)
+    if not _reaches_out(value, depth):
+        return value
+    found = made.get((value, depth))
+    if found is None:
+        found = made[value, depth] = map_parts(value, change)
+    return found
 
 
 def _reaches_out(T: TypeNode, depth: int) -> bool:

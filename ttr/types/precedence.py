@@ -15,6 +15,7 @@ from ttr.types.syntax import (
     FunType,
     Join,
     Meet,
+    Merge,
     Negation,
     Singleton,
 )
@@ -30,7 +31,8 @@ def is_loose(value: Object) -> bool:
     >>> print(A & (Ind | A), ~Ind & A)
     A /\ (A \/ Ind) A /\ ~Ind
     """
-    return isinstance(value, Meet | Join | Singleton | Function)
+    loose = isinstance(value, Meet | Join | Singleton | Function)
+    return loose and not isinstance(value, Merge)
 
 
 def is_loose_beside(value: Object) -> bool:

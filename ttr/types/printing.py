@@ -42,6 +42,7 @@ from ttr.types.syntax import (
     Join,
     ListOf,
     Meet,
+    Merge,
     Negation,
     NonEmpty,
     Plus,
@@ -83,6 +84,8 @@ def notation(value: Object, scope: Scope = ()) -> str:
             return f"[{', '.join(_field(k, f, inner) for k, f in fields)}]"
         case Singleton(base, obj):
             return f"{_bracketed_beside(base, scope)}@{_object_beside(obj, scope)}"
+        case Merge(parts):
+            return f"merge({', '.join([notation(part, scope) for part in parts])})"
         case Meet(parts):
             return " /\\ ".join(_bracketed_operand(part, scope) for part in parts)
         case Join(parts):
@@ -326,6 +329,8 @@ def python(value: Object) -> str:
             return f"{python(pred)}({', '.join(map(python, args))})"
         case Singleton(base, obj):
             return f"Singleton({python(base)}, {python(obj)})"
+        case Merge(parts):
+            return f"merge_terms({', '.join(map(python, parts))})"
         case Meet(parts) | Join(parts):
             return f"{type(value).__name__.lower()}({', '.join(map(python, parts))})"
         case ListOf() | NonEmpty() | SetOf() | Plus() | Negation():

@@ -204,6 +204,18 @@ class Meet(TypeNode):
 
 
 @node
+class Merge(Meet):
+    """S ∧̣ T where a part is not known yet, such as the value of a variable function.
+
+    It is the meet of its parts but for its form: as soon as they are known they are
+    merged label by label. Built by `merge_terms`.
+    """
+
+    parts: tuple[TypeNode, ...]
+    _sign = "merge"
+
+
+@node
 class Join(TypeNode):
     """S ∨ T: a is of it iff a is of one of the parts. Built by `join`."""
 
@@ -526,7 +538,7 @@ def _flat_parts(
     """The parts without those of the same kind around them, each once, in order."""
     once: dict[TypeNode, None] = {}
     for part in map(as_type, parts):
-        inner = part.parts if isinstance(part, kind) else (part,)
+        inner = part.parts if type(part) is kind else (part,)
         once.update(dict.fromkeys(inner))
     return tuple(once) if len(once) < 2 else tuple(sort_canonically(once))
 

@@ -1,0 +1,355 @@
+r"""Normal forms: what types and objects compute to.
+
+Functions are applied wherever the
+argument is derivably in the domain; paths into manifest fields lead to what these are
+set to; fields of written records and the first and rest of written lists are looked up;
+merges are done as soon as the form of their parts is known. Not η.
+
+An application (λx:S. φ)(a) is contracted iff Θ; Γ ⊢ a : S, by the axioms and declared
+objects of the theory Θ and by the fields and variables around it, Γ. It is ill-formed
+iff nothing can be of S and of the type of a. Else it is *kept* as it is.
+Source: Martin-Löf 1984 for equality by computation; Cooper 2023 for what computes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from weakref import WeakKeyDictionary
+
+from ttr.computing.generic_witness import Assumption, GenericWitness
+from ttr.computing.prover import Prover
+from ttr.errors import IllFormedError
+from ttr.safety.budgets import spend, within_budget
+from ttr.signature.signature import Signature, signature_of
+from ttr.types.derived_types import order_fields
+from ttr.types.interning import Node, identity
+from ttr.types.objects import BOUND, Object, Path, freeze
+from ttr.types.paths import (
+    free_paths,
+    map_parts,
+    mentions,
+    replace_paths,
+    shift_paths,
+    subterms,
+)
+from ttr.types.printing import notation
+from ttr.types.substitution import field_type, follow_labels, substitute_variable
+from ttr.types.syntax import (
+    Application,
+    Basic,
+    Function,
+    FunType,
+    Meet,
+    Merge,
+    Rec,
+    RecordType,
+    Singleton,
+    TypeNode,
+)
+
+
+@within_budget
+def normal_form(value: Object, theory: Signature | None = None, /) -> Object:
+    r"""What a type or an object computes to.
+
+    Raises `IllFormedError` where the argument of a function cannot be in its domain.
+
+    >>> from ttr import Ind, Pred, fun, outer, rectype, this
+    >>> man = Pred("man", Ind)
+    >>> Man = fun(v=Ind)(rectype(e=man(outer.v)))
+    >>> print(normal_form(rectype(x=Ind, r=Man(this.x))))
+    [x : Ind, r : [e : man(x)]]
+    >>> print(normal_form(rectype(x=Ind @ "j", c=man(this.x))))
+    [c : man(j), x = j : Ind]
+    """
+    return _Normaliser(signature_of(theory)).of(freeze(value), ())
+
+
+@dataclass(eq=False)
+class _Scope:
+    """The types at the labels of a record type, or at a variable, as seen inside."""
+
+    types: dict[str, TypeNode] = field(default_factory=dict)
+
+
+_Scopes = tuple[_Scope, ...]
+"""What stands around, innermost first."""
+
+
+_KNOWN: WeakKeyDictionary[
+    Signature, tuple[WeakKeyDictionary[Node, Object | None], ...]
+] = WeakKeyDictionary()
+"""The normal forms of closed types, by theory, where an application that is ill-formed
+is kept and where it is refused; None for a type that is its own.
+"""
+
+
+class _Normaliser:
+    """Computes normal forms in a theory.
+
+    If it is strict, it refuses an application whose argument cannot be in the domain;
+    else it keeps it.
+    """
+
+    def __init__(self, theory: Signature, is_strict: bool = True) -> None:
+        self._theory, self._is_strict = theory, is_strict
+        kinds = _KNOWN.setdefault(theory, (WeakKeyDictionary(), WeakKeyDictionary()))
+        self._known = kinds[is_strict]
+        self._made: dict[tuple[object, ...], Object] = {}
+
+    def of(self, value: Object, around: _Scopes) -> Object:
+        """The normal form of what stands in these scopes."""
+        spend()
+        if type(value) is str:
+            return value
+        if isinstance(value, Path):
+            return self._at_path(value, around)
+        if isinstance(value, TypeNode | Function):
+            return self._of_node(value, around)
+        found = map_parts(value, lambda part, _: self.of(part, around))
+        return found
+
+    def _of_node(self, value: Node, around: _Scopes) -> Object:
+        """The normal form of a type or function, once where it stands several times."""
+        outward = max((path.up + 1 for path in free_paths(value)), default=0)
+        if outward == 0:
+            return self._of_closed(value)
+        key = (value, *map(id, around[:outward]))
+        if key not in self._made:
+            self._made[key] = self._compute(value, around)
+        return self._made[key]
+
+    def _of_closed(self, value: Node) -> Object:
+        known = self._known
+        if value not in known:
+            found = self._compute(value, ())
+            known[value] = None if found is value else found
+        found = known[value]
+        return value if found is None else found
+
+    def _compute(self, value: Node, around: _Scopes) -> Object:
+        match value:
+            case RecordType():
+                return self._record_type(value, around)
+            case Function(domain, inside, hint) | FunType(domain, inside, hint):
+                kind = self._type(domain, around)
+                scope = _Scope({BOUND: _move_in(kind)})
+                return type(value)(kind, self.of(inside, (scope, *around)), hint)
+            case Application(function, argument):
+                return self._application(
+                    self.of(function, around), self.of(argument, around), around
+                )
+            case Merge():
+                merged = map_parts(value, lambda part, _: self.of(part, around))
+                again = isinstance(merged, TypeNode) and not isinstance(merged, Merge)
+                return self.of(merged, around) if again else merged
+        return map_parts(value, lambda part, _: self.of(part, around))
+
+    def _type(self, T: TypeNode, around: _Scopes) -> TypeNode:
+        found: TypeNode = self.of(T, around)
+        return found
+
+    def _record_type(self, T: RecordType, around: _Scopes) -> RecordType:
+        """The record type, field by field; each knows those that it depends on."""
+        scope = _Scope()
+        within = (scope, *around)
+        for label, kind in T.fields:
+            scope.types[label] = self._type(kind, within)
+        return RecordType(order_fields(scope.types))
+
+    # --- paths ---
+
+    def _at_path(self, path: Path, around: _Scopes) -> Object:
+        """What a path leads to, if it leads to or into manifest fields.
+
+        Their values are normal already. A circle of them leads nowhere.
+        """
+        passed: set[Path] = set()
+        found: Object = path
+        while isinstance(found, Path) and found not in passed:
+            passed.add(found)
+            found = self._follow(found, around)
+        return found
+
+    def _follow(self, path: Path, around: _Scopes) -> Object:
+        """The value of the first manifest field on the way, and on from there."""
+        if path.up >= len(around):
+            return path
+        T = around[path.up].types.get(path.labels[0])
+        for done in range(1, len(path.labels) + 1):
+            spend()
+            if T is None:
+                return path
+            value = _manifest(T)
+            if value is not None:
+                found = follow_labels(value[0], path.labels[done:])
+                return shift_paths(found, path.up)
+            if done < len(path.labels):
+                T = _field(T, path.labels[done], Path(0, path.labels[:done]))
+        return path
+
+    # --- applications ---
+
+    def _application(
+        self, function: Object, argument: Object, around: _Scopes
+    ) -> Object:
+        whole = Application(function, argument)
+        if not isinstance(function, Function):
+            return whole
+        derived = _Derivation(self._theory, around, argument, function.domain)
+        if derived.is_derivable:
+            return self.of(substitute_variable(function.body, argument), around)
+        if self._is_strict and derived.is_impossible:
+            raise IllFormedError(
+                f"{notation(function)} takes objects of {notation(function.domain)}, "
+                f"and {notation(argument)} cannot be one"
+                + (f", as it is of {derived.type}" if derived.type else "")
+            )
+        return whole
+
+
+def _move_in(T: TypeNode) -> TypeNode:
+    """The type as it is seen one scope further in."""
+    moved: TypeNode = shift_paths(T, 1)
+    return moved
+
+
+def _manifest(T: TypeNode) -> tuple[Object] | None:
+    """The object that whatever is of T is, in a tuple; None if T does not say."""
+    match T:
+        case Singleton(_, value):
+            return (value,)
+        case Meet(parts):
+            return next((found for part in parts if (found := _manifest(part))), None)
+    return None
+
+
+def _field(T: TypeNode, label: str, whole: Path) -> TypeNode | None:
+    """The type at a label of what is of T, as seen from outside of the record."""
+    match T:
+        case RecordType():
+            inner = T.get(label)
+            return None if inner is None else field_type(inner, whole)
+        case Singleton(base, _):
+            return _field(base, label, whole)
+        case Meet(parts):
+            found = (_field(part, label, whole) for part in parts)
+            return next((one for one in found if one is not None), None)
+    return None
+
+
+# --- is the argument in the domain? --------------------------------------------------
+
+
+class _Derivation:
+    """Θ; Γ ⊢ a : S, for normal a and S: is it derivable, or is it impossible?"""
+
+    def __init__(
+        self, theory: Signature, around: _Scopes, a: Object, S: TypeNode
+    ) -> None:
+        self._theory, self._around = theory, around
+        self._a, self._S = a, S
+        self.type = self._type_of(a)
+
+    def _type_of(self, a: Object) -> TypeNode | None:
+        """The type that a declaration, or the field at the end of a path, gives."""
+        if type(a) is str:
+            return self._theory.declared.get(a)
+        if isinstance(a, Path) and a.up < len(self._around) and len(a.labels) == 1:
+            T = self._around[a.up].types.get(a.labels[0])
+            if T is not None:
+                moved: TypeNode = shift_paths(T, a.up)
+                return moved
+        return None
+
+    @property
+    def is_derivable(self) -> bool:
+        """Is the argument surely in the domain?"""
+        T = self.type
+        while isinstance(T, Singleton):
+            T = T.base
+        if T is self._S:
+            return True
+        prover, a, S = self._prover()
+        return prover.prove(a, S).yes
+
+    @property
+    def is_impossible(self) -> bool:
+        """Can nothing be of the domain and of the argument's type?"""
+        is_type = isinstance(self._a, TypeNode) and not isinstance(self._a, Application)
+        if is_type and isinstance(self._S, Basic):
+            return True
+        prover, a, S = self._prover()
+        return prover.assume((a, S)).is_impossible
+
+    def _prover(self) -> tuple[Prover, Object, TypeNode]:
+        """A prover that knows what stands around, with a and S as it sees them."""
+        a, S = _as_places(self._a, 0), _as_places(self._S, 0)
+        assumed = tuple(self._assumptions((a, S)))
+        witness = GenericWitness(Rec, assumed)
+        return Prover(Rec, self._theory, witness, assumed), a, S
+
+    def _assumptions(self, values: tuple[Object, ...]) -> Iterator[Assumption]:
+        """What is known of the places and declared objects in the values."""
+        waiting = list(values)
+        seen: set[object] = set()
+        while waiting:
+            value = waiting.pop()
+            for term in _terms_in(value):
+                spend()
+                known = self._known(term)
+                for place, T in known:
+                    if identity(place) not in seen:
+                        seen.add(identity(place))
+                        yield place, T
+                        waiting.append(T)
+
+    def _known(self, term: Object) -> Iterator[Assumption]:
+        if type(term) is str:
+            if term in self._theory.declared:
+                yield term, self._theory.declared[term]
+            return
+        assert isinstance(term, Path)
+        scope, label, *_ = term.labels
+        up = int(scope[1:])
+        if up < len(self._around):
+            T = self._around[up].types.get(label)
+            if T is not None:
+                yield Path(0, (scope, label)), _as_places(T, up)
+
+
+def _as_places(value: Object, up: int) -> Object:
+    """A value of so many scopes out, with its paths as places of one witness.
+
+    The path `^^.x.y` is the place `^2.x.y`; no label is written so.
+    """
+    return replace_paths(
+        value, lambda path: Path(0, (f"^{path.up + up}", *path.labels))
+    )
+
+
+def _terms_in(value: Object) -> Iterator[Object]:
+    """The places and the names of objects in a value."""
+    for path in free_paths(value):
+        if path.up == 0 and path.labels[0].startswith("^"):
+            yield path
+    for part in subterms([value]):
+        if type(part) is str:
+            yield part
+
+
+def normal_value(value: Object, theory: Signature) -> Object:
+    """What a type or object computes to; what is ill-formed in it is kept.
+
+    Nothing is of a type that is ill-formed.
+    """
+    if not (mentions(value, Application) or mentions(value, Merge)):
+        return value
+    return _Normaliser(theory, is_strict=False).of(value, ())
+
+
+def normal_type(T: TypeNode, theory: Signature) -> TypeNode:
+    """The same of a type, which may compute to what is none: then it is kept."""
+    found = normal_value(T, theory)
+    return found if isinstance(found, TypeNode) else T
