@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from graphlib import CycleError, TopologicalSorter
 from weakref import WeakKeyDictionary
 
 from ttr.computing.generic_witness import Assumption, GenericWitness
@@ -27,6 +28,7 @@ from ttr.types.interning import Node, identity
 from ttr.types.objects import BOUND, Object, Path, freeze
 from ttr.types.paths import (
     free_paths,
+    labels_mentioned,
     map_parts,
     mentions,
     replace_paths,
@@ -337,6 +339,34 @@ def _terms_in(value: Object) -> Iterator[Object]:
     for part in subterms([value]):
         if type(part) is str:
             yield part
+
+
+@within_budget
+def check_computable(value: Object, theory: Signature) -> None:
+    """Check that no function in a value is given what cannot be in its domain.
+
+    Nor may fields be set to each other in a circle. Raises `IllFormedError`.
+    """
+    for part in subterms([value]):
+        if isinstance(part, RecordType):
+            _check_values(part)
+    if mentions(value, Application):
+        normal_form(value, theory)
+
+
+def _check_values(T: RecordType) -> None:
+    values = {k: field for k, field in T.fields if isinstance(field, Singleton)}
+    needs = {
+        label: labels_mentioned(field.value) & values.keys()
+        for label, field in values.items()
+    }
+    try:
+        TopologicalSorter(needs).prepare()
+    except CycleError as error:
+        circle = " → ".join(reversed(error.args[1]))
+        raise IllFormedError(
+            f"the fields of {notation(T)} are set to each other in a circle: {circle}"
+        ) from None
 
 
 def normal_value(value: Object, theory: Signature) -> Object:

@@ -154,7 +154,7 @@ class Prover:
         `where` is the field to name in the reason.
         """
         spend()
-        term = self.witness.normalise(term)
+        term = self._apply_functions(self.witness.normalise(term))
         known = self._types_of(term)
         if any(one is T for one in known):
             return YES
@@ -517,8 +517,10 @@ class Prover:
 
     def _apply_functions(self, value: Object) -> Object:
         """The value of an application whose argument is surely in the domain."""
-        while isinstance(value, Application) and isinstance(value.function, Function):
-            function, argument = value.function, value.argument
+        while isinstance(value, Application):
+            function, argument = self._apply_functions(value.function), value.argument
+            if not isinstance(function, Function):
+                return value
             if not self.prove(argument, function.domain).yes:
                 return value
             value = self.witness.normalise(substitute_variable(function.body, argument))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, assert_never
 
 from ttr.building.merging import amerge, merge
 from ttr.computing.definitional_equality import equal
+from ttr.computing.normalisation import normal_value
 from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.subtyping import subtype
 from ttr.errors import Span, TooLargeError, TTRError, UndecidedError
@@ -106,7 +107,7 @@ def _answer(
         return _answer_of_error(query)
     try:
         with one_of_several(purse):
-            return _evaluate(_reduce(query, model), theory, model)
+            return _evaluate(_reduce(query, theory, model), theory, model)
     except TTRError as error:
         return _answer_of_error(error)
     except RecursionError:
@@ -118,7 +119,7 @@ def _answer_of_error(error: TTRError) -> _Answer:
     return _Answer(verdict, verdict, error.message)
 
 
-def _reduce(query: Query, model: Model) -> Query:
+def _reduce(query: Query, theory: Theory, model: Model) -> Query:
     """The query with every application in it worked out.
 
     Raises `RefusedError` if an argument is not in the domain of its function.
@@ -126,7 +127,8 @@ def _reduce(query: Query, model: Model) -> Query:
     if isinstance(query, IsWellFormed | Updates):
         return query
     inside = {part.name: getattr(query, part.name) for part in fields(query)}
-    return replace(query, **{k: model.reduce(v) for k, v in inside.items()})
+    computed = {k: normal_value(v, theory) for k, v in inside.items()}
+    return replace(query, **{k: model.reduce(v) for k, v in computed.items()})
 
 
 def _evaluate(query: Query, theory: Theory, model: Model) -> _Answer:

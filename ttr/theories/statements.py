@@ -6,7 +6,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ttr.errors import suggestion
+from ttr.computing.normalisation import check_computable
+from ttr.errors import IllFormedError, suggestion
 from ttr.notation import syntax_trees as trees
 from ttr.notation.names import is_declared
 from ttr.notation.reader import Reader
@@ -164,7 +165,12 @@ class StatementReader:
 
     def _definition(self, tree: trees.Definition) -> None:
         self._check_free(tree.name, "defined", ())
-        self.draft.definitions[tree.name.text] = self.reader.object(tree.value, ())
+        value = self.reader.object(tree.value, ())
+        try:
+            check_computable(value, self.draft.signature)
+        except IllFormedError as error:
+            raise error.at(self.source.span(tree.value)) from None
+        self.draft.definitions[tree.name.text] = value
 
     def _rule(self, tree: trees.RuleStatement) -> None:
         self._check_free(tree.name, "a rule", ())

@@ -155,7 +155,12 @@ class PathTo:
 
 
 this = PathTo(0)
-"""The record in which a field stands: `this.x`, or `this["bg.x"]` for a text path."""
+"""The record in which a field stands: `this.x`, or `this["bg.x"]` for a text path.
+
+It is the innermost record type around the place where it ends up. A Python function
+that puts a record type around its argument captures it: to compose with functions write
+`rectype(x=Ind, c=lambda r: P(r.x))`, where `r.x` is always the x of this record type.
+"""
 
 outer = PathTo(1)
 """The record one further out, `^.x`; `outer(2).x` is two further out."""

@@ -34,6 +34,7 @@ def add(commands: Commands) -> None:
         metavar="N",
         help="show names for the definitions inside, but for N levels (default: all)",
     )
+    show.add_argument("--normal", action="store_true", help="show what it computes to")
     add_allow(show)
     show.set_defaults(run=_show)
 
@@ -69,6 +70,7 @@ def _show(options: argparse.Namespace) -> int:
 
 def _text_of(theory: Theory, options: argparse.Namespace) -> str:
     """What the name stands for, in the form asked for; `KeyError` if unknown."""
+    from ttr.computing.normalisation import normal_form
     from ttr.display.abbreviations import abbreviator
     from ttr.display.html import page
     from ttr.display.render import box, html, latex
@@ -77,7 +79,10 @@ def _text_of(theory: Theory, options: argparse.Namespace) -> str:
         return _rule_text(theory, options)
     # The definition asked for is always unfolded itself.
     unfold = None if options.unfold is None else options.unfold + 1
-    value = abbreviator(theory, unfold)(theory[options.name])
+    value = theory[options.name]
+    if options.normal:
+        value = normal_form(value, theory)
+    value = abbreviator(theory, unfold)(value)
     match options.form:
         case "box":
             return box(value)

@@ -14,12 +14,14 @@ from pathlib import Path
 
 from ttr.cli.session.replies import Reply, answer, evaluate_term, list_changes
 from ttr.cli.session.sessions import Session, load_file, save_file
+from ttr.computing.normalisation import normal_form
 from ttr.computing.subtyping import Answer
 from ttr.display.render import box, latex
 from ttr.errors import TTRError, suggestion
 from ttr.judging.judgements import Judgement
 from ttr.safety.budgets import within_budget
 from ttr.theories.theory import Theory
+from ttr.types.printing import notation
 from ttr.types.syntax import Pred
 
 
@@ -151,6 +153,14 @@ def _draw(session: Session, argument: str, draw: Callable[[object], str]) -> Rep
     return Reply(session, draw(value))
 
 
+def _normal(session: Session, argument: str) -> Reply:
+    value = evaluate_term(session, argument) if argument else session.last
+    if value is None or isinstance(value, Answer | Judgement):
+        raise TTRError("there is nothing to compute", hint="name a type or an object")
+    found = normal_form(value, session.theory)
+    return Reply(replace(session, last=found), notation(found))
+
+
 def _why(session: Session, _: str) -> Reply:
     match session.last:
         case Judgement() as judgement:
@@ -248,6 +258,7 @@ class Command:
 COMMANDS: Mapping[str, Command] = {
     "box": Command(_box, "[T]", "draw a type or an object, or else the last answer"),
     "latex": Command(_latex, "[T]", "the same for a paper"),
+    "normal": Command(_normal, "[T]", "what a type or an object computes to"),
     "why": Command(_why, "", "the derivation of the last answer"),
     "names": Command(_names, "", "what is declared"),
     "load": Command(_load, "FILE", "read a theory into the session"),

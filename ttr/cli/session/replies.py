@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from ttr.building.merging import amerge, merge
 from ttr.cli.session.sessions import INPUT, LastAnswer, Session, create_witness, declare
+from ttr.computing.normalisation import normal_value
 from ttr.computing.subtyping import subtype
 from ttr.display.abbreviations import abbreviator
 from ttr.errors import NotationError, Span, TTRError
@@ -277,7 +278,8 @@ def _answer_term(session: Session, claim: trees.Term, reader: Reader) -> Reply:
             name in session.theory.openings
         ):
             return _play_game(session, name, [reader.object(arg, ()) for arg in args])
-    return _show(session, session.model.reduce(reader.object(claim, ())))
+    value = session.model.reduce(reader.object(claim, ()))
+    return _show(session, normal_value(value, session.theory))
 
 
 def _show(session: Session, value: LastAnswer) -> Reply:

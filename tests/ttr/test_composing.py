@@ -1,0 +1,190 @@
+"""Meanings compute: what is composed is equal to what it stands for."""
+
+import pytest
+
+from ttr import Ind, Model, Pred, RecType, Theory, check, fun, outer, rectype, this
+from ttr.computing import consistent, equal, normal_form, subtype
+from ttr.errors import IllFormedError
+from ttr.types import Application, Function, merge_terms
+
+LEXICON = r"""
+basic Ind
+pred man(Ind), dog(Ind), cat(Ind), run(Ind), red(Ind), chase(Ind, Ind)
+object j, k : Ind
+Man := \v:Ind. [e : man(v)]
+Dog := \v:Ind. [e : dog(v)]
+Cat := \v:Ind. [e : cat(v)]
+Run := \v:Ind. [e : run(v)]
+Some := \P:(Ind -> RecType). \Q:(Ind -> RecType). [x : Ind, r : P(x), s : Q(x)]
+Every := \P:(Ind -> RecType). \Q:(Ind -> RecType). [f : ((x : Ind) -> (P(x) -> Q(x)))]
+John := \P:(Ind -> RecType). P(j)
+Chase := \q:((Ind -> RecType) -> RecType). \v:Ind. q(\w:Ind. [e : chase(v, w)])
+Red := \P:(Ind -> RecType). \v:Ind. merge(P(v), [a : red(v)])
+"""
+
+SEEN = "[x : Ind, r : [e : dog(^.x)], s : [x : Ind, r : [e : cat(^.x)], s : %s]]"
+
+
+@pytest.mark.parametrize(
+    "claim",
+    [
+        "Some(Man)(Run) = [x : Ind, r : [e : man(^.x)], s : [e : run(^.x)]]",
+        "Some(Man)(Run) = Some(\\v:Ind. Man(v))(\\v:Ind. [e : run(v)])",
+        "John(Run) = [e : run(j)]",
+        "John(Chase(Some(Dog))) = Some(Dog)(\\w:Ind. [e : chase(j, w)])",
+        f"Some(Dog)(Chase(Some(Cat))) = {SEEN % '[e : chase(^^.x, ^.x)]'}",
+        "Some(Red(Man))(Run) = [x : Ind, r : [a : red(^.x), e : man(^.x)], "
+        "s : [e : run(^.x)]]",
+        "Red(Red(Man))(j) = Red(Man)(j)",
+        "Every(Dog)(Run) = [f : ((x : Ind) -> ([e : dog(x)] -> [e : run(x)]))]",
+        "[x : Ind, c : (\\y:Ind. dog(y))(x)] = [x : Ind, c : dog(x)]",
+        "[x = j : Ind, c : dog(x)] = [x = j : Ind, c : dog(j)]",
+        "[x : Ind, r : Man(x)] <= [x : Ind, r : Rec]",
+        "[x : Ind, r : Man(x), s : man(x)@r.e] <= [x : Ind, s : man(x)]",
+        "[l : list(Run(j))] = [l : list([e : run(j)])]",
+        "~Run(j) = ~[e : run(j)]",
+        "(\\f:(Ind -> (Ind -> RecType)). \\x:Ind. \\y:Ind. f(y)(x)) : "
+        "((Ind -> (Ind -> RecType)) -> (Ind -> (Ind -> RecType)))",
+        "not Man(j) = Run(j)",
+        "not [x : Ind, c : man(x)] = [x : Ind, c : dog(x)]",
+    ],
+)
+def test_what_is_composed_is_what_it_stands_for(claim):
+    report = check(Theory.parse(f"{LEXICON}check {claim}"))
+    assert report.holds, str(report)
+
+
+def test_both_scopes_are_two_meanings():
+    theory = Theory.parse(LEXICON)
+    surface = theory.parse("Every(Dog)(Chase(Some(Cat)))")
+    inverse = theory.parse(r"Some(Cat)(\y:Ind. Every(Dog)(\x:Ind. [e : chase(x, y)]))")
+    assert equal(surface, inverse, theory).no
+    assert normal_form(surface, theory) is theory.parse(
+        "[f : ((z : Ind) -> ([e : dog(z)] -> "
+        "[x : Ind, r : [e : cat(^.x)], s : [e : chase(z, ^.x)]]))]"
+    )
+    assert normal_form(inverse, theory) is theory.parse(
+        "[x : Ind, r : [e : cat(^.x)], "
+        "s : [f : ((z : Ind) -> ([e : dog(z)] -> [e : chase(z, ^^.x)]))]]"
+    )
+
+
+@pytest.mark.parametrize(
+    ("definition", "why"),
+    [
+        ("A := Man([y : Ind])", "takes objects of Ind, and [y : Ind] cannot be one"),
+        ("A := Man(Ind)", "takes objects of Ind, and Ind cannot be one"),
+        ("A := [r : Some(Man)(Run(j))]", "cannot be one"),
+        ("A := dog(Ind)", "dog takes objects of Ind, but Ind is a type"),
+        ("A := [x = x : Ind]", "set to each other in a circle: x → x"),
+        ("A := [x = y : Ind, y = x : Ind]", "set to each other in a circle"),
+    ],
+)
+def test_what_cannot_be_computed_is_ill_formed(definition, why):
+    with pytest.raises(IllFormedError) as error:
+        Theory.parse(f"{LEXICON}{definition}")
+    assert why in error.value.message
+    assert error.value.span is not None
+
+
+# --- what is kept --------------------------------------------------------------------
+
+man, see = Pred("man", Ind), Pred("see", Ind, Ind)
+Man = fun(v=Ind)(lambda v: rectype(e=man(v)))
+
+
+def test_what_is_not_known_to_be_in_the_domain_is_kept():
+    kept = Man("zoe")
+    assert normal_form(kept) is kept
+    answer = equal(kept, rectype(e=man("zoe")))
+    assert answer.unknown
+    assert "it is not known that zoe is of Ind" in answer.why
+    assert equal(kept, kept).yes
+
+
+def test_it_is_computed_where_more_is_known():
+    declared = Theory.parse("basic Ind\nobject zoe : Ind")
+    assert equal(Man("zoe"), rectype(e=man("zoe")), declared).yes
+    assert Model().given("zoe", Ind).reduce(Man("zoe")) is rectype(e=man("zoe"))
+    assert subtype(rectype(x=Ind, r=Man(this.x)), rectype(r=rectype(e=Ind))).no
+    kept = rectype(x=rectype(y=Ind), r=Application(Man, this.x))
+    assert normal_form(kept) is kept
+
+
+def test_what_is_given_is_not_assumed():
+    """A fact holds in a model; equality holds in all of them."""
+    theory = Theory.parse("basic Ind\npred man(Ind)\ngiven zoe : Ind")
+    assert equal(Man("zoe"), rectype(e=man("zoe")), theory).unknown
+
+
+def test_axioms_are_known():
+    theory = Theory.parse("basic Ind, Dog\nDog <: Ind")
+    Dog = theory.Dog
+    computed = rectype({"x": Dog, "r": rectype(e=man(outer.x))}, theory)
+    assert equal(rectype(x=Dog, r=Man(this.x)), computed, theory).yes
+    assert equal(rectype(x=Dog, r=Man(this.x)), computed).unknown
+
+
+# --- Python's own functions ----------------------------------------------------------
+
+
+def test_composing_in_python_captures_nothing():
+    def some(P, Q):
+        return rectype(x=Ind, r=lambda r: P(r.x), s=lambda r: Q(r.x))
+
+    both = some(man, lambda x: some(man, lambda y: see(x, y)))
+    inner = rectype(x=Ind, r=man(this.x), s=see(outer.x, this.x))
+    assert both is rectype(x=Ind, r=man(this.x), s=inner)
+
+
+def test_variables_of_functions_are_python_variables():
+    Some = fun(P=Ind >> RecType)(
+        lambda P: fun(Q=Ind >> RecType)(
+            lambda Q: rectype(x=Ind, r=lambda r: P(r.x), s=lambda r: Q(r.x))
+        )
+    )
+    assert isinstance(Some, Function)
+    assert Some is Theory.parse(LEXICON).Some
+    twice = fun(f=Ind >> Ind)(lambda f: fun(x=Ind)(lambda x: f(f(x))))
+    assert normal_form(twice(fun(x=Ind)(lambda x: x))) is fun(x=Ind)(this.x)
+
+
+def test_a_variable_of_a_function_stands_in_any_type():
+    below = fun(r=rectype(x=Ind))(
+        lambda r: (man(r.x) | ~man(r.x)) & rectype(y=Ind @ r.x) & (Ind >> man(r.x))
+    )
+    path = outer.r.x
+    assert below is fun(r=rectype(x=Ind))(
+        (man(this.r.x) | ~man(this.r.x))
+        & rectype(y=Ind @ path)
+        & (Ind >> man(this.r.x))
+    )
+
+
+def test_a_record_as_a_whole_is_no_argument():
+    with pytest.raises(IllFormedError, match="name a label"):
+        rectype(x=Ind, c=lambda r: man(r))
+
+
+# --- merges --------------------------------------------------------------------------
+
+
+def test_a_merge_waits_for_what_it_merges():
+    theory = Theory.parse(LEXICON)
+    body = theory.parse(r"\P:(Ind -> RecType). \v:Ind. merge(P(v), [a : red(v)])")
+    assert body is theory.Red
+    assert str(body) == r"\P:(Ind -> RecType). \v:Ind. merge(P(v), [a : red(v)])"
+    kind = theory.parse("((Ind -> RecType) -> (Ind -> RecType))")
+    assert Model(theory).judge(body, kind).holds
+
+
+def test_a_singleton_takes_what_is_plain():
+    A = Theory.parse("basic A, Ind").A
+    assert merge_terms(Ind @ "j", A) is (Ind & A) @ "j"
+    assert merge_terms(rectype(x=Ind @ "j"), rectype(x=A)) is rectype(x=(Ind & A) @ "j")
+
+
+def test_consistency_is_of_what_is_computed():
+    excluded = Theory.parse("basic Ind, Cat\nDog := [x : Ind]\nCat <: ~Ind")
+    F = fun(v=Ind)(lambda v: excluded.Cat)
+    assert consistent(rectype(x=Ind, y=Ind & F(this.x)), theory=excluded).no
