@@ -75,7 +75,7 @@ def test_both_scopes_are_two_meanings():
         ("A := Man([y : Ind])", "takes objects of Ind, and [y : Ind] cannot be one"),
         ("A := Man(Ind)", "takes objects of Ind, and Ind cannot be one"),
         ("A := [r : Some(Man)(Run(j))]", "cannot be one"),
-        ("A := dog(Ind)", "dog takes objects of Ind, but Ind is a type"),
+        ("A := dog(Ind)", "dog takes individuals, but Ind is a type"),
         ("A := [x = x : Ind]", "set to each other in a circle: x → x"),
         ("A := [x = y : Ind, y = x : Ind]", "set to each other in a circle"),
     ],
@@ -188,3 +188,37 @@ def test_consistency_is_of_what_is_computed():
     excluded = Theory.parse("basic Ind, Cat\nDog := [x : Ind]\nCat <: ~Ind")
     F = fun(v=Ind)(lambda v: excluded.Cat)
     assert consistent(rectype(x=Ind, y=Ind & F(this.x)), theory=excluded).no
+
+
+# --- what other fields say -----------------------------------------------------------
+
+run = Pred("run", Ind)
+
+
+@pytest.mark.parametrize(
+    "T",
+    [
+        rectype(x=Ind, y=Ind @ this.x) & rectype(y=Ind @ "b"),
+        rectype(x=Ind, y=Ind, z=(Ind @ this.x) & (Ind @ this.y)),
+        rectype(x=Ind, r=rectype(y=Ind @ outer.x) & rectype(y=Ind @ "b")),
+    ],
+)
+def test_a_witness_is_created_of_what_fields_say_of_each_other(T):
+    witness, model = Model().create(T)
+    assert model.judge(witness, T).holds
+
+
+@pytest.mark.parametrize(
+    ("S", "T"),
+    [
+        (rectype(x=Ind), rectype(x=~(Ind @ "b"))),
+        (rectype(x=Ind, c=man(this.x)), rectype(x=Ind, c=~run(this.x))),
+        (rectype(r=rectype(x=Ind)), rectype(r=rectype(x=~(Ind @ "b")))),
+    ],
+)
+def test_what_is_denied_of_a_field_is_refuted_by_one_that_has_it(S, T):
+    answer = subtype(S, T)
+    assert answer.no
+    judgement = answer.counter
+    assert judgement.model.judge(judgement.sit, S).holds
+    assert not judgement.holds

@@ -1,8 +1,9 @@
 """Questions about types that need no model: S ⊑ T, consistency, normal forms.
 
-Read `normalisation` (what a type computes to), `normal_forms` and `case_analysis`, then
+Read `normalisation` (what a type computes to) and `case_analysis`, then
 `generic_witness` (an arbitrary witness of a type), `prover` (what it is surely of) and
-`subtyping`; `strings` has the automata of types of strings. May import: signature, types, safety.
+`subtyping`; `strings` has the automata of types of strings. May import: signature,
+types, safety.
 """
 
 from ttr.computing.definitional_equality import equal

@@ -39,11 +39,13 @@ from ttr.types.printing import notation
 from ttr.types.substitution import field_type, follow_labels, substitute_variable
 from ttr.types.syntax import (
     Application,
-    Basic,
     Function,
     FunType,
+    Ind,
     Meet,
     Merge,
+    Pred,
+    PType,
     Rec,
     RecordType,
     Singleton,
@@ -280,7 +282,7 @@ class _Derivation:
     def is_impossible(self) -> bool:
         """Can nothing be of the domain and of the argument's type?"""
         is_type = isinstance(self._a, TypeNode) and not isinstance(self._a, Application)
-        if is_type and isinstance(self._S, Basic):
+        if is_type and self._S is Ind:
             return True
         prover, a, S = self._prover()
         return prover.assume((a, S)).is_impossible
@@ -343,15 +345,31 @@ def _terms_in(value: Object) -> Iterator[Object]:
 
 @within_budget
 def check_computable(value: Object, theory: Signature) -> None:
-    """Check that no function in a value is given what cannot be in its domain.
+    """Check that no function or predicate is given what cannot be in its domain.
 
     Nor may fields be set to each other in a circle. Raises `IllFormedError`.
     """
     for part in subterms([value]):
-        if isinstance(part, RecordType):
-            _check_values(part)
+        match part:
+            case RecordType():
+                _check_values(part)
+            case PType(pred, args):
+                _check_individuals(pred, args)
     if mentions(value, Application):
         normal_form(value, theory)
+
+
+def _check_individuals(pred: Pred, args: tuple[Object, ...]) -> None:
+    """Refuse a type where all arities need an individual.
+
+    Other basic types, such as one of moves, may well have types as their objects.
+    """
+    for number, arg in enumerate(args):
+        if not isinstance(arg, TypeNode) or isinstance(arg, Application):
+            continue
+        wanted = [arity[number] for arity in pred.arities if len(arity) == len(args)]
+        if all(T is Ind for T in wanted):
+            raise IllFormedError(f"{pred.name} takes individuals, but {arg} is a type")
 
 
 def _check_values(T: RecordType) -> None:

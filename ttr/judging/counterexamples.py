@@ -47,32 +47,35 @@ def _starts(refutation: Refutation) -> list[Start]:
     """What to make a witness of, and what to tell of it then.
 
     What was assumed of the whole witness says what form it has; and what was assumed of
-    a string in a field, how long that is.
+    a field, what else that is: a certain object, say, or a string of some length.
     """
     S, assumed = refutation.S, refutation.assumed
     if not assumed:
         return [(one, ()) for one in dict.fromkeys((S, break_cycles(S)))]
     of_it = [T for term, T in assumed if term is ITSELF]
     others = tuple([pair for pair in assumed if pair[0] is not ITSELF])
-    narrower = [one for pair in others if (one := _with_string(S, *pair)) is not None]
+    narrower = [one for pair in others if (one := _with_part(S, *pair)) is not None]
     return [*((one, ()) for one in narrower), (meet(S, *of_it), others), (S, ())]
 
 
-def _with_string(S: TypeNode, term: Object, T: TypeNode) -> TypeNode | None:
-    """S where a string in a field is of T instead; None where it is in no field."""
-    if not isinstance(term, Path) or not is_of_strings(T):
+def _with_part(S: TypeNode, term: Object, T: TypeNode) -> TypeNode | None:
+    """S where what is in a field is also of T; None where the term is in no field."""
+    if not isinstance(term, Path):
         return None
     first, *labels = term.labels
-    if first != ITSELF.labels[0]:
+    if first != ITSELF.labels[0] or not labels:
         return None
     inner = replace_paths(T, partial(_seen_from, len(labels) - 1))
     return _with_field(S, labels, inner)
 
 
 def _with_field(S: TypeNode, labels: list[str], T: TypeNode) -> TypeNode | None:
-    """S with T for the type of a field; None where the labels lead to none."""
+    """S where a field is also of T; None where the labels lead to none.
+
+    A type of strings is put in the place of the other, which it is below.
+    """
     if not labels:
-        return T
+        return T if is_of_strings(T) else meet(S, T)
     first, *rest = labels
     if not isinstance(S, RecordType) or first not in S:
         return None

@@ -30,6 +30,7 @@ from ttr.judging.evaluator import (
 )
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import spend
+from ttr.types.derived_types import order_fields
 from ttr.types.interning import identity
 from ttr.types.objects import (
     BOUND,
@@ -40,7 +41,7 @@ from ttr.types.objects import (
     Record,
     UnresolvedError,
 )
-from ttr.types.paths import free_paths, mentions, shift_paths
+from ttr.types.paths import free_paths, mentions, replace_paths, shift_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
@@ -168,29 +169,29 @@ def create_witness(
     more than it needs. No path leads out of T. Raises `RefusedError` where there is
     none.
     """
-    try:
-        sit, facts = _WitnessMaker(size).make(facts, T)
-    except RefusedError:
-        settled = _settle_fields(T)
-        if settled is T:
-            raise
-        sit, facts = _WitnessMaker(size).make(facts, settled)
+    sit, facts = _WitnessMaker(size).make(facts, T)
     if mentions(T, Negation):
         _check(facts, sit, T)
     return sit, facts
 
 
-def _settle_fields(T: TypeNode) -> TypeNode:
+def _settle_fields(T: RecordType) -> RecordType:
     """The type with each field made manifest whose value other fields determine."""
-    if not isinstance(T, RecordType):
-        return T
     witness = GenericWitness(T)
-    fields: list[tuple[str, TypeNode]] = []
+    fields: dict[str, TypeNode] = {}
     for label, field in T.fields:
-        value = witness.normalise(step(ITSELF, label))
-        known = not isinstance(field, Singleton) and not free_paths(value)
-        fields.append((label, Singleton(field, value) if known else field))
-    return RecordType(tuple(fields))
+        place = step(ITSELF, label)
+        value = witness.normalise(place)
+        fields[label] = field
+        inside = all(path.labels[0] == ITSELF.labels[0] for path in free_paths(value))
+        if value is not place and inside and not isinstance(field, Singleton):
+            fields[label] = Singleton(field, replace_paths(value, _from_witness))
+    return RecordType(order_fields(fields))
+
+
+def _from_witness(place: Path) -> Path:
+    """A place in the witness as a path from one of its fields."""
+    return Path(0, place.labels[1:])
 
 
 def _check(facts: Assignment, sit: Object, T: TypeNode) -> None:
@@ -237,7 +238,7 @@ class _WitnessMaker:
             case FunType():
                 return self._function(facts, T)
             case RecordType():
-                return self._record(facts, T)
+                return self._record_or_settled(facts, T)
             case Universe():
                 return _type(T, self._size), facts
             case Application():
@@ -277,6 +278,16 @@ class _WitnessMaker:
         """The types of `size` pieces; the parts of a join take turns."""
         kinds = [case for one in alternatives(T.item) for case in cases_or_whole(one)]
         return list(islice(cycle(kinds), max(1, self._size)))
+
+    def _record_or_settled(self, facts: Assignment, T: RecordType) -> Made:
+        """A record, field by field, or else by what fields say of each other."""
+        try:
+            return self._record(facts, T)
+        except RefusedError:
+            settled = _settle_fields(T)
+            if settled is T:
+                raise
+            return self._record(facts, settled)
 
     def _record(self, facts: Assignment, T: RecordType) -> Made:
         spend(1 + len(T.fields))

@@ -164,22 +164,8 @@ class PType(TypeNode):
         frozen = tuple(map(freeze, args))
         for arity in pred.arities:
             if len(arity) == len(frozen):
-                _check_no_types(pred, frozen)
                 return pred, frozen
         raise IllFormedError(_wrong_arity(pred, len(frozen)))
-
-
-def _check_no_types(pred: Pred, args: tuple[Object, ...]) -> None:
-    """Refuse a type where all arities need an object of a basic type."""
-    for number, arg in enumerate(args):
-        if not isinstance(arg, TypeNode) or isinstance(arg, Application):
-            continue
-        wanted = [arity[number] for arity in pred.arities if len(arity) == len(args)]
-        if all(isinstance(T, Basic) for T in wanted):
-            kinds = " or ".join(map(str, wanted))
-            raise IllFormedError(
-                f"{pred.name} takes objects of {kinds}, but {arg} is a type"
-            )
 
 
 def _wrong_arity(pred: Pred, found: int) -> str:
