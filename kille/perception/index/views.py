@@ -17,6 +17,8 @@ Descriptors = NDArray[np.uint8]
 LENGTH = 128
 """Numbers of a descriptor, each a byte."""
 
+_ROUNDING = 1e-6  # of a squared distance: sums of 128 products of float32 are not exact
+
 
 @dataclass(frozen=True, eq=False)
 class View:
@@ -51,11 +53,12 @@ def distances(query: Rows, others: Rows) -> Rows:
 def apart(products: Rows) -> Rows:
     """The distances between descriptors of length 1 with these dot products.
 
-    Overwrites the products. The greater the product, the smaller the distance.
+    Overwrites the products. The greater the product, the smaller the distance; that of
+    equal descriptors is 0, however their product was rounded.
     """
     products *= -2
     products += 2
-    np.maximum(products, 0, out=products)
+    products *= products > _ROUNDING
     return np.sqrt(products, out=products)
 
 

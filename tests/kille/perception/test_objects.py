@@ -13,7 +13,7 @@ from tabletop import percept_of, prototypes
 
 from kille.perception import likeness
 from kille.perception.features import NONE
-from kille.perception.index import View
+from kille.perception.index import View, partition
 from kille.perception.learners import check_learner
 from kille.perception.likeness import Examples, Kernel
 from kille.perception.look import look
@@ -254,6 +254,17 @@ def test_a_word_that_was_denied_is_weaker_there_and_no_other_gains_evidence() ->
         assert memory.labels == before.labels
         memory.forget("no")
         assert memory.predict_proba_one(asked) == degrees
+
+
+def test_a_denial_counts_where_features_are_searched_by_trees(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The distance to the denied view is that to the view learned: neither is less."""
+    monkeypatch.setattr(partition, "TAIL", 50)
+    memory, asked = taught(), seen("cup", 0)
+    before = memory.predict_proba_one(asked)["cup"]
+    memory.deny_one(asked, "cup", key="no")
+    assert memory.predict_proba_one(asked)["cup"] < 0.5 * before
 
 
 def test_a_denial_says_little_of_what_is_unlike() -> None:
