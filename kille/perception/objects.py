@@ -24,7 +24,14 @@ from numpy.typing import NDArray
 from kille.perception.cues import CUES, Cue, measured
 from kille.perception.evidence import Evidence, Weighing, weighing
 from kille.perception.features import NONE
-from kille.perception.index import Index, View, distances, rooted
+from kille.perception.index import (
+    AGAIN,
+    Index,
+    View,
+    distances,
+    find_repeats,
+    rooted,
+)
 from kille.perception.index.builders import Builder
 from kille.perception.learners import Key, own_key
 from kille.perception.likeness import Examples, Likeness
@@ -35,7 +42,6 @@ __all__ = ["ObjectMemory", "kept_features"]
 
 _KEPT_SCANS = 4
 _RECALLED = 24  # views of a word that are looked through by their features
-_NEW = 0.25  # RootSIFT distance; what is nearer was seen in an earlier scan
 
 
 class ObjectMemory:
@@ -145,14 +151,15 @@ class ObjectMemory:
 
     def evidence(self, x: Percept) -> Evidence:
         """What each cue adds for each word; no words if nothing is seen."""
-        query, traits = descriptors_of(x.scans), self.traits_of(x)
+        query, traits = rooted(descriptors_of(x.scans)), self.traits_of(x)
         labels = self.labels
         if not labels or not (traits or len(query)):
             return Evidence((), self._weighing.base, {})
         cast = np.zeros(len(labels))
         if len(query):
-            found = self._index.neighbours(rooted(query))
-            rivalling = rivals(found, rooted(query), labels, self.denied)
+            repeats = find_repeats(query, x.scans) if len(x.scans) > 1 else None
+            found = self._index.neighbours(query, repeats)
+            rivalling = rivals(found, query, labels, self.denied)
             cast = votes(found, len(labels), len(x.scans), rivalling)
             cast = beyond_chance(cast, self._index.sizes, len(query) / len(x.scans))
         return self._weighing.evidence(labels, self._likeness(traits), cast)
@@ -250,7 +257,7 @@ def _merge_scans(x: Percept) -> Features:
 def _is_new(more: NDArray[np.uint8], kept: NDArray[np.uint8]) -> NDArray[np.bool_]:
     """Which descriptors (n,) are far from all those kept so far?"""
     apart = distances(rooted(more), rooted(kept)).min(axis=1, initial=np.inf)
-    new: NDArray[np.bool_] = apart > _NEW
+    new: NDArray[np.bool_] = apart > AGAIN
     return new
 
 

@@ -8,6 +8,7 @@ in the background, or when somebody asks.
 from kille.perception.index.builders import AtOnce, Background, Builder
 from kille.perception.index.index import Index
 from kille.perception.index.index_parts import NOBODY, Neighbours
+from kille.perception.index.repeats import AGAIN, Repeats, find_repeats
 from kille.perception.index.searches import SEARCHES
 from kille.perception.index.views import (
     Descriptors,
@@ -18,6 +19,7 @@ from kille.perception.index.views import (
 )
 
 __all__ = [
+    "AGAIN",
     "NOBODY",
     "SEARCHES",
     "AtOnce",
@@ -26,8 +28,10 @@ __all__ = [
     "Descriptors",
     "Index",
     "Neighbours",
+    "Repeats",
     "Rows",
     "View",
     "distances",
+    "find_repeats",
     "rooted",
 ]

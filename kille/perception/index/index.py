@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from kille.perception.index.builders import AtOnce, Builder
 from kille.perception.index.index_parts import NOBODY, Exact, Neighbours, Part
 from kille.perception.index.partition import Partition, partition_views
+from kille.perception.index.repeats import Repeats
 from kille.perception.index.searches import search_called
 from kille.perception.index.views import Rows, View, count, thin_views
 from kille.perception.learners import Key
@@ -121,10 +122,12 @@ class Index:
         self._catch_up()
         return self
 
-    def neighbours(self, query: Rows) -> Neighbours:
+    def neighbours(self, query: Rows, repeats: Repeats | None = None) -> Neighbours:
         """The nearest descriptors to RootSIFT descriptors (n, 128), of all words.
 
         The ten nearest of each part, and the nearest of each word among the newest.
+        Of repeated features only the first is searched for: the others are compared
+        with what it found, and of the newest with the nearest of ten words.
         """
         self._catch_up()
         columns = self._word_columns()
@@ -132,9 +135,9 @@ class Index:
             self._exact = Exact(thin_views(self._tail, _EXACT), columns)
         if self._owners is None:
             self._owners = [self._words_of(*serving) for serving in self._serving]
-        found = [self._exact.neighbours(query)]
+        found = [self._exact.neighbours(query, repeats)]
         for (part, _), owners in zip(self._serving, self._owners, strict=True):
-            found.append(part.neighbours(query, owners))
+            found.append(part.neighbours(query, owners, repeats))
         return Neighbours(
             np.concatenate([words for words, _ in found], axis=1),
             np.concatenate([apart for _, apart in found], axis=1),

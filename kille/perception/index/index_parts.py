@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise, starmap
 from threading import Event
@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.perception.index.repeats import Repeats, products_with_found
 from kille.perception.index.searches import Maker, Search
 from kille.perception.index.views import (
     LENGTH,
@@ -59,18 +60,49 @@ class Exact:
         self._spans = list(starmap(slice, pairwise([*firsts.tolist(), len(owners)])))
         self._rows = rooted(stack_descriptors(ordered))
 
-    def neighbours(self, query: Rows) -> Neighbours:
-        """The nearest descriptor of each word, one column for each word."""
+    def neighbours(self, query: Rows, repeats: Repeats | None = None) -> Neighbours:
+        """The nearest descriptor of each word, one column for each word.
+
+        Where features are repeated, that of the ten nearest words, and nearly so.
+        """
         words = np.broadcast_to(self._words, (len(query), len(self._words)))
         if not len(self._words):
             return Neighbours(words, np.empty((len(query), 0), np.float32))
+        if repeats is not None:
+            return self._neighbours_of_repeated(query, repeats)
         alike = np.empty((len(query), len(self._words)), np.float32)
-        for start in range(0, len(query), _AT_ONCE):
-            some = slice(start, start + _AT_ONCE)
-            products = query[some] @ self._rows.T
+        for some, products in self._products(query):
             for word, own in enumerate(self._spans):
                 products[:, own].max(axis=1, out=alike[some, word])
         return Neighbours(words, apart(alike))
+
+    def _neighbours_of_repeated(self, query: Rows, repeats: Repeats) -> Neighbours:
+        firsts, same = repeats
+        shape = len(firsts), len(self._words)
+        rows, alike = np.empty(shape, np.intp), np.empty(shape, np.float32)
+        for some, products in self._products(query[firsts]):
+            for word, own in enumerate(self._spans):
+                theirs = products[:, own]
+                best = theirs.argmax(axis=1)
+                rows[some, word] = best + own.start
+                alike[some, word] = theirs[np.arange(len(best)), best]
+        columns = _greatest(alike, NEIGHBOURS)
+        near = self._rows[np.take_along_axis(rows, columns, axis=1)]
+        found = products_with_found(near, query, same)
+        return Neighbours(self._words[columns][same], apart(found))
+
+    def _products(self, query: Rows) -> Iterator[tuple[slice, Rows]]:
+        """The dot products of some of the query at a time with all descriptors."""
+        for start in range(0, len(query), _AT_ONCE):
+            some = slice(start, start + _AT_ONCE)
+            yield some, query[some] @ self._rows.T
+
+
+def _greatest(numbers: Rows, count: int) -> NDArray[np.intp]:
+    """The columns (n, count) of the greatest numbers in each row, in any order."""
+    if numbers.shape[1] <= count:
+        return np.broadcast_to(np.arange(numbers.shape[1]), numbers.shape)
+    return np.argpartition(numbers, -count, axis=1)[:, -count:]
 
 
 class Part:
@@ -114,10 +146,16 @@ class Part:
         """Wait until another thread has built it, or failed to; tell whether it has."""
         return self._done.wait(seconds)
 
-    def neighbours(self, query: Rows, owners: NDArray[np.intp]) -> Neighbours:
+    def neighbours(
+        self,
+        query: Rows,
+        owners: NDArray[np.intp],
+        repeats: Repeats | None = None,
+    ) -> Neighbours:
         """The nearest descriptors; `owners` has the column of each view's word, or -1.
 
-        Forgotten views are left out at once, although the trees still hold them.
+        Forgotten views are left out at once, although the trees still hold them. Where
+        features are repeated, only the first of each is searched for.
         """
         if self._search is None:
             raise RuntimeError("a part was searched before it was built")
@@ -125,14 +163,16 @@ class Part:
             return Neighbours(np.empty((0, 0), np.intp), np.empty((0, 0), np.float32))
         some_gone = bool((owners == NOBODY).any())
         wanted = NEIGHBOURS + some_gone * _SPARE
-        rows = self._search.find_rows(query, min(wanted, self.size))
+        firsts, same = repeats or (slice(None), np.arange(len(query)))
+        rows = self._search.find_rows(query[firsts], min(wanted, self.size))
         some = np.maximum(rows, 0)
         views = np.searchsorted(self._starts, some, side="right") - 1
         words = np.where(rows < 0, NOBODY, owners[views])
         once, places = np.unique(some, return_inverse=True)
         owning = np.searchsorted(self._starts, once, side="right") - 1
         near = rooted(self._descriptors(owning, once))[places.reshape(rows.shape)]
-        far = apart(np.matmul(near, query[:, :, None])[:, :, 0])
+        words = words[same]
+        far = apart(products_with_found(near, query, same))
         far[words == NOBODY] = np.inf
         return Neighbours(words, far)
 

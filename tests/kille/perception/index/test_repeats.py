@@ -1,0 +1,108 @@
+"""Features seen again in later scans: which they are, and what is found for them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tabletop import prototypes
+
+from kille.perception.index import (
+    AGAIN,
+    Index,
+    Repeats,
+    Rows,
+    View,
+    distances,
+    find_repeats,
+    partition,
+    rooted,
+)
+from kille.scene import Features
+
+THINGS = {"cup": 1, "book": 2, "shoe": 3}
+
+
+def scan(thing: int, seed: int, count: int = 60) -> Features:
+    """A scan of a still thing: most of its features are seen in it, with noise."""
+    chance = np.random.default_rng([thing, seed])
+    seen = chance.permutation(count)[: count * 4 // 5]
+    noisy = prototypes(thing, count) + chance.normal(0, 1, (count, 128))
+    places = np.random.default_rng(thing).uniform(0, 480, (count, 2))
+    shaken = places + chance.normal(0, 0.3, (count, 2))
+    return Features(
+        np.clip(noisy[seen], 0, 255).astype(np.uint8),
+        shaken[seen].astype(np.float32),
+        np.zeros((len(seen), 3), np.float32),
+    )
+
+
+def rows_of(scans: list[Features]) -> Rows:
+    return rooted(np.concatenate([it.descriptors for it in scans]))
+
+
+def taught() -> Index:
+    views = [
+        View(f"{word} {seed}", word, scan(thing, 100 + seed).descriptors)
+        for word, thing in THINGS.items()
+        for seed in range(3)
+    ]
+    return Index(views)
+
+
+def looked() -> tuple[list[Features], Rows, Repeats]:
+    scans = [scan(1, seed) for seed in range(6)]
+    query = rows_of(scans)
+    return scans, query, find_repeats(query, scans)
+
+
+def test_each_feature_is_the_first_of_its_kind_or_like_that_of_an_earlier_scan() -> (
+    None
+):
+    scans, query, (firsts, same) = looked()
+    own = np.repeat(np.arange(len(scans)), [len(it.pixels) for it in scans])
+    standing = firsts[same]
+    again = standing != np.arange(len(query))
+    assert (own[standing[again]] < own[again]).all()
+    apart = np.diag(distances(query, query[standing]))
+    assert (apart[again] < AGAIN).all()
+    assert (standing[firsts] == firsts).all()
+    assert len(scans[0].pixels) <= len(firsts) < len(query) / 3
+
+
+def test_firsts_are_in_the_order_of_how_often_they_are_seen() -> None:
+    _, _, (firsts, same) = looked()
+    assert (np.diff(np.bincount(same, minlength=len(firsts))) >= 0).all()
+
+
+def test_features_of_things_that_moved_far_are_all_different() -> None:
+    one = scan(1, 0)
+    other = Features(one.descriptors, one.pixels + np.float32([0, 1000]), one.points)
+    firsts, same = find_repeats(rows_of([one, other]), [one, other])
+    assert len(firsts) == len(same) == 2 * len(one.pixels)
+
+
+def test_scans_without_features_repeat_nothing() -> None:
+    nothing, some = scan(1, 0, count=0), scan(1, 1)
+    scans = [nothing, some, nothing]
+    firsts, same = find_repeats(rows_of(scans), scans)
+    assert firsts[same].tolist() == list(range(len(some.pixels)))
+    none = rows_of([nothing])
+    found = taught().neighbours(none, find_repeats(none, [nothing]))
+    assert found.distances.size == 0
+
+
+@pytest.mark.parametrize("tail", [4000, 100])
+def test_what_is_found_for_repeats_is_nearly_what_is_found_for_each(
+    tail: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Exactly so for the first of each, and never nearer than the nearest is."""
+    monkeypatch.setattr(partition, "TAIL", tail)
+    _, query, repeats = looked()
+    index = taught()
+    each, found = index.neighbours(query), index.neighbours(query, repeats)
+    nearest, near = (it.distances.min(axis=1) for it in (each, found))
+    firsts = repeats.firsts
+    assert near[firsts] == pytest.approx(nearest[firsts], abs=2e-3)
+    assert (near > nearest - 2e-3).all()
+    assert (near < nearest + 2 * AGAIN).all()
+    assert np.median(near - nearest) < 0.01
