@@ -1,14 +1,18 @@
 """A look: some consecutive frames, and the things that stay in view throughout.
 
 Features are extracted, and traits measured, when they are first asked for, so that a
-look costs no more than its segmentation, and only things attended to are described.
+look takes no longer than its segmentation, and only things attended to are described.
+But while a camera's frames come there is nothing else to do: a thread then segments
+the first of them, and measures the traits of the things in them, the nearest first.
+What is not begun when the last frame has come is left until it is asked for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache, partial
-from typing import overload
+from typing import NamedTuple, TypeVar, overload
 
 import cv2
 import numpy as np
@@ -17,13 +21,16 @@ from kille.perception.cues import measured
 from kille.perception.features import features_of
 from kille.perception.pointing import region_at
 from kille.perception.segment import Scene, overlap, region_of, segment
-from kille.scene import Box, Features, Frame, Look, Mask, Percept, Region
+from kille.scene import Box, Features, Frame, Look, Mask, Percept, Region, Traits
 from kille.sensors.sensor import Sensor
 
 SCANS = 10
 """How many consecutive frames the paper's robot looks at."""
 
 Sighting = tuple[Frame, Region]
+
+K = TypeVar("K")
+V = TypeVar("V")
 
 _SAME = 0.3  # overlap of a region with itself one frame later
 _LASTING = 0.5  # of the frames a thing must be in, or it is a flicker
@@ -75,21 +82,62 @@ def look(
     """
     if scans < 1:
         raise ValueError(f"a look takes at least one scan, not {scans}")
-    frames = _distinct([sensor.frame() for _ in range(scans)])
-    first = segment(frames[0])
-    scenes = cache(lambda number: segment(frames[number]))
+    captured = _capture(sensor, scans)
+    frames = captured.frames
+    scenes = cache(
+        lambda number: captured.scenes.get(frames[number]) or segment(frames[number])
+    )
+    first = scenes(0)
     tracks = [_track(region, frames, scenes) for region in first.regions]
     lasting = [track for track in tracks if len(track) >= _LASTING * len(frames)]
     focus = _focus(frames, pointed)
     others = [track for track in lasting if not _same_thing(focus, track)]
-    percepts = tuple(_percept(track) for track in [*focus, *others])
+    percepts = tuple(_percept(track, captured.traits) for track in [*focus, *others])
     return Look(frames[0], percepts, first.up)
 
 
-def _percept(track: Sequence[Sighting]) -> Percept:
+def _percept(track: Sequence[Sighting], traits: Mapping[Region, Traits]) -> Percept:
     """The percept of a thing from its sightings, the first of which is measured."""
     frame, region = track[0]
+    if region in traits:
+        known = traits[region]
+        return Percept(region, Scans(track), lambda: known, frame)
     return Percept(region, Scans(track), partial(measured, frame, region), frame)
+
+
+class _Captured(NamedTuple):
+    """The frames of a look, and what was made out in the first ones meanwhile."""
+
+    frames: Sequence[Frame]
+    scenes: Mapping[Frame, Scene]
+    traits: Mapping[Region, Traits]
+
+
+def _capture(sensor: Sensor, scans: int) -> _Captured:
+    """Take so many frames, without repetitions of a still picture."""
+    first, *second = (sensor.frame() for _ in range(min(scans, 2)))
+    if not second or second[0].colour is first.colour:
+        others = (sensor.frame() for _ in range(scans - 2))
+        return _Captured(_distinct([first, *second, *others]), {}, {})
+    frames = [first, *second]
+    traits: dict[Region, Future[Traits]] = {}
+    with ThreadPoolExecutor(1, "kille-look") as worker:
+        scenes = {frame: worker.submit(segment, frame) for frame in frames}
+        for number in range(2, scans):
+            frames.append(frame := sensor.frame())
+            if number < _DOUBTED:
+                scenes[frame] = worker.submit(segment, frame)
+            if not traits and (scene := _results(scenes).get(first)):
+                regions = scene.regions
+                traits = {it: worker.submit(measured, first, it) for it in regions}
+        worker.shutdown(cancel_futures=True)
+    return _Captured(_distinct(frames), _results(scenes), _results(traits))
+
+
+def _results(begun: Mapping[K, Future[V]]) -> dict[K, V]:
+    """What is done of what was begun. What failed fails again when it is needed."""
+    ended = {key: it for key, it in begun.items() if it.done() and not it.cancelled()}
+    return {key: it.result() for key, it in ended.items() if it.exception() is None}
 
 
 def _distinct(frames: Sequence[Frame]) -> list[Frame]:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -48,6 +51,70 @@ def test_a_still_is_scanned_once() -> None:
     (percept,) = look(Camera(picture)).percepts
     assert len(percept.scans) == 1
     assert percept.region.place is None
+
+
+class Idle(ThreadPoolExecutor):
+    """A thread that finds no time to do anything."""
+
+    def submit(self, *_: Any) -> Future[Any]:
+        future = Future[Any]()
+        future.cancel()
+        return future
+
+
+class Quick(ThreadPoolExecutor):
+    """A thread that has done everything at once."""
+
+    def submit(self, do: Callable[..., Any], /, *args: Any) -> Future[Any]:
+        future = Future[Any]()
+        try:
+            future.set_result(do(*args))
+        except ValueError as error:
+            future.set_exception(error)
+        return future
+
+
+def test_what_is_done_while_the_frames_come_makes_no_difference(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shown = frames(10, LEFT, RIGHT)
+    looks = [look(Camera(*shown))]
+    for worker in (Idle, Quick):
+        monkeypatch.setattr("kille.perception.look.ThreadPoolExecutor", worker)
+        looks.append(look(Camera(*shown)))
+    for percepts in zip(*(it.percepts for it in looks), strict=True):
+        first, *others = percepts
+        for other in others:
+            assert np.array_equal(other.region.mask, first.region.mask)
+            assert other.region.place == first.region.place
+            assert other.traits.keys() == first.traits.keys()
+            for cue, vector in first.traits.items():
+                assert np.array_equal(other.traits[cue], vector)
+
+
+def test_traits_are_measured_while_the_frames_come(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("kille.perception.look.ThreadPoolExecutor", Quick)
+    seen = look(Camera(*frames(10, LEFT, RIGHT)))
+    monkeypatch.setattr("kille.perception.look.measured", None)
+    assert all(percept.traits for percept in seen.percepts)
+
+
+def test_what_fails_in_a_frame_that_nobody_needs_is_no_failure(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shown = frames(3)
+
+    def fail_later(frame: Frame) -> Scene:
+        if frame is not shown[0]:
+            raise ValueError("not needed")
+        return Scene((), UP)
+
+    monkeypatch.setattr("kille.perception.look.segment", fail_later)
+    for worker in (ThreadPoolExecutor, Quick):
+        monkeypatch.setattr("kille.perception.look.ThreadPoolExecutor", worker)
+        assert look(Camera(*shown), 3).percepts == ()
 
 
 def test_what_flickers_is_no_percept() -> None:
