@@ -44,7 +44,7 @@ def terminal_text(text: str) -> str:
     a \x1b[31mcup
     \u202ea mug
     """
-    if text.isascii() and not _ASCII_CONTROLS.search(text):
+    if text.isascii() and not re.search(_ASCII_CONTROLS, text):
         return text
     return _make_visible(text.translate(_PLAIN_BLANKS), "\n")
 
@@ -121,8 +121,8 @@ def csv_line(cells: Iterable[Any]) -> str:
 def _cell(cell: Any) -> Any:
     if not isinstance(cell, str):
         return cell
-    word = _SURROGATES.sub(lambda found: _escape_sequence(found[0]), cell)
-    if _COMPUTED.match(word) and not _NUMBER.fullmatch(word):
+    word = re.sub(_SURROGATES, lambda found: _escape_sequence(found[0]), cell)
+    if re.match(_COMPUTED, word) and not _NUMBER.fullmatch(word):
         return f"'{word}"
     return word
 
@@ -144,8 +144,10 @@ def json_text(value: Any, **settings: Any) -> str:
 # --- what cannot be seen -------------------------------------------------------------
 
 
-_ASCII_CONTROLS = re.compile(r"[\x00-\x09\x0b-\x1f\x7f]")
-_SURROGATES = re.compile("[\ud800-\udfff]")
+# Patterns are compiled when they are first used, and then known to `re`: most texts are
+# plain, and need none of them.
+_ASCII_CONTROLS = r"[\x00-\x09\x0b-\x1f\x7f]"
+_SURROGATES = "[\ud800-\udfff]"
 
 _BLANKS = "\xa0\u1680\u2000-\u200a\u202f\u205f\u3000"
 _PLAIN_BLANKS = {
@@ -153,7 +155,7 @@ _PLAIN_BLANKS = {
     0x3000: "  ",
 }
 
-_ODD = re.compile(
+_ODD = (
     # controls, surrogates, separators, blanks
     f"[\x00-\x1f\x7f-\x9f\ud800-\udfff\u2028\u2029{_BLANKS}"
     # printable for Python, but nothing is seen: joiners, fillers, selectors
@@ -166,10 +168,10 @@ def _make_visible(
     text: str, kept: str, *, blanks: bool = False, written: Any = None
 ) -> str:
     """The text with what cannot be seen written out, except for the kept signs."""
-    if text.isprintable() and not _ODD.search(text):
+    if text.isprintable() and not re.search(_ODD, text):
         return text
     write = written or _escape_sequence
-    flags = {at for found in _FLAGS.finditer(text) for at in range(*found.span())}
+    flags = {at for found in re.finditer(_FLAGS, text) for at in range(*found.span())}
     return "".join(
         c
         if c in kept
@@ -183,7 +185,7 @@ def _make_visible(
 
 
 def _is_seen(c: str) -> bool:
-    return c.isprintable() and not _ODD.match(c)
+    return c.isprintable() and not re.match(_ODD, c)
 
 
 def _escape_sequence(c: str) -> str:
@@ -208,27 +210,25 @@ def _json_escape(c: str) -> str:
 
 
 _NON_JOINER, _JOINER = "\u200c", "\u200d"
-_PICTURE = re.compile(
-    "[©®‼⁉™ℹ↔-↙↩↪⌚-⏿Ⓜ▪▫▶◀◻-◾☀-➿⤴⤵⬅-⬇⬛⬜⭐⭕〰〽㊗㊙\U0001f000-\U0001faff]"
-)
-_KEY = re.compile("[0-9#*]")
+_PICTURE = "[©®‼⁉™ℹ↔-↙↩↪⌚-⏿Ⓜ▪▫▶◀◻-◾☀-➿⤴⤵⬅-⬇⬛⬜⭐⭕〰〽㊗㊙\U0001f000-\U0001faff]"
+_KEY = "[0-9#*]"
 _KEYCAP = "\u20e3"
 _PICTURE_FORMS = "\ufe0e\ufe0f"
-_FLAGS = re.compile(
+_FLAGS = (
     "(?<=\U0001f3f4)\U000e0067\U000e0062"
     "(?:\U000e0065\U000e006e\U000e0067|\U000e0073\U000e0063\U000e0074"
     "|\U000e0077\U000e006c\U000e0073)\U000e007f"
 )
 """The flags of England, Scotland and Wales: the tags after a black flag."""
-_ARABIC = re.compile("[\u0620-\u07f5\u0840-\u08ff\ufb50-\ufdff\ufe70-\ufefc]")
-_JOINS_NOT_LEFT = re.compile("[\u0621-\u0625\u0627\u0629\u062f-\u0632\u0648\u0671-"
+_ARABIC = "[\u0620-\u07f5\u0840-\u08ff\ufb50-\ufdff\ufe70-\ufefc]"
+_JOINS_NOT_LEFT = ("[\u0621-\u0625\u0627\u0629\u062f-\u0632\u0648\u0671-"
                              "\u0673\u0675-\u0677\u0688-\u0699\u06c0\u06c3-\u06cb\u06cd"
                              "\u06cf\u06d2\u06d3\u06d5\u06ee\u06ef]")  # fmt: skip
-_MONGOLIAN = re.compile("[\u1820-\u1878\u1880-\u18aa]")
+_MONGOLIAN = "[\u1820-\u1878\u1880-\u18aa]"
 _MONGOLIAN_FORMS = "\u180b\u180c\u180d\u180f"
 _MONGOLIAN_SEPARATOR = "\u180e"
-_IDEOGRAPH = re.compile("[㐀-䶿一-鿿豈-\ufaff\U00020000-\U0003ffff]")
-_IDEOGRAPH_FORMS = re.compile("[\U000e0100-\U000e01ef]")
+_IDEOGRAPH = "[㐀-䶿一-鿿豈-\ufaff\U00020000-\U0003ffff]"
+_IDEOGRAPH_FORMS = "[\U000e0100-\U000e01ef]"
 _VIRAMA = 9
 """The combining class of the sign that takes away an Indic letter's vowel."""
 
@@ -237,19 +237,19 @@ def _is_spelling(text: str, at: int) -> bool:
     """Is what stands there part of how a word is ordinarily spelt?"""
     c, before, after = text[at], text[at - 1 : at] or " ", text[at + 1 : at + 2] or " "
     if c in _PICTURE_FORMS:
-        is_key = bool(_KEY.match(before)) and after == _KEYCAP
-        return is_key or bool(_PICTURE.match(before))
-    if c == _JOINER and _PICTURE.match(after):
+        is_key = bool(re.match(_KEY, before)) and after == _KEYCAP
+        return is_key or bool(re.match(_PICTURE, before))
+    if c == _JOINER and re.match(_PICTURE, after):
         if before in _PICTURE_FORMS:
             before = text[at - 2 : at - 1] or " "
-        return bool(_PICTURE.match(before))
+        return bool(re.match(_PICTURE, before))
     if c in (_JOINER, _NON_JOINER):
         return _shapes_letters(text, at)
     if c in _MONGOLIAN_FORMS:
-        return bool(_MONGOLIAN.match(before))
+        return bool(re.match(_MONGOLIAN, before))
     if c == _MONGOLIAN_SEPARATOR:
-        return bool(_MONGOLIAN.match(before) and _MONGOLIAN.match(after))
-    return bool(_IDEOGRAPH_FORMS.match(c) and _IDEOGRAPH.match(before))
+        return bool(re.match(_MONGOLIAN, before) and re.match(_MONGOLIAN, after))
+    return bool(re.match(_IDEOGRAPH_FORMS, c) and re.match(_IDEOGRAPH, before))
 
 
 def _shapes_letters(text: str, at: int) -> bool:
@@ -261,8 +261,8 @@ def _shapes_letters(text: str, at: int) -> bool:
         is_letter = unicodedata.category(before) == "Lo"
         return is_letter and unicodedata.combining(after) == _VIRAMA
     base = next((c for c in text[at - 1 :: -1] if not unicodedata.combining(c)), " ")
-    joins = _ARABIC.match(base) and not _JOINS_NOT_LEFT.match(base)
-    return bool(at and joins and _ARABIC.match(after))
+    joins = re.match(_ARABIC, base) and not re.match(_JOINS_NOT_LEFT, base)
+    return bool(at and joins and re.match(_ARABIC, after))
 
 
 # --- how wide it is ------------------------------------------------------------------
@@ -288,5 +288,5 @@ def _column(letter: str) -> int:
 # --- what a spreadsheet computes -----------------------------------------------------
 
 
-_COMPUTED = re.compile(r"'*[\s\ufeff\x00-\x1f]*(?:[=+\-@＝＋－＠]|(?<=[\t\r]))")
+_COMPUTED = r"'*[\s\ufeff\x00-\x1f]*(?:[=+\-@＝＋－＠]|(?<=[\t\r]))"
 _NUMBER = re.compile(r"[+-]?[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?", re.ASCII)

@@ -86,6 +86,14 @@ class Source(NamedTuple):
             raise GrammarError(f"{found.what} may not be nothing at all")
         return found
 
+    def initials(self, terminal: str) -> str | None:
+        """The ASCII letters with which a terminal can begin, in lower case.
+
+        None where that cannot be seen at once: then any sign has to be tried.
+        """
+        found = [_initials(pattern) for pattern in self.terminals[terminal]]
+        return None if None in found else "".join(map(str, found))
+
     def between(self) -> Expression:
         """The expression of what is skipped; `GrammarError` where it is none."""
         return _expression(self.ignored, "what is ignored", "(?:{})*")
@@ -118,6 +126,23 @@ def _expression(patterns: Sequence[str], what: str, as_: str = "{}") -> Expressi
     raise GrammarError(
         f"{what} has over {_LONGEST:,} signs, its repetitions written out"
     )
+
+
+_WORDS = re.compile(r"\(\?i:([a-z ()|?*+]+)\)")
+"""Words, some of which may be left out or repeated, in small letters or capitals."""
+
+_FIRST = re.compile("(?<![a-z ])[a-z ]")
+"""A sign with which such words can begin: none has to stand before it."""
+
+
+def _initials(pattern: str) -> str | None:
+    r"""The signs with which what a pattern fits can begin, at least these.
+
+    >>> _initials(r"(?i:((quite |all )?wrong|colou?r)\b)"), _initials("[ab]c")
+    ('qawcr', None)
+    """
+    words = _WORDS.fullmatch(pattern.replace("\\b", ""))
+    return "".join(_FIRST.findall(words[1])) if words else None
 
 
 def _length(pattern: str) -> int:

@@ -79,6 +79,7 @@ class Grammar:
         self._source = read(source, self.starts)
         self._between = self._source.between()
         self._expressions: dict[str, Expression] = {}
+        self._initials: dict[str, str | None] = {}
         self._productions: dict[str, list[Production]] = {}
         for made in self._source.productions:
             self._productions.setdefault(made.name, []).append(made)
@@ -114,6 +115,18 @@ class Grammar:
         if known is None:
             known = self._expressions[terminal] = self._source.expression(terminal)
         return known
+
+    def can_begin(self, terminal: str, letter: str) -> bool:
+        """Can a terminal begin with this sign, as far as can be seen at once?
+
+        Most cannot, and need no expression made for them. Of letters other than those
+        of ASCII some count as the same in a way that only expressions know.
+        """
+        if terminal not in self._initials:
+            self._initials[terminal] = self._source.initials(terminal)
+        initials = self._initials[terminal]
+        ascii_letter = letter.isascii() and letter.isalpha()
+        return initials is None or not ascii_letter or letter.lower() in initials
 
     def _refuse_left_recursion(self) -> None:
         """Raise for a rule that may begin with itself: descent would never end."""
@@ -214,12 +227,15 @@ class _Chart:
         """Where the next word begins if here is this terminal, and its text."""
         key = (name, at)
         if key not in self._terminals:
-            expression = self._grammar.expression(name)
-            found = expression.match(self._text, at, self._until)
-            self._terminals[key] = (
-                (self.after(found.end()), found.group()) if found else None
-            )
+            self._terminals[key] = self._look_for(name, at)
         return self._terminals[key]
+
+    def _look_for(self, name: str, at: int) -> tuple[int, str] | None:
+        if not self._grammar.can_begin(name, self._text[at : at + 1]):
+            return None
+        expression = self._grammar.expression(name)
+        found = expression.match(self._text, at, self._until)
+        return (self.after(found.end()), found.group()) if found else None
 
 
 def _made(production: Production, rows: list[Row]) -> Iterable[Row]:

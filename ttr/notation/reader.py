@@ -532,14 +532,13 @@ class Reader:
         """Refuse what is no label, and a label that occurs twice."""
         seen: set[str] = set()
         for label in labels:
-            span = self.source.span(label)
             if label.text in seen:
                 told = f"the label {excerpt(label.text)} is there twice"
-                raise IllFormedError(told, span=span)
+                raise IllFormedError(told, span=self.source.span(label))
             try:
                 check_label(label.text)
             except IllFormedError as error:
-                raise error.at(span) from None
+                raise error.at(self.source.span(label)) from None
             seen.add(label.text)
 
     def _variable(self, word: Word) -> str:

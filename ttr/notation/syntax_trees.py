@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 from ttr.errors import NotationError, Span
 
@@ -50,7 +50,7 @@ class Source:
         return replace(found, line=line)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Part:
     """A part of a text: text[start:end]."""
 
@@ -61,12 +61,12 @@ class Part:
 # --- terms: types and objects --------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Term(Part):
     """A type or an object."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Name(Term):
     """x, x.y (`up` is None), .x (`up` is 0), ^.x (1), and so on outwards."""
 
@@ -74,14 +74,14 @@ class Name(Term):
     up: int | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Literal(Term):
     """A quoted name or a number."""
 
     value: str | int | float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Application(Term):
     """p(a₁, …, aₙ), or f(a)."""
 
@@ -89,7 +89,7 @@ class Application(Term):
     args: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Abstraction(Term):
     """λx:S. body."""
 
@@ -98,7 +98,7 @@ class Abstraction(Term):
     body: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Arrow(Term):
     """(S → T), or ((x : S) → T) where there is a variable."""
 
@@ -107,7 +107,7 @@ class Arrow(Term):
     result: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Restriction(Term):
     """T@a."""
 
@@ -115,42 +115,42 @@ class Restriction(Term):
     value: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Conjunction(Term):
     """S ∧ T."""
 
     parts: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Disjunction(Term):
     """S ∨ T."""
 
     parts: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Denial(Term):
     """¬T."""
 
     body: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Concatenation(Term):
     """a + b."""
 
     parts: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Fields(Term):
     """[ℓ : T, …]; without fields it is written Rec, so there is at least one."""
 
     fields: tuple[Field, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Field(Part):
     """ℓ : T, or ℓ = a : T."""
 
@@ -159,35 +159,35 @@ class Field(Part):
     type: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Items(Term):
     """[a, …]; `[]` is Rec where a type must stand."""
 
     items: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Braces(Term):
     """{ℓ = a, …}."""
 
     settings: tuple[tuple[Word, Term], ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Elements(Term):
     """{a, …}, or set{} where there are none."""
 
     items: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Events(Term):
     """<a b>."""
 
     items: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Word(Part):
     """A single name, where one is declared or stands as a label."""
 
@@ -197,33 +197,33 @@ class Word(Part):
 # --- statements ----------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Statement(Part):
     """A statement of a theory file."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Import(Statement):
     """import "f.ttr"."""
 
     path: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class BasicNames(Statement):
     """basic A, B."""
 
     names: tuple[Word, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Predicates(Statement):
     """pred p(A), q(A, B)."""
 
     arities: tuple[Arity, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Arity(Part):
     """p(A₁, …, Aₙ) where a predicate is declared."""
 
@@ -231,14 +231,14 @@ class Arity(Part):
     types: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class OpenNames(Statement):
     """open A, p."""
 
     names: tuple[Word, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class ObjectNames(Statement):
     """object a, b : T."""
 
@@ -246,7 +246,7 @@ class ObjectNames(Statement):
     type: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class GivenFact(Statement):
     """given a : T, with a degree or without."""
 
@@ -255,14 +255,14 @@ class GivenFact(Statement):
     degree: Degree | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class GivenChance(Statement):
     """given P(a : T | b : S) = p, or given P(T || S) = p."""
 
     chance: Probability | Expectation
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Definition(Statement):
     """Name := type or object."""
 
@@ -270,7 +270,7 @@ class Definition(Statement):
     value: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class RuleStatement(Statement):
     """rule name(s : S, e : E) "doc" of kind where [x : T] := value."""
 
@@ -282,7 +282,7 @@ class RuleStatement(Statement):
     value: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Parameter(Part):
     """s : S, or e : E in [lo, hi]."""
 
@@ -291,7 +291,7 @@ class Parameter(Part):
     degree: Degree | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class StrategyStatement(Statement):
     """strategy name := value."""
 
@@ -299,7 +299,7 @@ class StrategyStatement(Statement):
     value: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class GameStatement(Statement):
     """game name(start : S, acts on agenda, hears A, B) := value."""
 
@@ -311,7 +311,7 @@ class GameStatement(Statement):
     value: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class AxiomClaim(Statement):
     """S <: T."""
 
@@ -319,7 +319,7 @@ class AxiomClaim(Statement):
     upper: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Question(Statement):
     """check Q; `expected` is yes, no, unknown or error."""
 
@@ -327,7 +327,7 @@ class Question(Statement):
     query: Query
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Degree(Part):
     """= p (`relation` is "=") or in [lo, hi] (it is "in")."""
 
@@ -335,12 +335,12 @@ class Degree(Part):
     value: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Query(Part):
     """What a check asks."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Judged(Query):
     """a : T."""
 
@@ -348,7 +348,7 @@ class Judged(Query):
     type: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Comparison(Query):
     """S <= T or S = T; `relation` is "<=" or "="."""
 
@@ -357,7 +357,7 @@ class Comparison(Query):
     right: Term
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Probability(Query):
     """P(a : T | b : S, …) = p, or in [lo, hi]; `head` is what is written for P."""
 
@@ -368,7 +368,7 @@ class Probability(Query):
     when: tuple[tuple[Term, Term], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Expectation(Query):
     """P(T || S, …) = p, or in [lo, hi]."""
 
@@ -378,7 +378,7 @@ class Expectation(Query):
     degree: Degree | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Claim(Query):
     """create(T) or wellformed(T)."""
 
@@ -389,11 +389,16 @@ def inside(part: Part) -> Iterator[Part]:
     """The part and every part in it, the outer before the inner."""
     waiting: list[object] = [part]
     while waiting:
-        match waiting.pop():
-            case tuple() as parts:
-                waiting += reversed(parts)
-            case Part() as here:
-                yield here
-                waiting += (
-                    getattr(here, name) for name in reversed(here.__match_args__)
-                )
+        here = waiting.pop()
+        if isinstance(here, tuple):
+            waiting += reversed(here)
+        elif isinstance(here, Part):
+            yield here
+            waiting += _values_of(here.__match_args__)(here)
+
+
+@cache
+def _values_of(fields: tuple[str, ...]) -> Callable[[Part], list[object]]:
+    """What a part with these fields is made of, without its place, the last first."""
+    made_of = fields[:1:-1]
+    return lambda part: [getattr(part, name) for name in made_of]

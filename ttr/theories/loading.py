@@ -203,7 +203,7 @@ class _File:
         """Reads the statement text[start:end]."""
         try:
             tree = parse_statement(self.source, start, end)
-            if not names_mentioned(tree).isdisjoint(self.spoilt):
+            if self.spoilt and not names_mentioned(tree).isdisjoint(self.spoilt):
                 self._spoil(start)
             elif isinstance(tree, trees.Import):
                 self._import(tree)

@@ -22,7 +22,6 @@ from ttr.notation.syntax_trees import (
     inside,
 )
 from ttr.signature.signature import Axiom, Exclusion, Expected, Given
-from ttr.theories.check_statements import CheckReader
 from ttr.theories.game_statements import read_game
 from ttr.theories.rule_statements import read_rule
 from ttr.theories.strategy_statements import kinds_gathered, read_strategy
@@ -80,6 +79,8 @@ class StatementReader:
             case trees.AxiomClaim():
                 self._axiom(tree)
             case trees.Question():
+                from ttr.theories.check_statements import CheckReader
+
                 self.draft.checks.append(CheckReader(self.reader).check(tree))
             case _:
                 raise AssertionError(tree)

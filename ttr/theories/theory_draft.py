@@ -14,13 +14,13 @@ from ttr.signature.signature import (
     Opening,
     Signature,
 )
-from ttr.theories.queries import Check
 from ttr.types.objects import Object
 from ttr.types.syntax import Basic, Pred, TypeNode
 from ttr.updates.rules import Rule
 from ttr.updates.update_strategies import Algorithm
 
 if TYPE_CHECKING:
+    from ttr.theories.queries import Check
     from ttr.theories.theory import Theory
 
 

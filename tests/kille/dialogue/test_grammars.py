@@ -1,8 +1,11 @@
 """Grammars are read as Lark reads them, and what is not plain is left to Lark."""
 
+import re
 from itertools import count, groupby
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from kille.dialogue.grammars import GrammarError, by_lark, plainly, read
 from kille.dialogue.language import LANGUAGES, grammar_text
@@ -175,6 +178,44 @@ def test_a_repetition_of_perhaps_nothing_is_refused(rule: str) -> None:
 def test_huge_numbers_and_deep_brackets_are_refused(text: str) -> None:
     with pytest.raises(GrammarError):
         Grammar(text).parse("a")
+
+
+WORDS = st.recursive(
+    st.text("abs ", min_size=1, max_size=3),
+    lambda inner: st.one_of(
+        st.lists(inner, min_size=2, max_size=3).map("".join),
+        st.lists(inner, min_size=2, max_size=3).map("|".join).map("({})".format),
+        st.tuples(inner, st.sampled_from("?*+")).map(lambda it: f"({it[0]}){it[1]}"),
+        inner.map("{}\\b".format),
+    ),
+    max_leaves=6,
+)
+
+
+@given(st.data(), WORDS)
+def test_what_words_fit_begins_with_one_of_their_initials(data, words):
+    """Except signs that are not ASCII, of which some count as ASCII letters."""
+    rule = f"start: A{chr(10)}A: /{words}/i"
+    initials = read(rule, ["start"]).initials("A")
+    text = data.draw(st.from_regex(re.compile(words, re.I), fullmatch=True))
+    if text[:1].isascii() and text[:1].isalpha():
+        assert initials is not None
+        assert text[0].lower() in initials
+
+
+@pytest.mark.parametrize("pattern", ["[ab]c", "(?!b)a", "a{0,1}b", "å", r"\w"])
+def test_initials_that_cannot_be_seen_at_once_are_unknown(pattern):
+    rule = f"start: A | B{chr(10)}A: /{pattern}/i{chr(10)}B: /a/i | /{pattern}/i"
+    source = read(rule, ["start"])
+    assert source.initials("A") is None
+    assert source.initials("B") is None
+
+
+def test_expressions_are_made_for_words_that_can_be_here_only():
+    grammar = Grammar(grammar_text("en"))
+    assert grammar.parse("What is this?")
+    assert "_WHAT" in grammar._expressions
+    assert "_SHOW" not in grammar._expressions
 
 
 @pytest.mark.parametrize("what", ["the terminal A", "what is ignored"])
