@@ -46,6 +46,8 @@ def freeze(value: object) -> Object:
     (1, record(x='fido'))
     """
     kind = type(value)
+    if kind is str or kind is Record:
+        return value
     if kind is list or kind is tuple:
         return _freeze_each(tuple(value))  # type: ignore[arg-type]
     if kind is dict:
@@ -524,7 +526,7 @@ def is_immutable(value: Object) -> bool:
     return isinstance(value, _LASTING)
 
 
-_LASTING = (str, int, float, complex, bytes, NoneType, Node)
+_LASTING = (Node, str, int, float, complex, bytes, NoneType)
 """The kinds of objects that never change."""
 
 
