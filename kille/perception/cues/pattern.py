@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -70,19 +72,35 @@ def _kinds(window: Window) -> list[NDArray[np.intp]]:
 def _codes(grey: Array, radius: int) -> NDArray[np.uint8]:
     """Which of eight pixels around each one are at least as bright, bit by bit."""
     codes = np.zeros(grey.shape, np.uint8)
+    least = grey - 1e-3
+    for k, there in enumerate(_around(grey, radius)):
+        codes |= (there >= least).astype(np.uint8) << np.uint8(k)
+    return codes
+
+
+def _around(grey: Array, radius: int) -> Iterator[Array]:
+    """For each pixel what is so far right of it, then on around; the border goes on.
+
+    Right, above, left and below are whole pixels; the others lie between some.
+    """
+    height, width = grey.shape
+    wide = cv2.copyMakeBorder(grey, *(radius,) * 4, cv2.BORDER_REPLICATE)
     for k in range(_AROUND):
         angle = 2 * np.pi * k / _AROUND
         right, down = radius * np.cos(angle), -radius * np.sin(angle)
+        if k % 2 == 0:
+            top, left = radius + round(down), radius + round(right)
+            yield np.asarray(wide[top : top + height, left : left + width])
+            continue
         shift = np.array([[1, 0, -right], [0, 1, -down]], np.float32)
         there = cv2.warpAffine(
             grey,
             shift,
-            grey.shape[::-1],
+            (width, height),
             flags=cv2.INTER_LINEAR,
             borderMode=cv2.BORDER_REPLICATE,
         )
-        codes |= (there >= grey - 1e-3).astype(np.uint8) << np.uint8(k)
-    return codes
+        yield np.asarray(there, np.float32)
 
 
 def _table() -> NDArray[np.intp]:
