@@ -30,6 +30,7 @@ NOBODY = -1
 """The column of a view that was forgotten."""
 
 _AT_ONCE = 256  # descriptors that are compared with all others: what a cache can hold
+_FEW = 20_000  # descriptors of a part that are kept as RootSIFT too: 10 MB
 _SPARE = 30  # neighbours more, where some of what is found may have been forgotten
 
 
@@ -168,13 +169,22 @@ class Part:
         some = np.maximum(rows, 0)
         views = np.searchsorted(self._starts, some, side="right") - 1
         words = np.where(rows < 0, NOBODY, owners[views])
-        once, places = np.unique(some, return_inverse=True)
-        owning = np.searchsorted(self._starts, once, side="right") - 1
-        near = rooted(self._descriptors(owning, once))[places.reshape(rows.shape)]
         words = words[same]
-        far = apart(products_with_found(near, query, same))
+        far = apart(products_with_found(self._rooted(some), query, same))
         far[words == NOBODY] = np.inf
         return Neighbours(words, far)
+
+    def _rooted(self, rows: NDArray[np.int32]) -> Rows:
+        """The descriptors of these rows (m, k) as RootSIFT (m, k, 128)."""
+        if self.size <= _FEW:
+            return self._all_rooted[rows]
+        once, places = np.unique(rows, return_inverse=True)
+        owning = np.searchsorted(self._starts, once, side="right") - 1
+        return rooted(self._descriptors(owning, once))[places.reshape(rows.shape)]
+
+    @cached_property
+    def _all_rooted(self) -> Rows:
+        return rooted(np.concatenate(self._blocks))
 
     @cached_property
     def _blocks(self) -> list[Descriptors]:

@@ -14,6 +14,7 @@ from kille.perception.index import (
     View,
     distances,
     find_repeats,
+    index_parts,
     partition,
     rooted,
 )
@@ -91,12 +92,13 @@ def test_scans_without_features_repeat_nothing() -> None:
     assert found.distances.size == 0
 
 
-@pytest.mark.parametrize("tail", [4000, 100])
+@pytest.mark.parametrize(("tail", "few"), [(4000, 0), (100, 0), (100, 20_000)])
 def test_what_is_found_for_repeats_is_nearly_what_is_found_for_each(
-    tail: int, monkeypatch: pytest.MonkeyPatch
+    tail: int, few: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Exactly so for the first of each, and never nearer than the nearest is."""
     monkeypatch.setattr(partition, "TAIL", tail)
+    monkeypatch.setattr(index_parts, "_FEW", few)
     _, query, repeats = looked()
     index = taught()
     each, found = index.neighbours(query), index.neighbours(query, repeats)
@@ -106,3 +108,17 @@ def test_what_is_found_for_repeats_is_nearly_what_is_found_for_each(
     assert (near > nearest - 2e-3).all()
     assert (near < nearest + 2 * AGAIN).all()
     assert np.median(near - nearest) < 0.01
+
+
+def test_descriptors_are_the_same_gathered_or_kept(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(partition, "TAIL", 100)
+    _, query, repeats = looked()
+    found = []
+    for few in (0, 20_000):
+        monkeypatch.setattr(index_parts, "_FEW", few)
+        found += [taught().neighbours(query), taught().neighbours(query, repeats)]
+    for one, other in zip(found[:2], found[2:], strict=True):
+        assert np.array_equal(one.words, other.words)
+        assert np.array_equal(one.distances, other.distances)
