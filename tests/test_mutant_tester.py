@@ -43,6 +43,20 @@ def test_a_change_that_is_no_python_is_not_tested(
     assert outcomes == {(1, 18): "invalid", (2, 21): "unreached"}
 
 
+def test_a_change_that_its_operator_cannot_make_is_not_tested(
+    mutants: ModuleType, tmp_path: Path
+) -> None:
+    code = "try:\n    pass\nexcept (OSError, csv.Error):\n    pass\n"
+    (tmp_path / "trying.py").write_text(code)
+    outcomes = [
+        mutants.outcome(mutant, tmp_path, mutants.Reach({}, {}))[0]
+        for changes in mutants.mutants_by_place("trying.py", code).values()
+        for mutant in changes
+        if mutant.operator == "ExceptionReplacer"
+    ]
+    assert outcomes == ["unreached", "invalid"]
+
+
 def test_only_mutants_are_counted(
     mutants: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

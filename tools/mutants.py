@@ -308,11 +308,16 @@ def outcome(mutant: Mutant, folder: Path, reach: Reach) -> tuple[str, str]:
     """What became of a mutant, and its change as a diff.
 
     killed, timeout (also killed), survived, or unreached: no test runs the line. Not
-    counted is what is the same code, or invalid: no Python, which needs no test.
+    counted is what is the same code, or invalid: no Python, which needs no test, or a
+    change that the operator announces and cannot make, such as another name for the
+    dotted one in `except (OSError, csv.Error)`.
     """
     path = folder / mutant.file
     code = path.read_text()
-    mutated = mutant.mutated(code)
+    try:
+        mutated = mutant.mutated(code)
+    except AttributeError:
+        return "invalid", ""
     if mutated is None or mutated == code:
         return "same", ""
     diff = "".join(
