@@ -50,14 +50,24 @@ class Source:
         return {**vars(builtins), **self.function.__globals__, **filled}
 
     def value_of(self, expression: ast.expr) -> object:
-        """The value of a name, or of an attribute of a module; None for others."""
+        """The value of a name from outside, or of an attribute of a module.
+
+        None for other expressions, and for names that the function sets itself.
+        """
         match expression:
-            case ast.Name(name):
+            case ast.Name(name) if name not in self._own_names:
                 return self.names.get(name)
-            case ast.Attribute(ast.Name(module), name):
-                found = self.names.get(module)
-                return vars(found).get(name) if isinstance(found, ModuleType) else None
+            case ast.Attribute(value, name):
+                module = self.value_of(value)
+                return (
+                    _attribute(module, name) if isinstance(module, ModuleType) else None
+                )
         return None
+
+    @cached_property
+    def _own_names(self) -> frozenset[str]:
+        code = self.function.__code__
+        return frozenset((*code.co_varnames, *code.co_cellvars))
 
     def span(self, node: ast.expr | ast.keyword, last: int = 0) -> Span:
         """The place of an expression, or of its `last` so many characters."""
@@ -87,6 +97,13 @@ class Source:
         for name in _global_names(self.function.__code__):
             if name not in self.names and name not in bound:
                 yield name
+
+
+def _attribute(module: ModuleType, name: str) -> object:
+    """The attribute of a module, which `ttr` loads when it is first asked for."""
+    if module.__name__ == "ttr" and name in dir(module):
+        return getattr(module, name)
+    return vars(module).get(name)
 
 
 def _is_filled(cell: object) -> bool:
@@ -129,7 +146,7 @@ def _names_bound_in(module: ast.Module, line: int) -> frozenset[str] | None:
             case ast.ImportFrom(names=[ast.alias("*")]) if node.lineno < line:
                 continue
             case ast.Import(names) | ast.ImportFrom(names=names):
-                found |= {(a.asname or a.name).split(".")[0] for a in names}
+                found |= set(map(_name_imported_as, names))
     return None if "*" in found else frozenset(found)
 
 
@@ -217,24 +234,31 @@ def walk_untried(body: list[ast.stmt]) -> Iterator[ast.AST]:
         waiting += reversed(list(ast.iter_child_nodes(node)))
 
 
-def assigned_names(node: ast.AST) -> Iterator[str]:
+def assigned_names(node: _FunctionNode) -> Iterator[str]:
     """The names that are set in a function, each as often as it is set."""
-    own = getattr(node, "args", None)
+    own = set(ast.iter_child_nodes(node.args))
     for inner in ast.walk(node):
         match inner:
             case ast.Name(name, ast.Store() | ast.Del()):
                 yield name
-            case ast.arguments() if inner is not own:
-                every = (*inner.posonlyargs, *inner.args, *inner.kwonlyargs)
-                yield from (a.arg for a in every)
+            case ast.arg(name) if inner not in own:
+                yield name
             case ast.ExceptHandler(name=str(name)) | ast.MatchAs(name=str(name)):
                 yield name
-            case ast.MatchStar(name=str(name)):
+            case ast.MatchStar(name=str(name)) | ast.MatchMapping(rest=str(name)):
                 yield name
             case ast.FunctionDef(name) | ast.ClassDef(name) if inner is not node:
                 yield name
+            case ast.AsyncFunctionDef(name):
+                yield name
+            case ast.Import(names) | ast.ImportFrom(names=names):
+                yield from map(_name_imported_as, names)
             case ast.Global(names) | ast.Nonlocal(names):
                 yield from names
+
+
+def _name_imported_as(one: ast.alias) -> str:
+    return (one.asname or one.name).split(".")[0]
 
 
 def guarded_labels(body: list[ast.stmt]) -> Iterator[str]:
