@@ -422,6 +422,27 @@ def test_a_rule_alone_may_write_what_its_pattern_does_not_name():
 # --- values --------------------------------------------------------------------------
 
 
+def test_a_rule_of_a_file_that_is_changed_afterwards_is_read_again():
+    theory = Theory.parse("""
+        basic Ind
+        Board := [qud : list([by : Ind]), last : [by : Ind], next : [by : Ind]]
+        rule go_on(s : [last : [by : Ind]], e : [by : Ind])
+            := [last : [by = e.by : Ind], next = s.last : [by : Ind]]
+    """)
+    go_on, Board = theory.rules["go_on"], theory.Board
+    assert faults(go_on, Board) == ()
+    elsewhere = dataclasses.replace(go_on, when=rectype(qud=Board["qud"]))
+    found = faults(elsewhere, rectype(qud=Board["qud"], next=Rec))
+    assert [fault.message for fault in found] == [
+        "the rule go_on reads s.last, but s has no last",
+        "the rule go_on writes last, but a state has no last",
+    ]
+    (span, _) = [fault.span for fault in found]
+    assert span.text[span.column - 1 :].startswith("last : [by : Ind]]")
+    (fault,) = faults(dataclasses.replace(go_on, names=("s", "said")), Board)
+    assert fault.message == "the rule go_on uses e, which nothing binds"
+
+
 def test_values_of_wrong_types():
     @rule(when=Board, gives=rectype(agenda=Text))
     def wrong(s):
@@ -481,7 +502,7 @@ PLACES = """
     given d : q(ann)
     Event := [n : [a : Ind]]
     Board := [c : p(ann), e : Rec, l : list(Ind), r : [a : Ind],
-              u : [a : Ind] \\/ [b : Ind]]
+              u : [a : Ind] \\/ [b : Ind], h : [a = l : list(Ind)]]
 """
 
 
@@ -493,9 +514,15 @@ PLACES = """
         ("s : Board, e : Event", "[l = e.n : Rec]", ["something of [a : Ind]"]),
         # inside, e is the label, not the event
         ("s : Board, e : Event", "[e : [n : list(Ind)], l = e.n : list(Ind)]", []),
-        ("s : Board", "{c = s.c, e = s.e, l = [], r = s.r, u = {a = ann}}", []),
+        (
+            "s : Board",
+            "{c = s.c, e = s.e, h = s.h, l = [], r = s.r, u = {a = ann}}",
+            [],
+        ),
         ("s : Board", "[r : [a : Ind, c : p(a)]]", []),
         ("s : Board", "[c = d : p(ann)]", []),
+        # what the type of h depends on may be set, too
+        ("s : Board", "[h = s.l : list(Ind)]", []),
     ],
 )
 def test_what_a_rule_in_a_file_sets(parameters, body, found):
@@ -686,6 +713,9 @@ def made(name, when=Board, on=None, refuses=False, **options):
 ALWAYS, SOMETIMES = made("always"), made("sometimes", rectype(n=Count @ 0))
 LOW = made("low", on=Move, p=(0, 0.5))
 EMPTY = rectype(n=Count @ 0, agenda=ListOf(RecType) @ ())
+OF_A_CLASS = by_class(
+    made("one", EMPTY, kind="k"), made("other", kind="k"), order=["k"]
+)
 
 
 @pytest.mark.parametrize(
@@ -721,6 +751,14 @@ EMPTY = rectype(n=Count @ 0, agenda=ListOf(RecType) @ ())
         (first(LOW, made("late", on=Move, p=(0.2, 0.6))), []),
         (first(repeat(ALWAYS, times=2), SOMETIMES), ["sometimes"]),
         (first(repeat(SOMETIMES, times=2), ALWAYS), []),
+        (first(OF_A_CLASS, SOMETIMES), ["sometimes"]),
+        (first(ALWAYS, OF_A_CLASS), []),
+        (first(ask(ALWAYS, choose=lambda names, state: 0), SOMETIMES), []),
+        (first(ALWAYS, ask(SOMETIMES, choose=lambda names, state: 0)), ["sometimes"]),
+        (first(ALWAYS, all_(SOMETIMES, made("then"))), ["sometimes"]),
+        (first(ALWAYS, repeat(SOMETIMES, times=2)), ["sometimes"]),
+        (first(ALWAYS, seq(made("then"), SOMETIMES)), ["then"]),
+        (first(seq(maybe(SOMETIMES), ALWAYS), SOMETIMES), []),
     ],
     ids=str,
 )
@@ -836,6 +874,13 @@ def test_axioms_count():
     known = {"model": Model(theory)}
     assert sorts(first(animals, dogs), theory.S, **known) == ["dead"]
     assert sorts(first(dogs, animals), theory.S, **known) == []
+
+
+def test_a_rule_that_always_applies_forestalls_what_asks_for_something_unrelated():
+    pets = rectype(x=Basic("Pet"))
+    assert sorts(first(made("pets", pets), made("texts", rectype(x=Text))), pets) == [
+        "dead"
+    ]
 
 
 # --- what nothing brings about -------------------------------------------------------
@@ -1205,6 +1250,15 @@ def test_a_repetition_ends_if_what_is_set_is_promised_to_be_something_else():
             return replace(s, phase=CHANGES["somehow"](s))
 
         return change
+
+    assert sorts(repeat(becoming(BUSY)), Phased, model=P) == []
+    assert sorts(repeat(becoming(IDLE)), Phased, model=P) == ["endless"]
+    assert sorts(repeat(becoming(None)), Phased, model=P) == ["endless"]
+
+
+def test_a_repetition_of_what_nobody_can_read_ends_by_what_it_promises():
+    def becoming(gives):
+        return rule(when=IDLE, gives=gives)(eval("lambda s: s"))
 
     assert sorts(repeat(becoming(BUSY)), Phased, model=P) == []
     assert sorts(repeat(becoming(IDLE)), Phased, model=P) == ["endless"]

@@ -7,7 +7,7 @@ import pytest
 from ttr import Ind, ListOf, Model, Rec, RecType, TTRError, record, rectype, replace
 from ttr.errors import EndlessError, NotHeardError, UpdateError
 from ttr.probability import Degree
-from ttr.updates import Game, maybe, nbest, rule
+from ttr.updates import Game, first, maybe, nbest, rule
 
 M = Model().given("a", Ind).given("b", Ind).given("c", Ind)
 
@@ -99,8 +99,29 @@ def test_a_move_that_nobody_takes_off_the_agenda():
         return replace(s, plan=[rectype(by=Ind @ "b")])
 
     game = talk(algorithm=on_and_on)
-    with pytest.raises(EndlessError, match="not empty after 100 moves in a turn"):
+    with pytest.raises(
+        EndlessError, match="not empty after 100 moves in a turn: on_and_on → …"
+    ):
         game.take(game.begin(), {"by": "a"})
+
+
+@pytest.mark.parametrize("circle", ["ab", "abc"])
+def test_an_agenda_that_never_becomes_empty_names_the_rules_that_go_round(circle):
+    """Each rule takes the move of one and plans that of the next."""
+
+    def passing(one, following):
+        @rule(when=Talk, on=rectype(by=Ind @ one))
+        def pass_on(s, e):
+            return replace(s, plan=[rectype(by=Ind @ following)])
+
+        return dataclasses.replace(pass_on, name=f"after_{one}")
+
+    game = talk(algorithm=first(*map(passing, circle, circle[1:] + circle[0])))
+    with pytest.raises(EndlessError) as caught:
+        game.take(game.begin(), {"by": circle[0]})
+    order = circle[101 % len(circle) :] + circle[: 101 % len(circle)]
+    names = " → ".join(f"after_{one}" for one in order)
+    assert f"after 100 moves in a turn: {names} → …" in str(caught.value)
 
 
 def test_uncertain_events_of_a_game():

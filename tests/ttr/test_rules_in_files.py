@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import pickle
 from pathlib import Path
 
@@ -849,6 +850,23 @@ def test_a_promise_of_a_rule_is_not_written() -> None:
     assert (
         caught.value.message == "promise declares what it gives, which has no notation"
     )
+
+
+@pytest.mark.parametrize(
+    ("changes", "name"),
+    [
+        ({"name": "two words"}, "two words"),
+        ({"name": "fun"}, "fun"),
+        ({"kind": "1st"}, "1st"),
+        ({"kind": "list"}, "list"),
+    ],
+)
+def test_a_rule_with_a_name_that_cannot_be_read_is_not_written(changes, name) -> None:
+    turn = board().rules["turn"]
+    assert format_rule(dataclasses.replace(turn, name="turns", kind=""))
+    with pytest.raises(UnsupportedError) as caught:
+        format_rule(dataclasses.replace(turn, **changes))
+    assert caught.value.message == f"{name!r} is no name in the notation"
 
 
 def test_games_are_written_as_they_are_read() -> None:

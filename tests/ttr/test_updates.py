@@ -1,6 +1,7 @@
 """Rules, strategies and runs: pure, checked after every rule, and explained."""
 
 import dataclasses
+import math
 
 import pytest
 
@@ -13,6 +14,7 @@ from ttr import (
     Rec,
     Record,
     RecType,
+    Theory,
     TTRError,
     Type,
     fun,
@@ -533,6 +535,35 @@ def test_a_value_of_the_wrong_type_is_refused_where_it_stands():
         play(banana)
 
 
+def test_what_fails_inside_a_record_that_is_set_is_named_itself():
+    inner = rectype(deep=rectype(one=Ind, other=Ind))
+    T = rectype(r=inner)
+    good = record(deep=record(one="a", other="b"))
+
+    @rule(when=T)
+    def put(s):
+        return rectype(r=inner @ record(deep=record(one="c", other="nobody")))
+
+    with pytest.raises(
+        RuleFailedError, match=r"at r\.deep\.other: nobody : Ind, nothing says so"
+    ):
+        run(put, record(r=good), type=T, model=M)
+
+
+def test_what_is_in_a_record_that_was_created_was_created():
+    T = rectype(r=Rec, rest=Ind)
+
+    @rule(when=T)
+    def get(s):
+        return rectype(r=rectype(of=Ind) & rectype(for_=Ind), rest=Ind @ "b")
+
+    state = record(r=record(of="a", for_="a"), rest="a")
+    (step,) = run(get, state, type=T, model=M).trace
+    assert step.created == ("r",)
+    created = [line for line in str(step).splitlines() if "(created)" in line]
+    assert [line.split(":")[0].strip() for line in created] == ["r.for_", "r.of"]
+
+
 # --- more strategies ------------------------------------------------------------------
 
 
@@ -771,7 +802,18 @@ def test_a_rule_takes_the_likeliest_alternative_of_its_type():
     both = hears((other, 0.4), (yes, 0.2))
     assert (both.event, both.rule.name) == (other, "likely")
     assert both.p.lo == pytest.approx(0.6)
+    assert str(both).splitlines()[1] == "  on {yes = b}   p = 0.6"
     assert hears((other, 0.7), (yes, 0.3)).rule.name == "sure"
+
+
+def test_alternatives_that_are_all_of_a_type_make_it_certain_up_to_rounding():
+    several = [
+        (record(yes=one), p) for one, p in zip("abc", (0.35, 0.08, 0.57), strict=True)
+    ]
+    assert math.fsum(p for _, p in several) < 1.0
+    taken = heard_as(answer("sure", Yes))(*several)
+    assert taken.p == (1.0, 1.0)
+    assert "p =" not in str(taken)
 
 
 def test_how_sure_an_alternative_is_and_how_well_it_fits_count_together():
@@ -857,6 +899,7 @@ MORE_MISTAKES = {
     "did you mean early?": lambda: by_class(
         renamed(up, "up", kind="erly"), order=["early"]
     ),
+    "help: give it a class by kind=": lambda: by_class(up, order=["x"]),
     "no rule is of the class late": lambda: by_class(
         renamed(up, "up", kind="early"), order=["early", "late"]
     ),
@@ -873,6 +916,21 @@ def test_more_mistakes_are_named(message):
     with pytest.raises(UpdateError) as caught:
         MORE_MISTAKES[message]()
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("state", "event", "names"),
+    [("s", "e", ("s", "e")), ("a", "b", ("a", "b")), ("s", "s", ("s", "s_"))],
+)
+def test_an_update_keeps_the_names_of_its_variables(state, event, names):
+    theory = Theory.parse(f"""
+        basic Ind
+        f := \\{state}:[x : Ind]. \\{event}:[y : Ind]. [x = {event}.y : Ind]
+    """)
+    assert update(theory.f).names == names
+    start, said = record(x="a"), record(y="b")
+    after = run(update(theory.f), start, events=[said], type=rectype(x=Ind), model=M)
+    assert after.state == record(x="b")
 
 
 def test_where_nothing_of_a_basic_type_is_known_a_rule_waits():

@@ -67,8 +67,6 @@ def _unbounded_loops(algorithm: Algorithm) -> Iterator[Repeat]:
 
 def _surely_ends(rules: RuleSet, rule: Rule, members: tuple[Rule, ...]) -> bool:
     """Can a rule apply only finitely often, whatever the others do?"""
-    if not rules.summaries[rule].complete:
-        return False
     if _shortens_a_list(rules, rule, members):
         return True
     return any(

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from types import CodeType, FunctionType, ModuleType
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 from ttr.errors import Span
 
@@ -160,8 +160,8 @@ def source_of(effect: object) -> Source | None:
     if module is None:
         return None
     found = [node for node in _functions(module) if _is_of(node, code)]
-    if len(found) > 1:
-        found = [node for node in found if _is_at(node, code)]
+    if len(found) > 1:  # only lambdas can share a line and their parameters
+        found = [one for one in cast("list[ast.Lambda]", found) if _is_at(one, code)]
     if len(found) != 1:
         return None
     return Source(effect, found[0], code.co_filename, module)
@@ -181,10 +181,10 @@ def _functions(module: ast.Module) -> tuple[_FunctionNode, ...]:
     return tuple(node for node in ast.walk(module) if isinstance(node, kinds))
 
 
-def _is_at(node: _FunctionNode, code: CodeType) -> bool:
-    """Is the code of just this place? Several functions may share a line."""
-    body = node.body[0] if isinstance(node, ast.FunctionDef) else node.body
-    start, end = (body.lineno, body.col_offset), (node.end_lineno, node.end_col_offset)
+def _is_at(node: ast.Lambda, code: CodeType) -> bool:
+    """Is the code of just this place?"""
+    start = (node.body.lineno, node.body.col_offset)
+    end = (node.end_lineno, node.end_col_offset)
     places = [p for p in code.co_positions() if None not in p and p[2] != p[3]]
     return bool(places) and all(
         start <= (first, column) and (last, stop) <= end

@@ -173,20 +173,17 @@ class RuleSet:
         facts = self.model.facts
         heads = dict.fromkeys(
             part.pred if isinstance(part, PType) else part
-            for part in subterms(self._all_types())
+            for part in subterms(self._types_asked_for())
             if isinstance(part, Basic | PType | Pred)
         )
         opened = facts.opened.update(Map(dict.fromkeys(heads, True)))
         return Model.of(replace(facts, opened=opened))
 
-    def _all_types(self) -> Iterator[Object]:
+    def _types_asked_for(self) -> Iterator[Object]:
+        """The types in which those are of which the checks judge objects to be."""
         yield self.type
-        yield from self.hears
         for rule in self.rules:
-            yield from (T for T in (rule.when, rule.on, rule.where, rule.gives) if T)
-            for write in self.summaries[rule].writes:
-                yield from (write.type,) if write.type else ()
-                yield from (write.term.value,) if write.term else ()
+            yield from (rule.when, rule.where or Rec)
 
     @cached_property
     def _memory(self) -> dict[object, bool]:

@@ -178,14 +178,17 @@ def _first_rules(part: Algorithm) -> Iterator[Rule]:
 
 
 def _is_covered(rules: RuleSet, rule: Rule, case: Rule | None) -> bool:
-    """Does the case apply wherever the rule would?"""
+    """Does the case apply wherever the rule would?
+
+    Conditions that exclude each other, as most do, are quickly told apart.
+    """
     if case is None:
         return True
-    if not _is_event_covered(rules, rule, case) or not rules.may_coincide(
-        case.when, rule.when
-    ):
-        return False
-    return rules.covers(case.when, meet(rules.type, rule.when))
+    return (
+        _is_event_covered(rules, rule, case)
+        and rules.are_compatible(case.when, rule.when)
+        and rules.covers(case.when, meet(rules.type, rule.when))
+    )
 
 
 def _is_event_covered(rules: RuleSet, rule: Rule, case: Rule) -> bool:
