@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -96,6 +97,25 @@ def test_a_word_is_as_long_as_any_sentence_and_no_longer() -> None:
     for length in (0, 1001):
         with pytest.raises(ValueError, match="1 to 1000 characters"):
             Word("a" * length, "a", "object")
+
+
+@pytest.mark.parametrize("bad", ["\x1b[31m", "\n", "\u202e", "\u2067", "\ud800"])
+@pytest.mark.parametrize(
+    "word",
+    [
+        lambda text: Word(text, "cup", "object"),
+        lambda text: Word("cup", text, "object"),
+        lambda text: Word("cup", "cup", "object", text),
+    ],
+)
+def test_a_word_has_no_characters_that_steer_a_terminal(
+    word: Callable[[str], Word], bad: str
+) -> None:
+    assert word("a mug")
+    with pytest.raises(ValueError, match="cannot have the character"):
+        word(f"a{bad}mug")
+    with pytest.raises(TypeError, match="is text, not b'mug'"):
+        word(b"mug")  # type: ignore[arg-type]
 
 
 def test_what_a_thing_is_and_where_it_is_are_not_the_same() -> None:

@@ -576,6 +576,18 @@ def test_a_name_that_was_made_a_number_is_lost_and_told_of(path: Path) -> None:
     )
 
 
+def test_a_key_that_stands_in_a_row_as_well_is_not_believed(path: Path) -> None:
+    """SQLite stores the key of a row with it, and nothing in its place in the row."""
+    teach(path)
+    redefine(path, "sightings", "INTEGER PRIMARY KEY REFERENCES", "INTEGER REFERENCES")
+    change(path, "UPDATE sightings SET lesson = 2 WHERE rowid = 1")
+    done, found = saved_from(path)
+    assert done.losses == ("1 row or pages that cannot be read",)
+    lessons = [it for it in found.values() if isinstance(it, ObjectLesson)]
+    places = {it.key: it.seen.place for it in lessons}
+    assert (places[1], places[2]) == (None, Point(0, 0, 1))
+
+
 def test_a_journal_that_names_another_file_is_told_of_and_not_obeyed(
     path: Path, tmp_path: Path
 ) -> None:
