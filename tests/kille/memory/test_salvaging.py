@@ -580,7 +580,7 @@ def test_a_key_that_stands_in_a_row_as_well_is_not_believed(path: Path) -> None:
     """SQLite stores the key of a row with it, and nothing in its place in the row."""
     teach(path)
     redefine(path, "sightings", "INTEGER PRIMARY KEY REFERENCES", "INTEGER REFERENCES")
-    change(path, "UPDATE sightings SET lesson = 2 WHERE rowid = 1")
+    change(path, "UPDATE sightings SET lesson = 99 WHERE rowid = 1")
     done, found = saved_from(path)
     assert done.losses == ("1 row or pages that cannot be read",)
     lessons = [it for it in found.values() if isinstance(it, ObjectLesson)]
