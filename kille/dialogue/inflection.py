@@ -56,7 +56,7 @@ class Inflection:
         if word in self.irregular:
             return self.irregular[word][0]
         for ending, new in self.endings:
-            if word.endswith(ending) and len(word) > len(ending):
+            if word.endswith(ending) and word != ending:
                 return word[: len(word) - len(ending)] + new
         return word
 

@@ -113,7 +113,7 @@ def about(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
     changes = {
         "shared.latest.content": in_view(s, content, types=types),
         "shared.salient": tuple(salient),
-        "shared.topic": topic or s.shared.topic,
+        "shared.topic": topic,
     }
     return replace(s, changes)
 

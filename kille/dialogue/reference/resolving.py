@@ -280,13 +280,10 @@ class Judging:
         return found
 
     def _alone(self, part: Part, x: str) -> Fit:
-        claims = list(part.said_of(x, self._s.view.look))
-        degrees = [self.degree(P, *args) for P, args in claims]
-        firm = [
-            p
-            for p, (P, _) in zip(degrees, claims, strict=True)
-            if P not in part.qualities
-        ]
+        claims = part.said_of(x, self._s.view.look)
+        judged = [(P, self.degree(P, *args)) for P, args in claims]
+        degrees = [p for _, p in judged]
+        firm = [p for P, p in judged if P not in part.qualities]
         weakest = min(degrees, default=1.0)
         return Fit(prod(degrees), weakest, min(firm, default=1.0), (x,))
 

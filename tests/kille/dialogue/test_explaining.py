@@ -244,5 +244,27 @@ def test_what_a_word_means_is_a_type(table: Any, text: str, meaning: object) -> 
     assert str(meaning) in table.hear(text)
 
 
+@pytest.mark.parametrize(
+    ("confused", "told"),
+    [
+        ([], "I learned it in 2 lessons."),
+        (["mug"], 'I learned it in 2 lessons, and I may take it for "mug".'),
+        (["mug", "bowl"], 'I may take it for "mug" and "bowl".'),
+    ],
+)
+def test_what_it_may_take_a_word_for(
+    scene: Callable[..., Any], confused: list[str], told: str
+) -> None:
+    def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
+        move, model = model.create(planned)
+        others = list(map(noun, confused))
+        recalled = [
+            record(sign=it, lessons=2.0, confused=others) for it in move.recalls
+        ]
+        return replace(move, {"recalled": recalled}), model
+
+    assert scene(nouns=["cup"], act=act).hear("What is a cup?").endswith(told)
+
+
 def test_what_a_word_means_that_was_never_learned(table: Any) -> None:
     assert table.hear("What is a unicorn?") == "I have not learned what a unicorn is."

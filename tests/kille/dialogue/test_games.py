@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import named, predicate_at
+from kille.dialogue.meanings import named, noun, predicate_at, word_of
 from kille.dialogue.tutoring import tutoring
 
 Make = Callable[..., Any]
@@ -83,6 +83,14 @@ def test_a_word_is_known_when_the_robot_has_said_so(scene: Make) -> None:
     (agreed,) = robot.state.shared.commitments
     assert str(agreed["target"]["x"]) == "Ind@o1"
     assert str(agreed["c"]) == "cup(.target.x, .look)"
+
+
+def test_a_word_that_it_can_judge_need_not_be_learned(scene: Make) -> None:
+    robot = scene(2, nouns=["cup"], known={("cup", "o1"): 0.9})
+    assert robot.acts("Where is the mug?") == ["unknown_noun"]
+    judged = robot.now.model.witnessed(word_of(noun("mug")), by=lambda x, look: 0.0)
+    robot.now = robot.now._replace(model=judged)
+    assert robot.acts("Where is the mug?") == ["see_no_such"]
 
 
 def test_a_word_heard_twice_is_known_once(scene: Make) -> None:

@@ -63,6 +63,13 @@ def test_anything_else_drops_the_question() -> None:
     assert nouns == ["cup", "book"]
 
 
+def test_of_what_is_asked_more_may_be_a_slip_than_of_what_is_taught() -> None:
+    said, _ = talk(["This is a bouk."])
+    assert said == ["OK, I learned a bouk."]
+    said, _ = talk(["Is this a bouk?"])
+    assert said == ["Do you mean a book?"]
+
+
 def test_a_word_of_its_own_is_not_questioned() -> None:
     said, nouns = talk(["This is a cap.", "This is a mug."])
     assert said == ["OK, I learned a cap.", "OK, I learned a mug."]

@@ -45,6 +45,16 @@ def test_what_does_not_speak_against_it_is_one(scene: Scenes, text: str) -> None
     assert {x for x, _ in taught(robot.state)[1:]} == {"o1", "o2"}
 
 
+def test_what_was_said_of_where_a_thing_is_does_not_speak_against_it(
+    scene: Scenes,
+) -> None:
+    known = {("cup", "o1"): 0.9, ("book", "o2"): 0.9}
+    robot = scene(3, nouns=["cup", "book"], known=known)
+    robot.hear("The cup is to the left of the book.")
+    assert robot.hear("These are cups.") == "OK, I learned two cups."
+    assert [x for x, _ in taught(robot.state)[1:]] == ["o1", "o3"]
+
+
 def test_what_is_surely_something_else_is_none(scene: Scenes) -> None:
     robot = scene(3, nouns=["book"], known={("book", "o1"): 0.9})
     assert robot.hear("These are cups.") == "OK, I learned two cups."

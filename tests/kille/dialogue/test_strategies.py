@@ -10,6 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from kille.dialogue.games import EXEMPLIFYING, GLANCED, LISTENING
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import noun
 from kille.dialogue.strategies import (
@@ -24,6 +25,7 @@ from kille.dialogue.strategies import (
 )
 from kille.dialogue.strategies import _data as shipped
 from ttr import record, replace
+from ttr.updates import first, maybe, seq
 
 Make = Callable[..., Any]
 
@@ -311,6 +313,12 @@ def test_examples_of_earlier_dialogues_count(scene: Callable[..., Any]) -> None:
     one = scene(nouns=["cup"], taught=before, wording="four")
     assert one.hear("This is a cup.") == "I am learning cup."
     assert one.hear("This is a cup.") == "I am updating my systems on cup."
+
+
+def test_who_plans_no_answer_counts_no_examples(scene: Callable[..., Any]) -> None:
+    rules = first(seq(LISTENING, maybe(EXEMPLIFYING)), GLANCED)
+    robot = scene(1, wording="four", rules=rules)
+    assert robot.acts("This is a cup.") == []
 
 
 def test_what_never_or_always_is_worth_more_has_no_threshold_between() -> None:
