@@ -34,7 +34,7 @@ def test_a_change_that_is_no_python_is_not_tested(
     mutants: ModuleType, tmp_path: Path
 ) -> None:
     (tmp_path / "twice.py").write_text(CODE)
-    name, no_tests = "ReplaceBinaryOperator_Mul_LShift", mutants.Reach({}, {})
+    name, no_tests = "ReplaceBinaryOperator_Mul_LShift", mutants.Reach({}, {}, {})
     outcomes = {}
     for (_, span), found in mutants.mutants_by_place("twice.py", CODE).items():
         for mutant in found:
@@ -49,12 +49,22 @@ def test_a_change_that_its_operator_cannot_make_is_not_tested(
     code = "try:\n    pass\nexcept (OSError, csv.Error):\n    pass\n"
     (tmp_path / "trying.py").write_text(code)
     outcomes = [
-        mutants.outcome(mutant, tmp_path, mutants.Reach({}, {}))[0]
+        mutants.outcome(mutant, tmp_path, mutants.Reach({}, {}, {}))[0]
         for changes in mutants.mutants_by_place("trying.py", code).values()
         for mutant in changes
         if mutant.operator == "ExceptionReplacer"
     ]
     assert outcomes == ["unreached", "invalid"]
+
+
+def test_the_tests_that_work_least_are_tried_however_long_they_waited(
+    mutants: ModuleType,
+) -> None:
+    work = {"little": 1.0, "more": 15.0, "much": 30.0}
+    lines = {"twice.py": {"2": list(work)}}
+    waited = {"little": 90.0, "more": 50.0, "much": 0.0}
+    mutant = mutants.Mutant("twice.py", "DropStatement", 0, 2, 2)
+    assert mutants.Reach(lines, waited, work).tests(mutant) == ["little", "more"]
 
 
 def test_only_mutants_are_counted(
