@@ -574,6 +574,15 @@ def test_impossible_conditions(condition, why):
     assert message.startswith(f"the rule never can never fire: {why}")
 
 
+def test_an_impossible_condition_behind_one_of_which_nothing_is_known():
+    state = rectype(a=Rec, b=Rec, n=Count)
+    anything = rectype(a=rectype(x=Ind), b=Rec, n=Count @ -1)
+    (message,) = messages(made("never", anything), state, model=M)
+    assert message == (
+        "the rule never can never fire: it asks that n be -1, but n is of Count"
+    )
+
+
 def test_impossible_bindings():
     @rule(when=Board, where=rectype(q=ListOf(Ind) @ outer.s.shared.move))
     def never(s, q):
@@ -684,13 +693,33 @@ def test_a_condition_with_more_cases_than_are_told_apart_is_taken_as_a_whole():
     assert messages(made("whole", either), either) == []
 
 
-def test_a_type_that_goes_in_a_circle():
+@pytest.mark.parametrize(
+    ("fields", "circle"),
+    [
+        ("x = y : Dish, y = x : Dish", "x → y → x"),
+        ("x = y : Dish, y = z : Dish, z = x : Dish", "x → y → z → x"),
+        ("w = z : Dish, y = z : Dish, z = y : Dish", "z → y → z"),
+        ("x : [y = ^.z : Dish], z = x.y : Dish", "x.y → z → x.y"),
+    ],
+)
+def test_a_type_that_goes_in_a_circle(fields, circle):
     one = Theory.parse(f"""{SEARCHED}
-    rule plan(s : Board) := [agenda = [[x = y : Dish, y = x : Dish]] : list(RecType)]
+    rule plan(s : Board) := [agenda = [[{fields}]] : list(RecType)]
+    """).rules["plan"]
+    (fault,) = faults(one, one.when)
+    assert fault.message == f"in the rule plan fields go in a circle: {circle}"
+    assert "no witness" in fault.hint
+    assert fault.severity == "warning"
+
+
+def test_bindings_that_go_in_a_circle():
+    one = Theory.parse(f"""{SEARCHED}
+    rule plan(s : Board) where [x = y : Dish, y = x : Dish]
+        := [dishes = [x] : list(Dish)]
     """).rules["plan"]
     (fault,) = faults(one, one.when)
     assert fault.message == "in the rule plan fields go in a circle: x → y → x"
-    assert "no witness" in fault.hint
+    assert fault.span.text[fault.span.column - 1 :].startswith("x = y : Dish")
 
 
 def made(name, when=Board, on=None, refuses=False, **options):
@@ -1241,6 +1270,13 @@ def test_repetitions_that_go_round():
     assert (
         fault.message == "repeat(somehow) may not end: nothing says when somehow stops"
     )
+
+
+def test_of_a_repetition_the_rule_is_named_that_surely_does_not_end():
+    """Another one before it, that may stop by itself, is not."""
+    stay = made("stay", Phased)
+    (fault,) = faults(repeat(first(somehow, stay)), Phased, model=P)
+    assert (fault.rule, fault.severity) == (stay, "error")
 
 
 def test_a_repetition_ends_if_what_is_set_is_promised_to_be_something_else():

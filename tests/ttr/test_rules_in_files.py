@@ -809,6 +809,37 @@ def test_a_claim_of_a_rule_that_does_not_apply_says_why() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("changed", "event", "why"),
+    [
+        ({}, None, "it waits for an event of [act : Act, c : by(act, a)]"),
+        ({}, record(act="hi"), "c: nothing : by(hi, a), there is no c"),
+        ({"plan": []}, record(act="hi", c="c1"), "plan: [] : nelist(RecType), it is"),
+        ({"addr": "b"}, record(act="hi", c="c1"), "nothing is found for same : by("),
+        ({}, record(act="hi", c="c1"), ""),
+    ],
+)
+def test_why_a_rule_does_not_apply(changed, event, why) -> None:
+    found = rules(
+        "(s : State /\\ [plan : nelist(RecType)], e : Move)"
+        " where [who = s.addr : Ind, same : by(e.act, who)] := [spkr = who : Ind]"
+    )
+    now = state(**{"plan": [RecordType(())], "addr": "a", **changed})
+    answer = why_not(found.rules["r"], now, event, Model(found))
+    assert answer.startswith(why)
+    assert bool(answer) == bool(why)
+
+
+def test_a_rule_that_gives_nothing_after_all_does_not_apply() -> None:
+    @rule(when=RecordType(()))
+    def refuse(s):
+        return None
+
+    assert why_not(refuse, state(), None, Model()) == ""
+    with pytest.raises(UpdateError, match="refuse does not apply: "):
+        apply_rule(refuse, [state()], Model())
+
+
 # --- writing -------------------------------------------------------------------------
 
 
@@ -840,6 +871,13 @@ def test_a_python_rule_is_not_written() -> None:
     assert caught.value.message == (
         "the effect of nothing is a Python function, not notation"
     )
+
+
+def test_an_update_is_the_rule_that_is_read_where_it_is_written() -> None:
+    theory = board("Bound := [x : Ind]\ngo := \\s:State. [spkr = s.addr : Ind]")
+    one = update(theory.go, "again", where=theory.Bound, kind="k", doc="Why.")
+    read = board(format_rule(one)).rules["again"]
+    assert dataclasses.replace(read, span=None, text="") == one
 
 
 def test_a_promise_of_a_rule_is_not_written() -> None:

@@ -842,6 +842,24 @@ def test_an_event_that_lacks_what_is_asked_for_is_not_heard_at_all():
     assert heard_as(answer("maybe", Yes, p=(0, 0.5)))(no) is None
 
 
+def test_a_rule_that_takes_any_probability_hears_what_one_alternative_is():
+    taken = heard_as(answer("any", Yes, p=0))((no, 0.6), (yes, 0.3))
+    assert (taken.event, taken.p.lo) == (yes, 0.3)
+
+
+def test_a_step_has_the_event_that_was_taken_and_the_one_that_it_comes_from():
+    uncertain = nbest((no, 0.6), (yes, 0.3))
+    both = seq(up, answer("any", Yes, p=0))
+    events = [uncertain, yes]
+    steps = play(both, events=events).trace
+    assert [(step.event, step.given) for step in steps] == [
+        (None, None),
+        (yes, uncertain),
+        (yes, yes),
+        (yes, yes),
+    ]
+
+
 def test_bands_of_probability_decide():
     hears = heard_as(
         answer("accept", Yes, p=0.7),

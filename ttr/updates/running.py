@@ -290,7 +290,7 @@ class _Player:
     def _refuse_circle(self, run: Run, seen: Mapping[Record, int]) -> None:
         steps = run.trace[seen[run.state] :]
         names = [str(step.rule) for step in steps]
-        if len(names) == 1 and run.trace[-1].before == run.state:
+        if len(names) == 1:
             raise endless(
                 f"{names[0]} is repeated without changing anything",
                 run,

@@ -183,7 +183,7 @@ class RuleSet:
         """The types in which those are of which the checks judge objects to be."""
         yield self.type
         for rule in self.rules:
-            yield from (rule.when, rule.where or Rec)
+            yield from (rule.when, rule.where)
 
     @cached_property
     def _memory(self) -> dict[object, bool]:
