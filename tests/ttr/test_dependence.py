@@ -136,6 +136,31 @@ def test_a_conditional_that_contradicts_what_is_given_is_refused():
         M.given("a", B, 0.9, when=[("a", A)])
 
 
+def test_what_a_conditional_makes_impossible_cannot_be_given_for_certain():
+    never = Model().given("a", A, 0, when=[("b", B)]).given("b", B)
+    with pytest.raises(RefusedError, match="these cannot all be so"):
+        never.given("a", A)
+
+
+def test_why_multiplies_along_the_dependencies():
+    known = Model().given("a", A, 0.6).given("a", B, 0.5, when=[("a", A)])
+    reason = str(known.judge("a", A & B).why).splitlines()[0]
+    assert "0.6 × 0.5, each given those before; P(a : B | a : A) is 0.5" in reason
+
+
+@pytest.mark.parametrize(("number", "named"), [(5, 5), (6, 6), (9, 6)])
+def test_of_many_objects_the_least_and_the_most_probable_are_named(number, named):
+    model = Model()
+    for n in range(number):
+        model = model.given(f"o{n}", A).given(f"o{n}", B, (n + 1) / 10)
+    head, *lines = str(model.chance(B, when=A)).splitlines()
+    assert head.endswith(f"({number} objects)")
+    ends = [*range(3), *range(number - 3, number)]
+    shown = list(dict.fromkeys(ends)) if number > 5 else list(range(number))
+    assert lines == [f"  {(n + 1) / 10}: o{n}" for n in shown]
+    assert len(lines) == named
+
+
 def test_certainly_of_one_is_not_of_what_it_excludes():
     M = Model(Apart).given("a", A)
     assert M.judge("a", B).holds is False

@@ -97,6 +97,11 @@ def test_equality_is_of_situation_type_and_degree():
     assert "model" not in repr(M.judge("a", Ind))
 
 
+def test_a_judgement_is_shown_without_its_model():
+    shown = repr(Model().given("a", Ind).judge("a", Ind))
+    assert shown == "Judgement(sit='a', type=Basic('Ind'), p=Degree(lo=1.0, hi=1.0))"
+
+
 def test_uncertain_judgements_in_order():
     M = Model().given("a", Ind, 0.5).given("s", dog("a"), 0.9)
     why = M.judge(record(x="a", c="s"), Dog).why

@@ -15,6 +15,7 @@ from ttr import (
     Rec,
     RecType,
     Str,
+    Theory,
     TTRError,
     Type,
     fun,
@@ -27,7 +28,7 @@ from ttr.errors import IllFormedError, RefusedError, UndecidedError, Unsupported
 from ttr.judging.witnesses import candidates
 from ttr.probability import Degree
 from ttr.signature.signature import Axiom, Given, Signature
-from ttr.types import Application, NonEmpty, fst
+from ttr.types import Application, FunType, NonEmpty, fst
 from ttr.types.derived_types import star
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
@@ -238,6 +239,73 @@ def test_a_witness_function_rules_over_declared_subtypes():
 def test_the_word_of_the_tutor_outweighs_a_degree():
     M = Model().witnessed(dog, by=lambda x: 0.1).given("s", dog("a"))
     assert M.judge("s", dog("a")).holds is True
+
+
+def test_what_is_said_of_what_is_above_outweighs_a_witness_function_of_it():
+    theory = Theory.parse("basic Animal, Dog\nDog <: Animal")
+    seen = Model(theory).witnessed(theory.Animal, by=lambda x: (0.1, 0.3))
+    assert seen.given("a", theory.Dog, (0, 0.9)).judge("a", theory.Dog).p == (0, 0.3)
+    told = seen.given("a", theory.Animal).given("a", theory.Dog, (0, 0.9))
+    assert told.judge("a", theory.Dog).p == (0, 0.9)
+
+
+@pytest.mark.parametrize("p", [0, (0, 0.5)])
+def test_what_a_witness_function_refuses_may_be_said_not_to_be(p):
+    A = Basic("A")
+    refusing = Model().witnessed(A, by=lambda x: False)
+    assert refusing.given("a", A, p).judge("a", A).p.lo == 0
+    with pytest.raises(RefusedError, match="refused by the witness function of A"):
+        refusing.given("a", A, (0.1, 0.5))
+
+
+@pytest.mark.parametrize(
+    ("sit", "T"),
+    [("a", ~rectype(x=Ind)), ("a", ~ListOf(Ind)), (record(x="b"), ~rectype(x=Ind))],
+)
+def test_what_is_certainly_not_of_a_type_may_be_denied_of_it(sit, T):
+    assert Model().given(sit, T).judge(sit, T).holds
+
+
+def test_only_atoms_are_denied_of_what_may_be_of_them():
+    known = Model().given("b", Ind)
+    with pytest.raises(RefusedError, match="cannot be given: only of atoms"):
+        known.given(record(x="b"), ~rectype(x=Ind))
+
+
+def test_elements_of_a_list_that_is_created_are_of_their_type():
+    made, known = Model().create(rectype(l=ListOf(Ind) @ ["new"]))
+    assert made == record(l=["new"])
+    assert known.judge("new", Ind).holds
+
+
+@pytest.mark.parametrize(
+    ("result", "shown"),
+    [
+        (Ind, r"\x:Ind. a1"),
+        (Basic("B"), r"\x:Ind. a1"),
+        (Basic("B") @ "b", r"\x:Ind. b"),
+        (RecType, r"\x:Ind. Rec"),
+        (rectype(y=Ind), r"\x:Ind. {y = a1}"),
+        (FunType(Ind, Ind), r"\x:Ind. \x1:Ind. a1"),
+    ],
+)
+def test_a_function_that_is_created_is_constant(result, shown):
+    T = FunType(Ind, result)
+    made, known = Model().create(T)
+    assert str(made) == shown
+    assert known.judge(made, T).holds
+
+
+@pytest.mark.parametrize(
+    ("T", "p"),
+    [
+        (NonEmpty(ListOf(~Ind)), (1, 1)),
+        (NonEmpty(FunType(Ind, Ind)), (0, 1)),
+        (Plus(ListOf(~Ind)), (1, 1)),
+    ],
+)
+def test_something_is_of_a_list_where_something_is_of_its_elements(T, p):
+    assert Model().given("c", Ind).true(T) == p
 
 
 def test_judging_asks_no_function_of_a_predicate():
