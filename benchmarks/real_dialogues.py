@@ -26,7 +26,7 @@ from random import Random
 
 from kille.agent.agent import Agent
 from kille.agent.attention import Attention
-from kille.dialogue.commitments import affirmed
+from kille.dialogue.commitments import affirmation
 from kille.dialogue.meanings import is_denial, named, predicate_at, word_of
 from kille.perception.look import Sighting, look
 from kille.scene import Frame, Look
@@ -197,7 +197,7 @@ class Tutor:
         claim = pending[0]
         if "c" not in claim:
             return "other"
-        word = predicate_at(affirmed(claim), "c").name
+        word = predicate_at(affirmation(claim), "c").name
         is_so = _forms(self.robot).get(word, "") == _spoken(self.shown)
         return "right" if is_so is not is_denial(claim) else "wrong"
 

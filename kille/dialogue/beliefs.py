@@ -47,7 +47,7 @@ def about(model: Model, sit: Record, signs: Iterable[Record]) -> tuple[Beliefs, 
     return sorted(beliefs, key=lambda b: (-b.p, b.sign.form)), model
 
 
-def believed(
+def beliefs_about(
     s: Record, model: Model, signs: Iterable[Record], x: str, *beside: str
 ) -> Beliefs:
     """How probably words are true of x, or of x beside y, the most probable first."""
@@ -117,9 +117,3 @@ def knows(words: Iterable[Record], sign: Record) -> bool:
     """Whether a word with the sign's predicate is among these."""
     own = word_of(sign)
     return any(word_of(known) is own for known in words)
-
-
-def recognised(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:
-    """The belief about x that the robot is sure of, if there is one."""
-    beliefs, model = nouns_of(s, model, x)
-    return (beliefs[0] if is_sure(s, beliefs) else None), model

@@ -41,7 +41,7 @@ def act_of(content: RecordType) -> str:
     return next(acts[label] for label in acts if label in content)
 
 
-def affirmed(content: RecordType) -> RecordType:
+def affirmation(content: RecordType) -> RecordType:
     """What a content says of its things, or what it denies of them."""
     return denied(content) if is_denial(content) else content
 
@@ -72,7 +72,7 @@ def same(claim: RecordType, other: RecordType) -> bool:
 # --- what is said of the things in view ----------------------------------------------
 
 
-def remaining(here: Iterable[RecordType], kept: Collection[str]) -> list[RecordType]:
+def keep_claims(here: Iterable[RecordType], kept: Collection[str]) -> list[RecordType]:
     """What is still said of things in view, when only these have stayed."""
     return [it for it in here if set(things_in(it)) <= set(kept)]
 
@@ -126,12 +126,14 @@ def is_here(s: Record, claim: RecordType, *, types: DialogueTypes) -> bool:
 # --- what is to be learned and unlearned ---------------------------------------------
 
 
-def undone(s: Record, content: RecordType, *, types: DialogueTypes) -> list[str]:
+def opposite_lesson_keys(
+    s: Record, content: RecordType, *, types: DialogueTypes
+) -> list[str]:
     """The keys of the lessons that say the opposite of a content."""
     return [it.key for it in lessons_in(s, denied(content), types=types)]
 
 
-def weakened(
+def effects_of_rejection(
     s: Record, wrong: Iterable[RecordType], *, types: DialogueTypes
 ) -> tuple[list[RecordType], list[str]]:
     """What is learned and which lessons are unlearned when these claims are wrong.
@@ -159,7 +161,7 @@ def signs_for(s: Record, *contents: RecordType) -> Sequence[Record]:
     return tuple(found.values())
 
 
-def learning(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
+def plan_learning(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
     """The plan to learn a content, and to unlearn the lessons that it contradicts."""
     return plan(
         s,
@@ -167,6 +169,6 @@ def learning(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
         content,
         signs=signs_for(s, content),
         teaches=[content],
-        forgets=undone(s, content, types=types),
+        forgets=opposite_lesson_keys(s, content, types=types),
         types=types,
     )

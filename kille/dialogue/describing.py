@@ -80,7 +80,7 @@ class _Describing:
     types: DialogueTypes
 
     @cached_property
-    def judging(self) -> Judging:
+    def judge(self) -> Judging:
         """The judgements that are made for it, each once."""
         return Judging(self.s, self.model, types=self.types)
 
@@ -89,7 +89,7 @@ class _Describing:
 
         It is not positive where the resolver would not take x, or not x alone.
         """
-        fits = self.judging.fits_part(said_by(words, types=self.types), self.among)
+        fits = self.judge.fits_part(said_by(words, types=self.types), self.among)
         if fits_well(self.s, fits) != [self.x]:
             return 0.0
         rivals = (fit.p for x, fit in fits.items() if x != self.x)
@@ -102,7 +102,7 @@ class _Describing:
         would have to be to be thought of.
         """
         bands = self.s.private.strategy.bands
-        fits = self.judging.fits_part(said_by(words, types=self.types), self.among)
+        fits = self.judge.fits_part(said_by(words, types=self.types), self.among)
         fit = fits.pop(self.x)
         near = any(it.p > bands.sure / 2 * fit.p for it in fits.values())
         return bool(fit.weakest >= (bands.likely + bands.sure) / 2) and not near
@@ -152,7 +152,7 @@ class _Describing:
         look, likely = self.s.view.look, self.s.private.strategy.bands.likely
         front = [front_of(self.s, y) for y in things[1:]]
         degrees = {
-            sign: self.judging.degree(word_of(sign), *things, look, *front)
+            sign: self.judge.degree(word_of(sign), *things, look, *front)
             for sign in signs
         }
         true = [sign for sign, p in degrees.items() if p >= likely]

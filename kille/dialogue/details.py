@@ -35,9 +35,14 @@ def details(lexicon: Lexicon, move: Record) -> dict[str, str]:
     slots |= dict(_of_reasons(data, move.reasons)) if move.reasons else {}
     slots |= dict(_of_lost(data, move.lost)) if move.lost else {}
     for reminder in move.undone:
-        slots |= {"lesson": _quoted(reminder), "when": _when(data["ages"], reminder)}
+        slots |= {
+            "lesson": _lesson_text(reminder),
+            "when": _when(data["ages"], reminder),
+        }
     if move.recalls:
-        slots |= dict(_of_recalled(data, move.recalled or _untold(move.recalls)))
+        slots |= dict(
+            _of_recalled(data, move.recalled or _without_recall(move.recalls))
+        )
         slots["type"] = str(move.content)
     return slots
 
@@ -70,21 +75,21 @@ def _band(bands: Mapping[str, float], degree: float) -> str:
 
 def _of_reasons(data: Section, reasons: Sequence[Record]) -> Iterator[tuple[str, str]]:
     [reason] = reasons
-    cues = list(_deciding(data, reason.cues))
+    cues = list(_deciding_cues(data, reason.cues))
     if cues:
-        yield "cues", _listed(data, cues)
+        yield "cues", _join_words(data, cues)
     for reminder in reason.reminders:
-        yield "lesson", _quoted(reminder)
+        yield "lesson", _lesson_text(reminder)
         yield "turn", reminder.turn
         yield "when", _when(data["ages"], reminder)
 
 
-def _quoted(reminder: Record) -> str:
+def _lesson_text(reminder: Record) -> str:
     """The words of a lesson."""
     return str(reminder.text).rstrip()
 
 
-def _deciding(data: Section, cues: Iterable[Record]) -> Iterator[str]:
+def _deciding_cues(data: Section, cues: Iterable[Record]) -> Iterator[str]:
     """What the cues that decided are called, the most important first."""
     names, reasons = data["cues"], data["reasons"]
     shares: dict[str, float] = {}
@@ -120,23 +125,23 @@ def _of_recalled(
     knows = data["knows"]
     most = knows["most"]
     ordered = sorted(recalled, key=lambda it: (-it.lessons, it.sign.form))
-    words = [_counted(knows, it) for it in ordered[:most]]
+    words = [_word_with_count(knows, it) for it in ordered[:most]]
     if len(ordered) > most:
         words.append(knows["rest"].format(n=len(ordered) - most))
-    yield "words", _listed(data, words)
+    yield "words", _join_words(data, words)
     if recalled[0].lessons:
         yield "lessons", _lessons(knows, recalled[0].lessons)
     if recalled[0].confused:
         confused = [f'"{it.form}"' for it in recalled[0].confused]
-        yield "confused", _listed(data, confused)
+        yield "confused", _join_words(data, confused)
 
 
-def _untold(words: Iterable[Record]) -> list[Record]:
+def _without_recall(words: Iterable[Record]) -> list[Record]:
     """Words of which nothing was recalled, as if it were nothing to tell."""
     return [record(sign=word, lessons=0.0, confused=[]) for word in words]
 
 
-def _counted(knows: Section, recalled: Record) -> str:
+def _word_with_count(knows: Section, recalled: Record) -> str:
     """A word with the number of its lessons, if there are any."""
     form = str(recalled.sign.form)
     if not recalled.lessons:
@@ -150,10 +155,10 @@ def _lessons(knows: Section, count: float) -> str:
 
 
 def _of_lost(data: Section, lost: Sequence[Record]) -> Iterator[tuple[str, str]]:
-    yield "lost", _listed(data, [f'"{sign.form}"' for sign in lost])
+    yield "lost", _join_words(data, [f'"{sign.form}"' for sign in lost])
 
 
-def _listed(data: Section, words: Sequence[str]) -> str:
+def _join_words(data: Section, words: Sequence[str]) -> str:
     """Words as a list: this, that and the other."""
     *before, last = words
     return str(data["knows"]["and"]).join(filter(None, (", ".join(before), last)))

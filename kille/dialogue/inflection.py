@@ -44,12 +44,12 @@ class Inflection:
 
     def of(self, word: str) -> str:
         """The form of a word."""
-        before, head, after = self._parted(word)
+        before, head, after = self._split_at_head(word)
         return f"{before}{self._of(head)}{after}"
 
     def words(self, form: str) -> tuple[str, ...]:
         """The words that a form may be of: what is irregular is nothing else."""
-        before, head, after = self._parted(form)
+        before, head, after = self._split_at_head(form)
         return tuple(f"{before}{word}{after}" for word in self._words(head))
 
     def _of(self, word: str) -> str:
@@ -72,7 +72,7 @@ class Inflection:
         )
         return tuple(dict.fromkeys(it for it in found if it and self._of(it) == form))
 
-    def _parted(self, word: str) -> tuple[str, str, str]:
+    def _split_at_head(self, word: str) -> tuple[str, str, str]:
         """What stands before the word that is changed, that word, and the rest."""
         several = word.split(" ")
         at = next(
@@ -103,11 +103,11 @@ class Articles:
     open_: tuple[str, ...] = ("",)
     """Beginnings of words of which a tutor may know better: "an hotel", "an LED"."""
 
-    def used(self, word: str, article: str) -> str:
+    def choose(self, word: str, article: str) -> str:
         """The article of a word that a tutor has used with this one, if he did.
 
         >>> english = Articles({"a": ["", "uni"], "an": ["a", "e"]}, {}, ("h", "u"))
-        >>> english.used("hotel", "an"), english.used("apple", "a")
+        >>> english.choose("hotel", "an"), english.choose("apple", "a")
         ('an', 'an')
         """
         return article if article and word.startswith(self.open_) else self.of(word)

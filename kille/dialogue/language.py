@@ -130,7 +130,9 @@ def overhear(
     reader = (types or packaged_types()).derive(_reader, language, _changes(language))
     grammar = _robots_grammar(language, _changes(language))
     trees = grammar.parse(text.strip(), CLOSELY) or grammar.parse(text.strip(), LOOSELY)
-    found = (T for tree in trees for move in parts(tree) for T in reader.said(move))
+    found = (
+        T for tree in trees for move in parts(tree) for T in reader.said_types(move)
+    )
     return tuple(Utterance(text, T) for T in dict.fromkeys(found))
 
 
@@ -188,13 +190,13 @@ class _Reader:
 
     def readings(self, text: str, moves: Iterable[Tree]) -> tuple[Utterance, ...]:
         """The different readings of a move."""
-        each = [self._heard(text, move) for move in moves]
+        each = [self._heard_types(text, move) for move in moves]
         types = (T for them in zip_longest(*each) for T in them if T is not None)
         return tuple(
             Utterance(text, T) for T in islice(dict.fromkeys(types), _READINGS)
         )
 
-    def _heard(self, text: str, move: Tree) -> Iterator[RecordType]:
+    def _heard_types(self, text: str, move: Tree) -> Iterator[RecordType]:
         """The types of the event: who speaks to whom, its move, words and content."""
         for signs, content in self._together(move):
             yield set_to(
@@ -204,7 +206,7 @@ class _Reader:
                 content=RecType @ content,
             )
 
-    def said(self, move: Tree) -> Iterator[RecordType]:
+    def said_types(self, move: Tree) -> Iterator[RecordType]:
         """The types of the event of the robot's saying this."""
         phrase = self._types.record_type("Phrase")
         for signs, all_of_it in self._together(move):

@@ -76,7 +76,7 @@ class Lexicon:
 
     def article(self, sign: Record) -> str:
         """The indefinite article of a word: as the tutor used it, or by its form."""
-        return self.articles.used(sign.form, sign.article)
+        return self.articles.choose(sign.form, sign.article)
 
     def with_article(self, noun: str, article: str = "") -> str:
         """The noun with its indefinite article.
@@ -87,9 +87,9 @@ class Lexicon:
         >>> lexicon("sv").with_article("äpple")
         'ett äpple'
         """
-        return f"{self.articles.used(noun, article)} {noun}"
+        return f"{self.articles.choose(noun, article)} {noun}"
 
-    def inflected(self, form: str, name: str, article: str = "") -> str:
+    def inflect(self, form: str, name: str, article: str = "") -> str:
         """The form of this name of a word, or the word if it has none."""
         kinds = self.inflections.get(name, ())
         for inflection in kinds:
@@ -97,10 +97,10 @@ class Lexicon:
                 return inflection.of(form)
         return form
 
-    def agreeing(self, adjective: str, article: str) -> str:
+    def predicative_form(self, adjective: str, article: str) -> str:
         """The form of an adjective that is said of a noun with this article."""
         form = self.styles["predicative"].at("adjective", article)
-        return self.inflected(adjective, form, article)
+        return self.inflect(adjective, form, article)
 
     def with_examples(self, wording: str) -> str:
         """A wording with what the tutor may say in place of {examples}."""

@@ -18,7 +18,7 @@ from ttr import RecordType
 Section = Mapping[str, Any]
 
 
-def listed(
+def list_slots(
     lexicon: Lexicon, content: RecordType, words: Words
 ) -> Iterator[tuple[str, str]]:
     """The slots that such parts fill: {things}, {count}, {maybe_count}, {choices}.
@@ -31,7 +31,7 @@ def listed(
     >>> cup = noun("cup")
     >>> seen = [record(sit=record(x=x), sign=cup) for x in ("o1", "o2")]
     >>> content = in_view(initial(), seen, [], ["o3"], types=packaged_types())
-    >>> dict(listed(lexicon(), content, {word_of(cup): cup}))["things"]
+    >>> dict(list_slots(lexicon(), content, {word_of(cup): cup}))["things"]
     'two cups and one thing that I do not know'
     """
     data = lexicon.sections["listing"]
@@ -43,12 +43,12 @@ def listed(
     count = Counter(label for label, _ in parts)
     seen = {label: [part for it, part in parts if it == label] for label in count}
     named = [
-        *_named(lexicon, data, seen.get("thing", ()), words, "{}"),
-        *_named(lexicon, data, seen.get("maybe", ()), words, data["perhaps"]),
+        *_group_by_noun(lexicon, data, seen.get("thing", ()), words, "{}"),
+        *_group_by_noun(lexicon, data, seen.get("maybe", ()), words, data["perhaps"]),
         *_unknown(data, count["unknown"]),
     ]
     if named:
-        yield "things", _joined(data, named)
+        yield "things", _join(data, named)
     if "choice" in seen:
         yield "choices", either(lexicon, list(_choices(lexicon, seen["choice"], words)))
     for slot, label in (("count", "thing"), ("maybe_count", "maybe")):
@@ -71,7 +71,7 @@ def either(lexicon: Lexicon, parts: Sequence[str]) -> str:
     return wording.format(data["between"].join(before), last)
 
 
-def _named(
+def _group_by_noun(
     lexicon: Lexicon,
     data: Section,
     parts: Sequence[RecordType],
@@ -110,7 +110,7 @@ def _unknown(data: Section, count: int) -> Iterator[str]:
         yield wording.format(_number(data, count))
 
 
-def _joined(data: Section, parts: list[str]) -> str:
+def _join(data: Section, parts: list[str]) -> str:
     """Parts of a list, with commas between them and a word before the last."""
     *before, last = parts
     if not before:

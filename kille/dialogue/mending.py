@@ -15,7 +15,9 @@ _LONGEST = 200
 """Characters; of a longer text nobody mistyped a word only."""
 
 
-def suggested(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str | None:
+def suggest_sentence(
+    lexicon: Lexicon, text: str, *, types: DialogueTypes
+) -> str | None:
     """What could be said instead of a text that is not understood, if anything is near.
 
     It is the text with its slips mended if that is understood, else the example that is
@@ -24,18 +26,18 @@ def suggested(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str | Non
     >>> from kille.dialogue.lexicon import lexicon
     >>> from kille.dialogue.meanings import packaged_types
     >>> types = packaged_types()
-    >>> suggested(lexicon(), "Waht is teh blicket?", types=types)
+    >>> suggest_sentence(lexicon(), "Waht is teh blicket?", types=types)
     'What is the blicket?'
-    >>> suggested(lexicon("sv"), "Vda är det här?", types=types)
+    >>> suggest_sentence(lexicon("sv"), "Vda är det här?", types=types)
     'Vad är det här?'
-    >>> suggested(lexicon(), "Xyzzy!", types=types)
+    >>> suggest_sentence(lexicon(), "Xyzzy!", types=types)
     """
-    return _mended(lexicon, text, types=types) or nearest_sentence(
+    return _mend_slips(lexicon, text, types=types) or nearest_sentence(
         text, lexicon.examples
     )
 
 
-def _mended(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str | None:
+def _mend_slips(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str | None:
     """The text with words of the examples in place of slips of them."""
     if len(text) > _LONGEST:
         return None

@@ -45,10 +45,10 @@ CLAIMED = {
 def answering(move: str, *, types: DialogueTypes | None = None) -> RecordType:
     """The states in which this is the latest move and no answer is planned yet."""
     types = types or packaged_types()
-    return types.derive(unanswered, types.record_type(move))
+    return types.derive(unanswered_states, types.record_type(move))
 
 
-def unanswered(types: DialogueTypes, latest: TypeNode) -> RecordType:
+def unanswered_states(types: DialogueTypes, latest: TypeNode) -> RecordType:
     """The states in which the latest move is of a type and not answered yet."""
     return rectype(
         private=rectype(agenda=types["Agenda"] @ ()), shared=rectype(latest=latest)
@@ -81,7 +81,7 @@ def plan(
     done = {"signs": signs, "teaches": teaches, "forgets": forgets, **does}
     some = {label: found for label, it in done.items() if (found := tuple(it))}
     move = set_to(
-        types.derive(_saying, act),
+        types.derive(_speech_type, act),
         content=RecType @ content,
         rival=RecType @ rival,
         **{label: said[label] @ them for label, them in some.items()},
@@ -96,7 +96,7 @@ def plan(
     )
 
 
-def _saying(types: DialogueTypes, act: str) -> RecordType:
+def _speech_type(types: DialogueTypes, act: str) -> RecordType:
     """The type of saying something, and doing nothing else."""
     said = types.record_type("Said")
     does = ("signs", "teaches", "forgets", *DOES)

@@ -197,7 +197,7 @@ class _Chart:
         found: dict[int, list[Row]] = {}
         for production in self._grammar._productions[name]:
             for end, rows in self._by_production(production, at).items():
-                found.setdefault(end, []).extend(_made(production, rows))
+                found.setdefault(end, []).extend(_build_trees(production, rows))
         return {end: _simplest(rows) for end, rows in found.items()}
 
     def _by_production(self, production: Production, at: int) -> Found:
@@ -238,7 +238,7 @@ class _Chart:
         return (self.after(found.end()), found.group()) if found else None
 
 
-def _made(production: Production, rows: list[Row]) -> Iterable[Row]:
+def _build_trees(production: Production, rows: list[Row]) -> Iterable[Row]:
     """What a production makes of what it has found: a tree of it, mostly."""
     if production.made is None:
         return rows

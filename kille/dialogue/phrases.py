@@ -69,7 +69,7 @@ def _core(
     described = [
         *marked,
         *(
-            lexicon.inflected(it.form, has.at("adjective", article), article)
+            lexicon.inflect(it.form, has.at("adjective", article), article)
             for it in adjectives
         ),
     ]
@@ -83,7 +83,7 @@ def _core(
         case _:
             name = "placed"
     form = noun.form if noun is not None else ""
-    inflected = lexicon.inflected(form, has.at("noun", article), article)
+    inflected = lexicon.inflect(form, has.at("noun", article), article)
     first = described[0] if described else form
     return has.at(name, article).format(
         noun=inflected,
@@ -112,24 +112,24 @@ def _beside(lexicon: Lexicon, part: RecordType, words: Words) -> str | None:
     return f"{words[relation].form} {named}" if named else None
 
 
-def claimed(field: TypeNode | None) -> Iterator[Pred]:
+def claimed_predicates(field: TypeNode | None) -> Iterator[Pred]:
     """The predicates that a field says, or denies, to be true."""
     match field:
         case PType(pred, _):
             yield pred
         case Meet(fields) | Join(fields):
             for one in fields:
-                yield from claimed(one)
+                yield from claimed_predicates(one)
         case Negation(body):
-            yield from claimed(body)
+            yield from claimed_predicates(body)
 
 
 def _predicates(part: RecordType, label: str) -> Iterator[Pred]:
-    return claimed(part.get(label))
+    return claimed_predicates(part.get(label))
 
 
 def _discourse(part: RecordType) -> Iterator[Pred]:
     """What a phrase says of how its thing stands in the talk: shown, the other …"""
     for label, field in part.fields:
         if label not in ("c", "a", "rel") and isinstance(field, PType | Meet):
-            yield from claimed(field)
+            yield from claimed_predicates(field)

@@ -14,7 +14,7 @@ from types import FunctionType
 from typing import NoReturn, TypeAlias
 
 from kille.dialogue.meanings import DialogueTypes, any_of
-from kille.dialogue.moves import plan, unanswered
+from kille.dialogue.moves import plan, unanswered_states
 from ttr import Rec, Record, RecordType
 from ttr.errors import UpdateError
 from ttr.probability import CERTAIN
@@ -83,7 +83,7 @@ def rule(
     [latest : [addr : Ind, spkr : Ind, e : greet(spkr, addr)]]
     """
     moves = (answers,) if isinstance(answers, str) else answers
-    condition: When = partial(_answering, moves=moves) if moves else when
+    condition: When = partial(_states_to_answer, moves=moves) if moves else when
 
     def make_rule(effect: Effect) -> NamedRule:
         asked = inspect.signature(effect)
@@ -136,7 +136,10 @@ def _bind(types: DialogueTypes, algorithm: Algorithm) -> Algorithm:
         case Maybe(part) | Repeat(part):
             return replace(algorithm, part=_bind(types, part))
         case ByClass(classes):
-            new = [(kind, tuple(_bound(types, it) for it in r)) for kind, r in classes]
+            new = [
+                (kind, tuple(_bind_if_named(types, it) for it in r))
+                for kind, r in classes
+            ]
             return ByClass(tuple(new))
     parts = tuple(_bind(types, part) for part in algorithm.parts)
     return replace(algorithm, parts=parts)
@@ -146,12 +149,12 @@ def _bind_rule(types: DialogueTypes, rule: NamedRule) -> Rule:
     return rule.bind(types)
 
 
-def _bound(types: DialogueTypes, rule: Rule) -> Rule:
+def _bind_if_named(types: DialogueTypes, rule: Rule) -> Rule:
     return types.derive(_bind_rule, rule) if isinstance(rule, NamedRule) else rule
 
 
-def _answering(types: DialogueTypes, moves: tuple[str, ...]) -> RecordType:
-    return types.derive(unanswered, types.derive(any_of, moves))
+def _states_to_answer(types: DialogueTypes, moves: tuple[str, ...]) -> RecordType:
+    return types.derive(unanswered_states, types.derive(any_of, moves))
 
 
 def _without_types(effect: Effect) -> Effect:

@@ -118,7 +118,7 @@ def _strategy(mode: str, wording: str, folder: str, _: int) -> Record:
     data = _data(folder)
     mode = mode or data["default"]["mode"]
     wording = wording or data["default"]["wording"]
-    wants, words = _found(data["modes"], mode), _found(data["wordings"], wording)
+    wants, words = _look_up(data["modes"], mode), _look_up(data["wordings"], wording)
     learning = Stake(**wants["learning"])
     return record(
         mode=mode,
@@ -147,7 +147,7 @@ def _bands(words: Mapping[str, Any]) -> dict[str, float]:
     }
 
 
-def _found(table: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+def _look_up(table: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     if name not in table:
         raise ValueError(f"there is no {name}: choose one of {', '.join(table)}")
     found: Mapping[str, Any] = table[name]

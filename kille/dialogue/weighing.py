@@ -41,16 +41,16 @@ LONGER = 0.9
 _ROUNDING = 1e-9
 
 
-class Weighed(NamedTuple):
+class WeighedMove(NamedTuple):
     """What the tutor may have said, and how probable that is."""
 
     said: Record
     p: float
 
 
-def weighed(
+def weigh_readings(
     s: Record, model: Model, heard: NBest, *, types: DialogueTypes
-) -> Sequence[Weighed]:
+) -> Sequence[WeighedMove]:
     """The likeliest reading of each text, the most probable first.
 
     What is missing to 1 is that it was something else, which fits as `strange` says.
@@ -59,12 +59,12 @@ def weighed(
     other = max(0.0, 1.0 - sum(p for them in texts for _, p in them))
     known = frozenset(map(word_of, words(s)))
     if len(texts) == 1 and other < _ROUNDING:
-        said, _ = max(texts[0], key=lambda it: it[1] * _wording(known, it[0]))
-        return [Weighed(said, 1.0)]
+        said, _ = max(texts[0], key=lambda it: it[1] * _word_weight(known, it[0]))
+        return [WeighedMove(said, 1.0)]
     fits = [_best(s, model, known, them, types=types) for them in texts]
     strange = s.private.strategy.hearing.strange
     whole = sum(it.p for it in fits) + other * strange
-    shares = [Weighed(it.said, it.p / whole if whole else 0.0) for it in fits]
+    shares = [WeighedMove(it.said, it.p / whole if whole else 0.0) for it in fits]
     return sorted(shares, key=lambda it: -it.p)
 
 
@@ -83,24 +83,28 @@ def _best(
     readings: Sequence[tuple[Record, float]],
     *,
     types: DialogueTypes,
-) -> Weighed:
+) -> WeighedMove:
     """The likeliest reading of a text, and the weight of the text."""
     fits = [
-        Weighed(said, _wording(known, said) * _seen(s, model, said, types=types))
+        WeighedMove(
+            said, _word_weight(known, said) * _scene_weight(s, model, said, types=types)
+        )
         for said, _ in readings
     ]
     best = max(fits, key=lambda it: it.p)
-    return Weighed(best.said, best.p * sum(p for _, p in readings))
+    return WeighedMove(best.said, best.p * sum(p for _, p in readings))
 
 
-def _wording(known: Set[Pred], said: Record) -> float:
+def _word_weight(known: Set[Pred], said: Record) -> float:
     """How likely a reading is, by its words: known ones, and few of them."""
     new = [sign for sign in said.signs if word_of(sign) not in known]
     parts = sum(len(sign.form.split()) for sign in new)
     return float(LONGER ** len(said.signs) * UNKNOWN**parts)
 
 
-def _seen(s: Record, model: Model, said: Record, *, types: DialogueTypes) -> float:
+def _scene_weight(
+    s: Record, model: Model, said: Record, *, types: DialogueTypes
+) -> float:
     """How likely it is that this is said, by what is seen."""
     content, strange = said.content, s.private.strategy.hearing.strange
     if not phrases(content):

@@ -15,10 +15,10 @@ from string import Formatter
 
 from kille.dialogue.details import details
 from kille.dialogue.lexicon import Lexicon, Wordings
-from kille.dialogue.listing import either, listed
+from kille.dialogue.listing import either, list_slots
 from kille.dialogue.meanings import DialogueTypes, word_of
-from kille.dialogue.mending import suggested
-from kille.dialogue.phrases import Words, claimed, noun_phrase, phrase
+from kille.dialogue.mending import suggest_sentence
+from kille.dialogue.phrases import Words, claimed_predicates, noun_phrase, phrase
 from ttr import Rec, Record, RecordType
 from ttr.escapes import terminal_text
 from ttr.types import Join, Negation, Singleton
@@ -38,7 +38,7 @@ _WORDS = {"c": "noun", "a": "adjective", "rel": "relation"}
 
 def say(lexicon: Lexicon, act: str, move: Record) -> str:
     """The robot's sentence for a move; `act` is the name of its predicate."""
-    return _worded(lexicon, lexicon.says, act, move)
+    return _fill_wording(lexicon, lexicon.says, act, move)
 
 
 def tell(lexicon: Lexicon, act: str, move: Record) -> str:
@@ -51,7 +51,7 @@ def tell(lexicon: Lexicon, act: str, move: Record) -> str:
     >>> tell(lexicon("en"), "correct", move)
     'No, a cup.'
     """
-    return _worded(lexicon, lexicon.tells, act, move)
+    return _fill_wording(lexicon, lexicon.tells, act, move)
 
 
 def did_not_understand(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str:
@@ -68,23 +68,23 @@ def did_not_understand(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> 
     """
     shown = terminal_text(re.sub(r"\s+", " ", text).strip())
     shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "…"
-    nearest = suggested(lexicon, shown, types=types)
+    nearest = suggest_sentence(lexicon, shown, types=types)
     slots = {"text": shown} | ({} if nearest is None else {"nearest": nearest})
-    return _fitting(lexicon.not_understood, slots).format_map(slots)
+    return _choose_wording(lexicon.not_understood, slots).format_map(slots)
 
 
-def _worded(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) -> str:
+def _fill_wording(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) -> str:
     words = {word_of(sign): sign for sign in move.signs}
     slots = dict(_slots(lexicon, move.content, words))
     rival = move.rival if "rival" in move else Rec
     if isinstance(rival, RecordType):
         slots |= {_of_rival(slot): text for slot, text in _slots(lexicon, rival, words)}
     slots |= details(lexicon, move)
-    wording = _fitting(wordings[act], slots)
+    wording = _choose_wording(wordings[act], slots)
     return _capital(lexicon.with_examples(wording).format_map(slots))
 
 
-def _fitting(wordings: Iterable[str], slots: Mapping[str, str]) -> str:
+def _choose_wording(wordings: Iterable[str], slots: Mapping[str, str]) -> str:
     """The first wording of which all slots are filled, or else the last."""
     wording = ""
     for wording in wordings:
@@ -113,7 +113,7 @@ def _slots(
 ) -> Iterator[tuple[str, str]]:
     """The slots that a content fills, with what it fills them with."""
     yield from _claim_slots(lexicon, content, words)
-    yield from listed(lexicon, content, words)
+    yield from list_slots(lexicon, content, words)
     for label, field in content.fields:
         sign = next((it for it in words.values() if it.meaning is field), None)
         if sign is not None and label not in (*_PARTS, *lexicon.styles):
@@ -132,7 +132,7 @@ def _claim_slots(
     """The words that a content claims to be true, or not."""
     alone = "x" in content
     for label in _CLAIMS:
-        signs = [words[p] for p in claimed(content.get(label)) if p in words]
+        signs = [words[p] for p in claimed_predicates(content.get(label)) if p in words]
         if not signs:
             continue
         several = signs if isinstance(content[label], Join) else signs[:1]
@@ -143,7 +143,7 @@ def _claim_slots(
         if label == "a" and not alone:
             article = _gender(lexicon, content, words)
             for its, sign in zip(forms, several, strict=True):
-                its["so"] = lexicon.agreeing(sign.form, article)
+                its["so"] = lexicon.predicative_form(sign.form, article)
         slots = {
             slot: either(lexicon, [its[slot] for its in forms]) for slot in forms[0]
         }
@@ -159,7 +159,7 @@ def _forms(lexicon: Lexicon, slot: str, sign: Record) -> Iterator[tuple[str, str
         yield f"a_{slot}", lexicon.with_article(sign.form, sign.article)
         article = lexicon.article(sign)
         yield f"the_{slot}", noun_phrase(lexicon, sign, "definite")
-        yield f"plural_{slot}", lexicon.inflected(sign.form, "PLURAL", article)
+        yield f"plural_{slot}", lexicon.inflect(sign.form, "PLURAL", article)
 
 
 def _gender(lexicon: Lexicon, content: RecordType, words: Words) -> str:
@@ -167,7 +167,9 @@ def _gender(lexicon: Lexicon, content: RecordType, words: Words) -> str:
     target = content.get("target")
     if not isinstance(target, RecordType):
         return ""
-    noun = next((words[p] for p in claimed(target.get("c")) if p in words), None)
+    noun = next(
+        (words[p] for p in claimed_predicates(target.get("c")) if p in words), None
+    )
     return lexicon.article(noun) if noun is not None else ""
 
 

@@ -107,7 +107,7 @@ def expected_speech(words: Iterable[Record], language: str = "en") -> Expected:
     slots = {
         TAUGHT: [*forms["noun"], *language_.nouns],
         "_noun": forms["noun"],
-        "_several": [lexicon_.inflected(it, "PLURAL") for it in forms["noun"]],
+        "_several": [lexicon_.inflect(it, "PLURAL") for it in forms["noun"]],
         "_adjective": adjectives,
         "_relation": [*forms["relation"], *language_.relations],
     }
@@ -162,7 +162,7 @@ class _Neighbours:
     def __call__(self, before: str, word: str) -> bool:
         if before in ("a", "an"):
             used = self._used.get(word, "")
-            return bool(word) and self._articles.used(word, used) == before
+            return bool(word) and self._articles.choose(word, used) == before
         match word:
             case "'s":
                 return bool(before) and not _HISSING.search(before)

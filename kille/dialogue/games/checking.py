@@ -5,7 +5,7 @@ What it answers is a claim, which the tutor may confirm or deny.
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import Beliefs, believed, is_sure, knows
+from kille.dialogue.beliefs import Beliefs, beliefs_about, is_sure, knows
 from kille.dialogue.commitments import as_told
 from kille.dialogue.meanings import DialogueTypes, claims, denied
 from kille.dialogue.moves import content_of, instead, plan
@@ -19,7 +19,7 @@ from ttr.updates import first, seq
 @rule(answers="AskWhether")
 def miss_claimed(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks by a word that was never learned."""
-    sign = _asked(s)
+    sign = _asked_word(s)
     if knows(words(s), sign):
         return None
     return plan(
@@ -30,7 +30,7 @@ def miss_claimed(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="AskWhether")
 def miss_place(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks how things stand of which it does not know where they are."""
-    if _asked(s).kind != "relation" or set(_things(s)) <= set(s.view.placed):
+    if _asked_word(s).kind != "relation" or set(_things(s)) <= set(s.view.placed):
         return None
     return plan(s, "NeedDepth", types=types)
 
@@ -41,14 +41,14 @@ def weigh(s: Record, *, model: Model) -> Record | None:
     things = _things(s)
     if not things:
         return None
-    beliefs = as_told(s, believed(s, model, _compared(s), *things))
+    beliefs = as_told(s, beliefs_about(s, model, _alternatives(s), *things))
     return replace(s, {"private.beliefs": beliefs})
 
 
 @rule(answers="AskWhether")
 def say_yes(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is sure that it is so."""
-    return _claimed(s, "SayYes", content_of(s), types=types) if _is_so(s) else None
+    return _plan_claim(s, "SayYes", content_of(s), types=types) if _is_so(s) else None
 
 
 @rule(answers="AskWhether")
@@ -70,7 +70,9 @@ def say_no(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is hardly possible that it is so."""
     unlikely = _p(s) <= s.private.strategy.bands.unlikely
     return (
-        _claimed(s, "SayNo", denied(content_of(s)), types=types) if unlikely else None
+        _plan_claim(s, "SayNo", denied(content_of(s)), types=types)
+        if unlikely
+        else None
     )
 
 
@@ -78,7 +80,9 @@ def say_no(s: Record, *, types: DialogueTypes) -> Record | None:
 def say_probably(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is more likely so than not."""
     probable = _p(s) >= s.private.strategy.bands.probable
-    return _claimed(s, "SayProbably", content_of(s), types=types) if probable else None
+    return (
+        _plan_claim(s, "SayProbably", content_of(s), types=types) if probable else None
+    )
 
 
 @rule(answers="AskWhether")
@@ -89,7 +93,7 @@ def admit_whether(s: Record, *, types: DialogueTypes) -> Record:
     )
 
 
-def _asked(s: Record) -> Record:
+def _asked_word(s: Record) -> Record:
     """The word that the tutor asks about."""
     content = content_of(s)
     asked: Record = next(it for it in s.shared.latest.signs if claims(content, it))
@@ -103,9 +107,9 @@ def _things(s: Record) -> list[str]:
     return [x for x in found if x is not None]
 
 
-def _compared(s: Record) -> list[Record]:
+def _alternatives(s: Record) -> list[Record]:
     """The words it might be instead: of a thing one noun is true, and one colour."""
-    asked = _asked(s)
+    asked = _asked_word(s)
     match asked.kind:
         case "noun":
             return list(s.private.nouns)
@@ -116,7 +120,7 @@ def _compared(s: Record) -> list[Record]:
 
 def _belief(s: Record) -> Beliefs:
     """The belief about the word that is asked about."""
-    return [b for b in s.private.beliefs if knows([b.sign], _asked(s))]
+    return [b for b in s.private.beliefs if knows([b.sign], _asked_word(s))]
 
 
 def _p(s: Record) -> float:
@@ -125,8 +129,8 @@ def _p(s: Record) -> float:
 
 def _is_so(s: Record) -> bool:
     """Whether it is sure; of nouns there must be no near rival."""
-    if _asked(s).kind == "noun":
-        return _sure_of_first(s) and knows([s.private.beliefs[0].sign], _asked(s))
+    if _asked_word(s).kind == "noun":
+        return _sure_of_first(s) and knows([s.private.beliefs[0].sign], _asked_word(s))
     return bool(_p(s) >= s.private.strategy.bands.sure)
 
 
@@ -134,7 +138,7 @@ def _sure_of_first(s: Record) -> bool:
     return is_sure(s, s.private.beliefs)
 
 
-def _claimed(
+def _plan_claim(
     s: Record, act: str, content: RecordType, *, types: DialogueTypes
 ) -> Record:
     return plan(

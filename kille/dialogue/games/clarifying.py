@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.games.referring import about, asking, differing
+from kille.dialogue.games.referring import about, differing_things, plan_question
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import Judging, fits_well, phrase_at
@@ -29,20 +29,20 @@ REFERENTS = ("AskReferent", "AskReferentAgain")
 def take_described(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says which one: "the red one", "the second", "this one"."""
     options = _fitting_options(s, model, types=types)
-    return taken(s, options[0], types=types) if len(options) == 1 else None
+    return take_option(s, options[0], types=types) if len(options) == 1 else None
 
 
 @rule(answers="Affirm")
 def take_only(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says yes to the only option there is."""
     options = _options(s)
-    return taken(s, options[0], types=types) if len(options) == 1 else None
+    return take_option(s, options[0], types=types) if len(options) == 1 else None
 
 
 @rule(answers="Deny")
 def take_none(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor means none of these things: the question is dropped."""
-    return plan(_dropped(s), "Resign", types=types) if asked_which(s) else None
+    return plan(_drop_issue(s), "Resign", types=types) if asked_which(s) else None
 
 
 @rule(answers="Mention")
@@ -51,25 +51,27 @@ def ask_fewer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None
     options = _fitting_options(s, model, types=types)
     if not 1 < len(options) < len(_options(s)):
         return None
-    return asking(_dropped(s), model, options, s.shared.qud[0].ask, types=types)
+    return plan_question(
+        _drop_issue(s), model, options, s.shared.qud[0].ask, types=types
+    )
 
 
 @rule(answers="Mention")
 def ask_once_more(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The answer does not say which one: it asks the same once more."""
-    return _asked_again(s, model, types=types)
+    return _ask_again(s, model, types=types)
 
 
 @rule(answers="Affirm")
 def ask_yes_to_which(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says yes, but there are several things: it asks the same once more."""
-    return _asked_again(s, model, types=types)
+    return _ask_again(s, model, types=types)
 
 
 @rule(answers="Heard")
 def drop_question(s: Record) -> Record | None:
     """Something else is said: the question is dropped, and what was claimed before."""
-    return replace(_dropped(s), {"shared.pending": ()}) if s.shared.qud else None
+    return replace(_drop_issue(s), {"shared.pending": ()}) if s.shared.qud else None
 
 
 wonder_at_mention = reply(
@@ -77,7 +79,7 @@ wonder_at_mention = reply(
 )
 
 
-def taken(s: Record, option: Record, *, types: DialogueTypes) -> Record:
+def take_option(s: Record, option: Record, *, types: DialogueTypes) -> Record:
     """The state in which the tutor's move is this option of the question."""
     answered = replace(s, {"shared.qud": s.shared.qud[1:], "shared.latest": option})
     return about(answered, option.content, types=types)
@@ -101,22 +103,22 @@ def _fitting_options(
     if not asked_which(s):
         return ()
     options = _options(s)
-    _, things = differing(options)
+    _, things = differing_things(options)
     phrase = phrase_at(content_of(s), "target")
     meant = fits_well(s, Judging(s, model, types=types).fits(phrase, things))
     return [it for x, it in zip(things, options, strict=True) if x in meant]
 
 
-def _asked_again(s: Record, model: Model, *, types: DialogueTypes) -> Record | None:
+def _ask_again(s: Record, model: Model, *, types: DialogueTypes) -> Record | None:
     """The plan to ask the same question again, if it was asked only once."""
     if not s.shared.qud or s.shared.qud[0].ask not in AGAIN:
         return None
-    return asking(
-        _dropped(s), model, _options(s), AGAIN[s.shared.qud[0].ask], types=types
+    return plan_question(
+        _drop_issue(s), model, _options(s), AGAIN[s.shared.qud[0].ask], types=types
     )
 
 
-def _dropped(s: Record) -> Record:
+def _drop_issue(s: Record) -> Record:
     """The state without the question under discussion."""
     return replace(s, {"shared.qud": s.shared.qud[1:]})
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import believed, certainty
+from kille.dialogue.beliefs import beliefs_about, certainty
 from kille.dialogue.commitments import as_told
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan, said_of
@@ -18,7 +18,7 @@ def recognise_colour(s: Record, *, model: Model) -> Record | None:
     x = thing_at(content_of(s), "target")
     if x is None:
         return None
-    beliefs = as_told(s, believed(s, model, s.private.colours, x))
+    beliefs = as_told(s, beliefs_about(s, model, s.private.colours, x))
     return replace(s, {"private.beliefs": beliefs})
 
 

@@ -6,10 +6,10 @@ Source: Dobnik and de Graaf 2017, section 3; Larsson 2013 for what is rejected.
 from __future__ import annotations
 
 from kille.dialogue.commitments import (
-    affirmed,
-    learning,
+    affirmation,
+    effects_of_rejection,
+    plan_learning,
     signs_for,
-    weakened,
 )
 from kille.dialogue.meanings import DialogueTypes, is_denial
 from kille.dialogue.moves import plan, used
@@ -24,7 +24,7 @@ def learn_confirmed(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor confirms the robot's one claim: it is a lesson about that look."""
     if len(s.shared.pending) != 1:
         return None
-    return learning(s, s.shared.pending[0], types=types)
+    return plan_learning(s, s.shared.pending[0], types=types)
 
 
 ASKED = {"c": "AskWhich", "a": "AskWhichQuality", "rel": "AskWhichPlace"}
@@ -55,7 +55,7 @@ def learn_after_all(s: Record, *, types: DialogueTypes) -> Record | None:
     """The robot said that something is not so, and the tutor rejects that: so it is."""
     if len(s.shared.pending) != 1 or not is_denial(s.shared.pending[0]):
         return None
-    return learning(s, affirmed(s.shared.pending[0]), types=types)
+    return plan_learning(s, affirmation(s.shared.pending[0]), types=types)
 
 
 @rule(answers="Deny")
@@ -63,7 +63,7 @@ def ask_again(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor rejects what the robot claimed: it learns that, and asks."""
     if not s.shared.pending:
         return None
-    teaches, forgets = weakened(s, s.shared.pending, types=types)
+    teaches, forgets = effects_of_rejection(s, s.shared.pending, types=types)
     signs = signs_for(s, *teaches)
     return plan(
         s, "AskAgain", signs=signs, teaches=teaches, forgets=forgets, types=types

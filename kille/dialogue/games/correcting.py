@@ -14,15 +14,15 @@ from collections.abc import Sequence
 
 from kille.dialogue.commitments import (
     act_of,
-    affirmed,
+    affirmation,
+    effects_of_rejection,
     is_here,
     kind_of,
-    learning,
     lessons_in,
+    opposite_lesson_keys,
+    plan_learning,
     same,
     signs_for,
-    undone,
-    weakened,
 )
 from kille.dialogue.meanings import DialogueTypes, denied, is_denial, set_to
 from kille.dialogue.moves import content_of, plan
@@ -45,7 +45,7 @@ def correct(s: Record, *, types: DialogueTypes) -> Record | None:
     wrong = _wrong(s, content, types=types)
     if not wrong or not _places_known(s, content):
         return None
-    weaker, forgets = weakened(s, wrong, types=types)
+    weaker, forgets = effects_of_rejection(s, wrong, types=types)
     teaches = [*weaker, content]
     return plan(
         s,
@@ -54,7 +54,7 @@ def correct(s: Record, *, types: DialogueTypes) -> Record | None:
         _either(wrong),
         signs=signs_for(s, *teaches, *wrong),
         teaches=teaches,
-        forgets=[*forgets, *undone(s, content, types=types)],
+        forgets=[*forgets, *opposite_lesson_keys(s, content, types=types)],
         types=types,
     )
 
@@ -63,7 +63,7 @@ def correct(s: Record, *, types: DialogueTypes) -> Record | None:
 def accept(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor corrects what nobody has said: learn what is so."""
     content = _right(s)
-    return learning(s, content, types=types) if _places_known(s, content) else None
+    return plan_learning(s, content, types=types) if _places_known(s, content) else None
 
 
 @rule(answers="Reject")
@@ -72,19 +72,19 @@ def reject(s: Record, *, types: DialogueTypes) -> Record | None:
     content = content_of(s)
     if not _places_known(s, content):
         return None
-    wrong = affirmed(content)
+    wrong = affirmation(content)
     was_taught = bool(lessons_in(s, wrong, types=types))
     was_claimed = any(
         same(wrong, it) and is_here(s, it, types=types) for it in s.shared.pending
     )
     if was_claimed or not was_taught:
-        return learning(s, content, types=types)
+        return plan_learning(s, content, types=types)
     return plan(
         s,
         act_of(content),
         content,
         signs=signs_for(s, content),
-        forgets=undone(s, content, types=types),
+        forgets=opposite_lesson_keys(s, content, types=types),
         types=types,
     )
 

@@ -10,12 +10,12 @@ from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, rectype, replace
 
 
-def _corrected(types: DialogueTypes) -> RecordType:
+def _states_after_correction(types: DialogueTypes) -> RecordType:
     """The states in which the latest move corrects the robot."""
     return rectype(shared=rectype(latest=types["Correcting"]))
 
 
-@rule(when=_corrected)
+@rule(when=_states_after_correction)
 def count_correction(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor has corrected the robot, which has failed at the nouns of its claim."""
     said = s.shared.latest

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from kille.dialogue.beliefs import about, has_rival, knows, thinks
-from kille.dialogue.commitments import affirmed, as_told, kind_of, same, signs_for
+from kille.dialogue.commitments import affirmation, as_told, kind_of, same, signs_for
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -32,7 +32,7 @@ EXPLAINED = {"c": "ExplainName", "a": "ExplainQuality", "rel": "ExplainRelation"
 @rule(answers="AskCertainty")
 def miss_certain(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks how certain something is in a word that was never learned."""
-    return _missed(s, types=types)
+    return _plan_unknown_word(s, types=types)
 
 
 @rule(answers="AskCertainty")
@@ -45,7 +45,7 @@ def tell_certainty(s: Record, *, model: Model, types: DialogueTypes) -> Update |
 @rule(answers="AskWhy")
 def miss_explained(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks why something is so in a word that was never learned."""
-    return _missed(s, types=types)
+    return _plan_unknown_word(s, types=types)
 
 
 @rule(answers="AskWhy")
@@ -54,7 +54,7 @@ def explain(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     claim = _asked_about(s)
     if claim is None or is_denial(claim):
         return None
-    own, rival, model = _judged(s, model, claim)
+    own, rival, model = _judge_claim(s, model, claim)
     if own is None or not thinks(s, [own]):
         return None
     p, other = _with_rival(s, claim, own, rival, types=types)
@@ -91,7 +91,7 @@ def explain_nothing(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "NoClaim", types=types)
 
 
-def _missed(s: Record, *, types: DialogueTypes) -> Record | None:
+def _plan_unknown_word(s: Record, *, types: DialogueTypes) -> Record | None:
     """The plan to say that the word of the claim that is asked about is not known."""
     content = content_of(s)
     for sign in s.shared.latest.signs:
@@ -119,15 +119,15 @@ def _asked_about(s: Record) -> RecordType | None:
 def _still_claimed(s: Record, claim: RecordType) -> Sequence[RecordType]:
     """What was claimed and may be confirmed: nothing, if he asks of another claim."""
     pending: Sequence[RecordType] = s.shared.pending
-    asked = affirmed(claim)
-    return pending if any(same(asked, affirmed(it)) for it in pending) else ()
+    asked = affirmation(claim)
+    return pending if any(same(asked, affirmation(it)) for it in pending) else ()
 
 
 def _plan_certainty(
     s: Record, model: Model, claim: RecordType, *, types: DialogueTypes
 ) -> Update:
     """The plan to say how certain a claim is."""
-    own, rival, model = _judged(s, model, affirmed(claim))
+    own, rival, model = _judge_claim(s, model, affirmation(claim))
     if own is None:
         return plan(s, "NoClaim", types=types), model
     p, other = _with_rival(s, claim, own, rival, types=types)
@@ -144,7 +144,7 @@ def _plan_certainty(
     return told, model
 
 
-def _judged(
+def _judge_claim(
     s: Record, model: Model, claim: RecordType
 ) -> tuple[Record | None, Record | None, Model]:
     """The robot's belief in a claim, and in the best other word of the same kind.

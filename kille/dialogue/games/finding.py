@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import believed, is_sure
+from kille.dialogue.beliefs import beliefs_about, is_sure
 from kille.dialogue.games.placing import landmark_for
 from kille.dialogue.meanings import DialogueTypes, set_to
 from kille.dialogue.moves import (
@@ -26,11 +26,11 @@ def point_out(s: Record, *, model: Model, types: DialogueTypes) -> Record | None
     return (
         None
         if x is None
-        else pointed_out(s, model, "PointOut", content_of(s), x, types=types)
+        else plan_pointing(s, model, "PointOut", content_of(s), x, types=types)
     )
 
 
-def pointed_out(
+def plan_pointing(
     s: Record,
     model: Model,
     act: str,
@@ -70,7 +70,7 @@ def _where(
     if landmark is None:
         return content, []
     y, at = landmark.sit.x, landmark.sign
-    stands = believed(s, model, s.private.relations, x, y)
+    stands = beliefs_about(s, model, s.private.relations, x, y)
     if not is_sure(s, stands):
         return content, []
     where = stands[0].sign

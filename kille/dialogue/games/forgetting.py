@@ -38,7 +38,7 @@ def forget_claim(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     lessons = lessons_in(s, content, types=types)
     return (
-        _forgotten(s, *lessons, types=types)
+        _plan_forgetting(s, *lessons, types=types)
         if lessons
         else plan(s, "ForgetNothing", types=types)
     )
@@ -53,14 +53,16 @@ def forget_that(s: Record, *, types: DialogueTypes) -> Record | None:
         for it in s.private.lessons
         if it.content in s.shared.here and talked_of & set(things_in(it.content))
     ]
-    return _forgotten(s, lessons[-1], types=types) if lessons else None
+    return _plan_forgetting(s, lessons[-1], types=types) if lessons else None
 
 
 @rule(answers="ForgetLast")
 def forget_last(s: Record, *, types: DialogueTypes) -> Record | None:
     """The latest lesson is unlearned."""
     return (
-        _forgotten(s, s.private.lessons[-1], types=types) if s.private.lessons else None
+        _plan_forgetting(s, s.private.lessons[-1], types=types)
+        if s.private.lessons
+        else None
     )
 
 
@@ -95,7 +97,7 @@ def forget_earlier(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "ForgotLast", undoes=["latest"], types=types)
 
 
-def _forgotten(s: Record, *lessons: Record, types: DialogueTypes) -> Record:
+def _plan_forgetting(s: Record, *lessons: Record, types: DialogueTypes) -> Record:
     """The plan to unlearn lessons that say the same."""
     lesson = lessons[-1]
     acts = FORGOT_NOT if is_denial(lesson.content) else FORGOT

@@ -13,8 +13,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from kille.dialogue.beliefs import relations_of
-from kille.dialogue.commitments import act_of, affirmed, signs_for
-from kille.dialogue.games.placing import asked_for, landmark_for
+from kille.dialogue.commitments import act_of, affirmation, signs_for
+from kille.dialogue.games.placing import asked_thing, landmark_for
 from kille.dialogue.games.referring import about
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -90,7 +90,7 @@ def settle_frame(s: Record, *, types: DialogueTypes) -> Record | None:
 def answer_anew(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """The tutor corrects the perspective of an answer: the question is asked again."""
     settled = _in(s, _frame_in(content_of(s)))
-    asked = _asked_last(settled, types=types)
+    asked = _last_question(settled, types=types)
     if asked is None:
         return None
     act, content = asked
@@ -137,7 +137,10 @@ def note_frame(s: Record, *, types: DialogueTypes) -> Record:
 @rule(answers=OTHER_GAMES)
 def leave_places(s: Record) -> Record | None:
     """Another game begins: nothing is settled any more about perspectives."""
-    if s.shared.frame == OPEN or next(_placing(content_of(s)), None) is not None:
+    if (
+        s.shared.frame == OPEN
+        or next(_phrases_with_landmark(content_of(s)), None) is not None
+    ):
         return None
     return _in(s, OPEN)
 
@@ -147,15 +150,15 @@ def ask_frame_of_phrase(
     s: Record, *, model: Model, types: DialogueTypes
 ) -> Record | None:
     """A phrase means one thing to the viewer, and another as the landmark has it."""
-    label = next(_placing(content_of(s)), None)
+    label = next(_phrases_with_landmark(content_of(s)), None)
     if s.shared.frame != OPEN or not s.shared.turned or label is None:
         return None
-    meant = [_meant(_in(s, frame), model, types=types) for frame in FRAMES]
+    meant = [_resolved_content(_in(s, frame), model, types=types) for frame in FRAMES]
     if meant[0] == meant[1]:
         return None
     landmark = phrase_at(phrase_at(content_of(s), label), "landmark")
     options = [replace(s.shared.latest, content=content) for content in meant]
-    return _asking(s, landmark, options, types=types)
+    return _plan_question(s, landmark, options, types=types)
 
 
 # --- asking for it -------------------------------------------------------------------
@@ -177,7 +180,7 @@ def learn_front(s: Record, *, types: DialogueTypes) -> Record | None:
 def ask_frame_of_lesson(s: Record, *, types: DialogueTypes) -> Record | None:
     """What is said of a place can be learned in one perspective or in the other."""
     landmark = _open_landmark(s)
-    return _asking_of_claim(s, landmark, types=types) if landmark else None
+    return _plan_question_of_claim(s, landmark, types=types) if landmark else None
 
 
 @rule(answers="AskWhether")
@@ -189,7 +192,11 @@ def ask_frame_of_question(
     if landmark is None:
         return None
     seen = [_verdict(_in(s, frame), model, landmark, types=types) for frame in FRAMES]
-    return _asking_of_claim(s, landmark, types=types) if seen[0] != seen[1] else None
+    return (
+        _plan_question_of_claim(s, landmark, types=types)
+        if seen[0] != seen[1]
+        else None
+    )
 
 
 @rule(answers="AskPlace")
@@ -200,7 +207,7 @@ def ask_frame_of_place(
     x = thing_at(content_of(s), "target")
     if s.shared.frame != OPEN or not s.shared.turned or x not in s.view.placed:
         return None
-    thing, model = asked_for(s, model, str(x))
+    thing, model = asked_thing(s, model, str(x))
     landmark, model = landmark_for(s, model, thing) if thing else (None, model)
     if landmark is None or facing(s, landmark.sit.x) is None:
         return None
@@ -210,7 +217,7 @@ def ask_frame_of_place(
         said.append(stands[0].sign if stands else None)
     if said[0] == said[1]:
         return None
-    return _asking(
+    return _plan_question(
         s,
         landmark.sign.meaning,
         [_seen_from(s, it, types=types) for it in _fronts(s, landmark.sit.x)],
@@ -218,7 +225,7 @@ def ask_frame_of_place(
     ), model
 
 
-def _asked_last(s: Record, *, types: DialogueTypes) -> tuple[str, RecordType] | None:
+def _last_question(s: Record, *, types: DialogueTypes) -> tuple[str, RecordType] | None:
     """The question of places that the robot has answered last, and what it is about.
 
     It was whether things stand so, or else where the thing is of which it has claimed
@@ -230,7 +237,7 @@ def _asked_last(s: Record, *, types: DialogueTypes) -> tuple[str, RecordType] | 
         rather = checked <= types.record_type("SayRather")
         about = value_at(checked, "rival" if rather else "content")
         assert isinstance(about, RecordType)
-        act, content = "AskWhether", affirmed(about)
+        act, content = "AskWhether", affirmation(about)
     elif s.shared.pending:
         act, content = "AskPlace", s.shared.pending[0]
     else:
@@ -270,14 +277,14 @@ def _has_front(
     return any(x in turned for x in fits_well(s, fits))
 
 
-def _placing(content: RecordType) -> Iterator[str]:
+def _phrases_with_landmark(content: RecordType) -> Iterator[str]:
     """The phrases that say of their thing what it stands beside."""
     for label in PARTS:
         if label in content and "landmark" in phrase_at(content, label):
             yield label
 
 
-def _meant(s: Record, model: Model, *, types: DialogueTypes) -> RecordType:
+def _resolved_content(s: Record, model: Model, *, types: DialogueTypes) -> RecordType:
     """What the latest move is about if its phrases are resolved, or else as it is."""
     content = content_of(s)
     readings = denoted(s, contents(s, model, content, types=types), types=types)
@@ -304,11 +311,13 @@ def _verdict(
     return bool(p >= bands.sure), bool(p >= bands.likely)
 
 
-def _asking_of_claim(s: Record, landmark: str, *, types: DialogueTypes) -> Record:
+def _plan_question_of_claim(
+    s: Record, landmark: str, *, types: DialogueTypes
+) -> Record:
     """The plan to ask in whose perspective a claim of the tutor's is meant."""
     content = content_of(s)
     options = [_seen_from(s, front, types=types) for front in _fronts(s, landmark)]
-    return _asking(s, phrase_at(content, "landmark"), options, types=types)
+    return _plan_question(s, phrase_at(content, "landmark"), options, types=types)
 
 
 def _fronts(s: Record, landmark: str) -> list[str]:
@@ -322,7 +331,7 @@ def _seen_from(s: Record, front: str, *, types: DialogueTypes) -> Record:
     return replace(s.shared.latest, content=content)
 
 
-def _asking(
+def _plan_question(
     s: Record, landmark: RecordType, options: Sequence[Record], *, types: DialogueTypes
 ) -> Record:
     """The plan to ask whose perspective is meant; what was claimed stays pending."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from kille.dialogue.beliefs import believed, doubt, is_sure, knows, lead, thinks
+from kille.dialogue.beliefs import beliefs_about, doubt, is_sure, knows, lead, thinks
 from kille.dialogue.meanings import DialogueTypes, claims, set_at, set_to
 from kille.dialogue.moves import numbered, plan, said_of, standing
 from kille.dialogue.reference import thing_at
@@ -36,7 +36,9 @@ def learn_alone(
 ) -> Record | None:
     """It is so sure what a thing is that it learns this look of it by itself."""
     wants = s.private.strategy.wants.learning
-    return _chosen(s, _lessons(s, model, Stake(wants.right, wants.wrong), types=types))
+    return _take_best(
+        s, _lessons(s, model, Stake(wants.right, wants.wrong), types=types)
+    )
 
 
 @rule(when="State", on="Seen")
@@ -52,7 +54,7 @@ def ask_relation(
     s: Record, seen: Record, *, model: Model, types: DialogueTypes
 ) -> Record | None:
     """Two things it knows are in view, and how they stand it cannot say: it asks."""
-    return _chosen(s, _relations(s, model, types=types))
+    return _take_best(s, _relations(s, model, types=types))
 
 
 @rule(when="State", on="Seen")
@@ -60,7 +62,7 @@ def ask(
     s: Record, seen: Record, *, model: Model, types: DialogueTypes
 ) -> Record | None:
     """It asks for what it would like to know most."""
-    return _chosen(
+    return _take_best(
         s,
         [
             *_relations(s, model, types=types),
@@ -70,7 +72,7 @@ def ask(
     )
 
 
-def _chosen(s: Record, initiatives: Iterable[Initiative]) -> Record | None:
+def _take_best(s: Record, initiatives: Iterable[Initiative]) -> Record | None:
     """The state in which it does the best of these that it has not done yet."""
     new = [it for it in initiatives if it.question not in s.private.asked]
     option = best(it.option for it in new)
@@ -82,7 +84,7 @@ def _chosen(s: Record, initiatives: Iterable[Initiative]) -> Record | None:
     )
 
 
-def _asking(s: Record, about: str, p: float) -> Option:
+def _option_to_ask(s: Record, about: str, p: float) -> Option:
     """The option to ask about something, which is needed with this probability."""
     wants = s.private.strategy.wants
     return Option(about, p, Stake(wants[about] - wants.asking, -wants.asking))
@@ -101,13 +103,13 @@ def _relations(
         return
     target, landmark = known
     x, y = target.sit.x, landmark.sit.x
-    stand = believed(s, model, s.private.relations, x, y)
+    stand = beliefs_about(s, model, s.private.relations, x, y)
     if is_sure(s, stand):
         return
     signs = [target.sign, landmark.sign]
     content = standing(s, x, target.sign, y, landmark.sign, types=types)
     yield Initiative(
-        _asking(s, "relation", doubt(stand)),
+        _option_to_ask(s, "relation", doubt(stand)),
         _question("AskRelation", *sorted(it.form for it in signs)),
         plan(s, "AskRelation", content, signs=signs, types=types),
     )
@@ -117,7 +119,7 @@ def _known_pair(s: Record, model: Model) -> tuple[Record, Record] | None:
     """The two nearest things with a place that it recognises as different things."""
     found: list[Record] = []
     for x in s.view.placed:
-        beliefs = believed(s, model, s.private.nouns, x)
+        beliefs = beliefs_about(s, model, s.private.nouns, x)
         if not is_sure(s, beliefs) or knows([b.sign for b in found], beliefs[0].sign):
             continue
         found.append(beliefs[0])
@@ -131,7 +133,7 @@ def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initia
     if not _is_worth(s, "thing"):
         return
     for x in sorted(s.view.things, key=lambda it: it not in s.view.focus):
-        beliefs = believed(s, model, s.private.nouns, x)
+        beliefs = beliefs_about(s, model, s.private.nouns, x)
         if thinks(s, beliefs) or _is_told(s, x):
             continue
         content = set_at(
@@ -143,7 +145,7 @@ def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initia
         )
         salient = (x, *(it for it in s.shared.salient if it != x))
         yield Initiative(
-            _asking(s, "thing", doubt(beliefs)),
+            _option_to_ask(s, "thing", doubt(beliefs)),
             _question("AskThing", things=(x,)),
             replace(planned, {"view.focus": (x,), "shared.salient": salient}),
         )
@@ -160,7 +162,7 @@ def _examples(s: Record, *, types: DialogueTypes) -> Iterator[Initiative]:
         failed = sum(knows([it], sign) for it in s.private.failed)
         taught = sum(claims(it.content, sign) for it in s.private.lessons)
         yield Initiative(
-            _asking(s, "example", failed / (taught + failed)),
+            _option_to_ask(s, "example", failed / (taught + failed)),
             _question("AskExample", sign.form, str(failed)),
             plan(s, "AskExample", sign.meaning, signs=[sign], types=types),
         )
@@ -173,7 +175,7 @@ def _lessons(
     if stake.right <= 0.0:
         return
     for x in s.view.things:
-        beliefs = believed(s, model, s.private.nouns, x)
+        beliefs = beliefs_about(s, model, s.private.nouns, x)
         if not is_sure(s, beliefs) or _is_told(s, x):
             continue
         content, sign = said_of(s, beliefs[0].sign, x, types=types), beliefs[0].sign

@@ -5,7 +5,7 @@ Source: Dobnik and de Graaf 2017, section 3.
 
 from __future__ import annotations
 
-from kille.dialogue.commitments import undone
+from kille.dialogue.commitments import opposite_lesson_keys
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import PARTS, thing_at
@@ -17,13 +17,13 @@ from ttr.updates import first
 @rule(answers="Instruct")
 def learn_word(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor names a thing in view: learn the word from this very look."""
-    return _taught(s, "Learned", types=types)
+    return _plan_lesson(s, "Learned", types=types)
 
 
 @rule(answers="Describe")
 def learn_quality(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor says how a thing in view is: learn the word from this very look."""
-    return _taught(s, "LearnedQuality", types=types)
+    return _plan_lesson(s, "LearnedQuality", types=types)
 
 
 @rule(answers="Relate")
@@ -32,7 +32,7 @@ def learn_relation(s: Record, *, types: DialogueTypes) -> Record | None:
     content = content_of(s)
     things = [thing_at(content, label) for label in PARTS]
     return (
-        _taught(s, "LearnedRelation", types=types)
+        _plan_lesson(s, "LearnedRelation", types=types)
         if set(things) <= set(s.view.placed)
         else None
     )
@@ -44,10 +44,10 @@ def need_places(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "NeedDepth", types=types)
 
 
-def _taught(s: Record, act: str, *, types: DialogueTypes) -> Record:
+def _plan_lesson(s: Record, act: str, *, types: DialogueTypes) -> Record:
     content = content_of(s)
     signs = s.shared.latest.signs
-    forgets = undone(s, content, types=types)
+    forgets = opposite_lesson_keys(s, content, types=types)
     return plan(
         s, act, content, signs=signs, teaches=[content], forgets=forgets, types=types
     )

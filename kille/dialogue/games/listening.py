@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from itertools import count, islice
 
 from kille.dialogue.beliefs import knows
-from kille.dialogue.commitments import remaining, said_here
+from kille.dialogue.commitments import keep_claims, said_here
 from kille.dialogue.games.costing import ASKED, CORRECTED
 from kille.dialogue.games.mishearing import MISHEARING
 from kille.dialogue.meanings import (
@@ -24,7 +24,7 @@ from kille.dialogue.meanings import (
 from kille.dialogue.reference import things_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from kille.dialogue.weighing import FAINTLY, weighed
+from kille.dialogue.weighing import FAINTLY, weigh_readings
 from ttr import Model, Pred, Record, RecordType, replace
 from ttr.updates import NBest, first, maybe, seq
 
@@ -34,16 +34,16 @@ from ttr.updates import NBest, first, maybe, seq
 @rule(when="State", on="Seen")
 def see(s: Record, seen: Record) -> Record:
     """What is in view is what the latest look shows, and the robot has the floor."""
-    return _looked(s, seen)
+    return _state_after_look(s, seen)
 
 
 @rule(when="State", on="Glance")
 def glance(s: Record, seen: Record) -> Record:
     """What is in view is what the latest look shows, while the tutor has the floor."""
-    return _looked(s, seen)
+    return _state_after_look(s, seen)
 
 
-def _looked(s: Record, seen: Record) -> Record:
+def _state_after_look(s: Record, seen: Record) -> Record:
     """The state after a look: what is gone is not talked about, what is shown is.
 
     A question about what is gone is dropped.
@@ -62,7 +62,7 @@ def _looked(s: Record, seen: Record) -> Record:
         "shared.salient": salient,
         "shared.topic": turned_to or [x for x in s.shared.topic if x in seen.kept],
         "shared.turned": turned,
-        "shared.here": remaining(s.shared.here, seen.kept),
+        "shared.here": keep_claims(s.shared.here, seen.kept),
     }
     return replace(s, changes)
 
@@ -85,7 +85,7 @@ def hear(
 ) -> Record:
     """What the tutor says is the latest move: the likeliest of what it may be."""
     if isinstance(nbest, NBest):
-        said = weighed(s, model, nbest, types=types)[0].said
+        said = weigh_readings(s, model, nbest, types=types)[0].said
     cost = s.private.cost
     changes = {
         "private.agenda": (),
@@ -106,7 +106,9 @@ def say(s: Record, said: Record, *, types: DialogueTypes) -> Record:
     agenda, last = s.private.agenda, s.private.last
     changes = {
         "private.agenda": agenda[1:],
-        "private.last": last if agenda[0] in last else _made(agenda, said, types=types),
+        "private.last": last
+        if agenda[0] in last
+        else _repeatable_moves(agenda, said, types=types),
         "shared.latest": said,
         "shared.here": said_here(s, said, types=types),
         "shared.topic": things_in(said.content) or s.shared.topic,
@@ -114,7 +116,7 @@ def say(s: Record, said: Record, *, types: DialogueTypes) -> Record:
     return replace(s, changes)
 
 
-def _made(
+def _repeatable_moves(
     agenda: Sequence[RecordType], said: Record, *, types: DialogueTypes
 ) -> Sequence[RecordType]:
     """The planned moves, as they can be said again: what was undone stays the same."""
@@ -137,8 +139,8 @@ def keep(s: Record, said: Record) -> Record | None:
     state = s
     keys = said.keys or _free_keys(s, len(said.teaches))
     for content, key in zip(said.teaches, keys, strict=True):
-        state = _learned(state, key, content, said.signs)
-    return _lost(state, said)
+        state = _add_lesson(state, key, content, said.signs)
+    return _remove_lessons(state, said)
 
 
 def _free_keys(s: Record, number: int) -> list[str]:
@@ -148,7 +150,7 @@ def _free_keys(s: Record, number: int) -> list[str]:
     return list(islice(free, number))
 
 
-def _learned(
+def _add_lesson(
     s: Record, key: str, content: RecordType, signs: Iterable[Record]
 ) -> Record:
     sign = next(it for it in signs if claims(content, it))
@@ -165,7 +167,7 @@ def _learned(
     return replace(s, changes)
 
 
-def _lost(s: Record, said: Record) -> Record:
+def _remove_lessons(s: Record, said: Record) -> Record:
     gone = {*said.forgets, *said.dropped, *(it.key for it in said.undone)}
     lessons = [it for it in s.private.lessons if it.key not in gone]
     kept = {it.content for it in lessons}
@@ -175,7 +177,7 @@ def _lost(s: Record, said: Record) -> Record:
         "shared.commitments": [
             it for it in s.shared.commitments if it not in unlearned
         ],
-        "private.taught": _taught(s, said),
+        "private.taught": _earlier_lessons(s, said),
         "shared.here": [it for it in s.shared.here if it not in unlearned],
     }
     for kind in {sign.kind for sign in said.lost}:
@@ -184,7 +186,7 @@ def _lost(s: Record, said: Record) -> Record:
     return replace(s, changes)
 
 
-def _taught(s: Record, said: Record) -> list[Record]:
+def _earlier_lessons(s: Record, said: Record) -> list[Record]:
     """How often words were taught before this dialogue, less what is forgotten."""
     fewer = Counter[Pred]()
     for it in said.undone:

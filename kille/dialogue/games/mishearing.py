@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import issue, plan
 from kille.dialogue.rules import rule
-from kille.dialogue.weighing import FAINTLY, Weighed, weighed
+from kille.dialogue.weighing import FAINTLY, WeighedMove, weigh_readings
 from ttr import Model, Record, replace
 from ttr.updates import NBest, first
 
@@ -23,7 +23,10 @@ def ask_heard(
     """Two things may have been said, or it hardly was the one: it asks which."""
     if not isinstance(nbest, NBest):
         return None
-    hearing, heard = s.private.strategy.hearing, weighed(s, model, nbest, types=types)
+    hearing, heard = (
+        s.private.strategy.hearing,
+        weigh_readings(s, model, nbest, types=types),
+    )
     if _is_clear(s, heard) or heard[0].p < hearing.floor:
         return None
     near = [it.said for it in heard[:2] if heard[0].p - it.p < hearing.ahead]
@@ -41,7 +44,7 @@ def beg_pardon(
 ) -> Record | None:
     """Nothing that may have been said is likely enough: it asks to hear it again."""
     if not isinstance(nbest, NBest) or _is_clear(
-        s, weighed(s, model, nbest, types=types)
+        s, weigh_readings(s, model, nbest, types=types)
     ):
         return None
     return plan(s, "Pardon", types=types)
@@ -55,7 +58,7 @@ def take_back_heard(s: Record, *, types: DialogueTypes) -> Record | None:
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Pardon", types=types)
 
 
-def _is_clear(s: Record, heard: Sequence[Weighed]) -> bool:
+def _is_clear(s: Record, heard: Sequence[WeighedMove]) -> bool:
     """Whether the likeliest is likely enough, and far enough ahead of the next."""
     hearing = s.private.strategy.hearing
     following = heard[1].p if len(heard) > 1 else 0.0

@@ -5,7 +5,7 @@ Source: Dobnik and de Graaf 2017, section 3.
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import believed, certainty
+from kille.dialogue.beliefs import beliefs_about, certainty
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import thing_at
@@ -20,14 +20,14 @@ def recognise(s: Record, *, model: Model) -> Record | None:
     x = thing_at(content_of(s), "target")
     if x is None or not s.private.nouns:
         return None
-    beliefs = believed(s, model, s.private.nouns, x)
+    beliefs = beliefs_about(s, model, s.private.nouns, x)
     return replace(s, {"private.beliefs": beliefs})
 
 
 @rule(answers="AskName")
 def assert_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is sure, and no rival is near: it says what this is."""
-    return _said(s, "Assert", types=types)
+    return _plan_naming(s, "Assert", types=types)
 
 
 @rule(answers="AskName")
@@ -48,13 +48,13 @@ def hedge_name(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="AskName")
 def guess_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It thinks so, is not sure of it, and has no rival to it."""
-    return _said(s, "Guess", types=types)
+    return _plan_naming(s, "Guess", types=types)
 
 
 @rule(answers="AskName")
 def doubt_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It has an opinion, and hardly more than that."""
-    return _said(s, "Doubt", types=types)
+    return _plan_naming(s, "Doubt", types=types)
 
 
 @rule(answers="AskName")
@@ -63,7 +63,7 @@ def admit_name(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "AdmitName", types=types)
 
 
-def _said(s: Record, how: str, *, types: DialogueTypes) -> Record | None:
+def _plan_naming(s: Record, how: str, *, types: DialogueTypes) -> Record | None:
     """The plan to say its first belief in this way, if it is that certain."""
     if certainty(s, s.private.beliefs) != how:
         return None

@@ -25,7 +25,7 @@ def offer_word(s: Record, *, model: Model, types: DialogueTypes) -> Record | Non
     """A word is not known, but nearly is one that is: was that meant?"""
     said = s.shared.latest
     for sign in said.signs:
-        known = _meant(s, model, sign, types=types)
+        known = _intended_word(s, model, sign, types=types)
         if known is None:
             continue
         seen = replace(said, content=in_view(s, said.content, types=types))
@@ -38,16 +38,16 @@ def offer_word(s: Record, *, model: Model, types: DialogueTypes) -> Record | Non
 @rule(answers="Affirm")
 def take_offered(s: Record) -> Record | None:
     """The tutor meant the known word: that is what was said."""
-    return _settled(s, 0) if _is_offered(s) else None
+    return _choose_option(s, 0) if _is_offered(s) else None
 
 
 @rule(answers="Deny")
 def take_as_said(s: Record) -> Record | None:
     """The tutor meant the new word: it was said as it was."""
-    return _settled(s, 1) if _is_offered(s) else None
+    return _choose_option(s, 1) if _is_offered(s) else None
 
 
-def _meant(
+def _intended_word(
     s: Record, model: Model, sign: Record, *, types: DialogueTypes
 ) -> Record | None:
     """The one known word that a word may be a slip of, if it is not known itself.
@@ -75,7 +75,7 @@ def _is_offered(s: Record) -> bool:
     return bool(s.shared.qud) and s.shared.qud[0].ask == OFFER
 
 
-def _settled(s: Record, chosen: int) -> Record:
+def _choose_option(s: Record, chosen: int) -> Record:
     """The state in which the tutor's move is the option that he chose."""
     asked, *rest = s.shared.qud
     return replace(s, {"shared.qud": rest, "shared.latest": asked.options[chosen]})

@@ -26,7 +26,7 @@ def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None
     x = thing_at(content_of(s), "target")
     if x is None or x not in s.view.placed:
         return None
-    thing, model = asked_for(s, model, x)
+    thing, model = asked_thing(s, model, x)
     if thing is None:
         return plan(s, "AdmitName", types=types), model
     landmark, model = landmark_for(s, model, thing)
@@ -36,7 +36,7 @@ def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None
         ), model
     relations, model = relations_of(s, model, x, landmark.sit.x)
     believing = replace(s, {"private.beliefs": relations})
-    return _place_said(believing, thing, landmark, relations, types=types), model
+    return _plan_place(believing, thing, landmark, relations, types=types), model
 
 
 @rule(answers="AskPlace")
@@ -45,7 +45,7 @@ def need_place(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "NeedDepth", types=types)
 
 
-def asked_for(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:
+def asked_thing(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:
     """The thing of which the tutor asks where it is, by the noun for it in the answer.
 
     That is his own, if he has used one, or else the one that fits the thing best.
@@ -74,7 +74,7 @@ def landmark_for(s: Record, model: Model, thing: Record) -> tuple[Record | None,
     return best, model
 
 
-def _place_said(
+def _plan_place(
     s: Record,
     thing: Record,
     landmark: Record,

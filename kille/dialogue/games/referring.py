@@ -63,7 +63,7 @@ def ask_referent(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
         replace(said, content=set_to(said.content, **{label: meant[x]}))
         for x in across(s, model, meant, types=types)
     ]
-    return asking(s, model, options, "AskReferent", types=types)
+    return plan_question(s, model, options, "AskReferent", types=types)
 
 
 @rule(answers="Heard")
@@ -83,7 +83,7 @@ def miss_second(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
     """The tutor talks of two things, and only one and the same is in view for both."""
     content = content_of(s)
     both = len(phrases(content)) > 1 and not any(
-        _missing(s, model, content, types=types)
+        _unfitting_phrases(s, model, content, types=types)
     )
     return plan(s, "SameThing", types=types) if both else None
 
@@ -95,7 +95,7 @@ def miss_thing(s: Record, *, model: Model, types: DialogueTypes) -> Record | Non
     if not phrases(content):
         return None
     missing, signs = (
-        next(_missing(s, model, content, types=types), content),
+        next(_unfitting_phrases(s, model, content, types=types), content),
         s.shared.latest.signs,
     )
     if not s.view.things and not any(mentions(missing, it) for it in signs):
@@ -118,7 +118,7 @@ def about(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
     return replace(s, changes)
 
 
-def asking(
+def plan_question(
     s: Record,
     model: Model,
     options: Sequence[Record],
@@ -131,11 +131,11 @@ def asking(
     Things that can be told apart in words are offered, if they are not too many. What
     was claimed before stays pending.
     """
-    label, things = differing(options)
+    label, things = differing_things(options)
     said = options[0]
     phrase = phrase_at(said.content, label)
     nouns = nouns_said(said, phrase)
-    told = _told_apart(s, model, things, nouns, types=types)
+    told = _distinguish(s, model, things, nouns, types=types)
     signs = tuple(dict.fromkeys(sign for it in told for sign in it.signs))
     match [it.phrase for it in told]:
         case []:
@@ -143,11 +143,14 @@ def asking(
                 plan,
                 s,
                 "AskReferent",
-                _asked(meant_by(nouns, types=types), types=types),
+                _question_about(meant_by(nouns, types=types), types=types),
                 signs=nouns,
             )
         case [one, other]:
-            both = _asked(one, types=types), _asked(other, types=types)
+            both = (
+                _question_about(one, types=types),
+                _question_about(other, types=types),
+            )
             move = partial(plan, s, "OfferReferents", *both, signs=signs)
         case several:
             move = partial(
@@ -156,7 +159,7 @@ def asking(
     return move(asks=[issue(ask, options)], pending=s.shared.pending, types=types)
 
 
-def _told_apart(
+def _distinguish(
     s: Record,
     model: Model,
     things: Sequence[str],
@@ -174,7 +177,7 @@ def _told_apart(
     return found if len(found) == len(things) else []
 
 
-def differing(options: Sequence[Record]) -> tuple[str, Sequence[str]]:
+def differing_things(options: Sequence[Record]) -> tuple[str, Sequence[str]]:
     """The first phrase that these moves set to different things, and the things."""
     for label in PARTS:
         things = dict.fromkeys(thing_at(it.content, label) for it in options)
@@ -193,7 +196,7 @@ def _readings(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Read
     )
 
 
-def _asked(phrase: RecordType, *, types: DialogueTypes) -> RecordType:
+def _question_about(phrase: RecordType, *, types: DialogueTypes) -> RecordType:
     """What a question is about that asks for the thing of a phrase."""
     return rectype(look=types["Look"], target=phrase)
 
@@ -215,7 +218,7 @@ def _judges(s: Record, model: Model, sign: Record) -> bool:
     return knows(words(s), sign) or word_of(sign) in model.facts.functions
 
 
-def _missing(
+def _unfitting_phrases(
     s: Record, model: Model, content: RecordType, *, types: DialogueTypes
 ) -> Iterator[RecordType]:
     """What is asked for by the phrases that fit nothing in view by themselves."""

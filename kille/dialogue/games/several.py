@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kille.dialogue.beliefs import believed, is_sure, knows
-from kille.dialogue.commitments import kind_of, undone
-from kille.dialogue.games.finding import pointed_out
+from kille.dialogue.beliefs import beliefs_about, is_sure, knows
+from kille.dialogue.commitments import kind_of, opposite_lesson_keys
+from kille.dialogue.games.finding import plan_pointing
 from kille.dialogue.games.surveying import in_view
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -47,7 +47,9 @@ def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | 
         in_view(s, seen, (), (), types=types),
         signs=[sign],
         teaches=teaches,
-        forgets=[key for it in teaches for key in undone(s, it, types=types)],
+        forgets=[
+            key for it in teaches for key in opposite_lesson_keys(s, it, types=types)
+        ],
         types=types,
     )
 
@@ -84,7 +86,7 @@ def tell_places(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
     act = "PointOut" if len(things) == 1 else "TellPlace"
     told = s
     for x in sorted(things, key=s.view.things.index):
-        told = pointed_out(
+        told = plan_pointing(
             told, model, act, _one_of(s, asked, x, types=types), x, types=types
         )
     return told if len(things) == 1 else replace(told, {"shared.pending": ()})
@@ -128,7 +130,7 @@ def _is_other(s: Record, model: Model, x: str, noun: Record) -> bool:
     """Whether a thing is known not to be what a noun says: it is something else."""
     if any(is_denial(it) == claims(it, noun) for it in _lessons_about(s, x)):
         return True
-    beliefs = believed(s, model, s.private.nouns, x)
+    beliefs = beliefs_about(s, model, s.private.nouns, x)
     return is_sure(s, beliefs) and not knows([beliefs[0].sign], noun)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from kille.dialogue.beliefs import Beliefs, believed, is_sure, thinks
+from kille.dialogue.beliefs import Beliefs, beliefs_about, is_sure, thinks
 from kille.dialogue.meanings import DialogueTypes, set_at, set_to
 from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule
@@ -24,12 +24,12 @@ def see_nothing(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="AskView")
 def list_view(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     """It says what it is sure of, what it thinks, and how much it does not know."""
-    beliefs = {x: believed(s, model, s.private.nouns, x) for x in s.view.things}
+    beliefs = {x: beliefs_about(s, model, s.private.nouns, x) for x in s.view.things}
     sure = [it[0] for it in beliefs.values() if is_sure(s, it)]
     likely = [it[0] for it in beliefs.values() if thinks(s, it) and not is_sure(s, it)]
     unknown = [x for x, it in beliefs.items() if not thinks(s, it)]
-    content = in_view(s, _ranked(sure), _ranked(likely), unknown, types=types)
-    signs = tuple(dict.fromkeys(it.sign for it in _ranked([*sure, *likely])))
+    content = in_view(s, _rank(sure), _rank(likely), unknown, types=types)
+    signs = tuple(dict.fromkeys(it.sign for it in _rank([*sure, *likely])))
     return plan(s, "ListView", content, signs=signs, types=types)
 
 
@@ -46,15 +46,15 @@ def in_view(
     The labels of the parts say how certain it is: thing01, maybe01, unknown01.
     """
     parts = {
-        **_labelled(
+        **_label_parts(
             SURE, [set_at(it.sign.meaning, "x", it.sit.x) for it in sure], types=types
         ),
-        **_labelled(
+        **_label_parts(
             LIKELY,
             [set_at(it.sign.meaning, "x", it.sit.x) for it in likely],
             types=types,
         ),
-        **_labelled(
+        **_label_parts(
             UNKNOWN,
             [set_at(types.record_type("Phrase"), "x", x) for x in unknown],
             types=types,
@@ -64,7 +64,7 @@ def in_view(
     return set_to(look, **parts)
 
 
-def _labelled(
+def _label_parts(
     label: str, parts: Iterable[RecordType], *, types: DialogueTypes
 ) -> dict[str, RecordType]:
     inner = types.record_type("Asked")["target"]
@@ -75,7 +75,7 @@ def _labelled(
     }
 
 
-def _ranked(beliefs: Iterable[Record]) -> Beliefs:
+def _rank(beliefs: Iterable[Record]) -> Beliefs:
     """The most certain first."""
     return sorted(beliefs, key=lambda it: (-it.p, it.sign.form))
 

@@ -41,12 +41,12 @@ class Part:
 
     def said_of(self, x: str, look: str) -> Iterator[Claim]:
         """What it says of the thing alone, if that is x."""
-        return _grounded(self.claims, {THING: x, LOOK: look})
+        return _ground(self.claims, {THING: x, LOOK: look})
 
     def said_of_both(self, x: str, y: str, look: str, front: str) -> Iterator[Claim]:
         """What it says of the thing and its landmark, if they are x and y."""
         places = {THING: x, OTHER: y, LOOK: look, FRONT: front}
-        return _grounded(self.relations, places)
+        return _ground(self.relations, places)
 
 
 def put_together(*parts: Part) -> Part:
@@ -67,7 +67,7 @@ def _all(several: Iterable[tuple[_Some, ...]]) -> tuple[_Some, ...]:
 
 
 @lru_cache(1024)
-def taken_apart(phrase: RecordType, choosing: frozenset[Pred] = frozenset()) -> Part:
+def take_apart(phrase: RecordType, choosing: frozenset[Pred] = frozenset()) -> Part:
     """The parts of a phrase; what the predicates for choosing say is kept apart."""
     landmark = phrase.get("landmark")
     said = [T for _, field in phrase.fields for T in _ptypes(field)]
@@ -79,7 +79,7 @@ def taken_apart(phrase: RecordType, choosing: frozenset[Pred] = frozenset()) -> 
         qualities=frozenset(T.pred for T in _ptypes(phrase.get("a"))),
         relations=tuple(T for T in plain if _mentions(T, OTHER)),
         choices=tuple(T.pred for T in said if T.pred in choosing),
-        landmark=taken_apart(landmark, choosing)
+        landmark=take_apart(landmark, choosing)
         if isinstance(landmark, RecordType)
         else None,
     )
@@ -98,7 +98,7 @@ def _mentions(T: PType, place: tuple[str, ...]) -> bool:
     return any(isinstance(arg, Path) and arg.labels == place for arg in T.args)
 
 
-def _grounded(
+def _ground(
     claims: tuple[PType, ...], places: Mapping[tuple[str, ...], Object]
 ) -> Iterator[Claim]:
     """The claims, with what stands at these places in the place of their paths."""

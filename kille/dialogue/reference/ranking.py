@@ -14,7 +14,7 @@ from kille.dialogue.meanings import (
     merge_of,
     packaged_types,
 )
-from kille.dialogue.reference.parts import Part, put_together, taken_apart
+from kille.dialogue.reference.parts import Part, put_together, take_apart
 from kille.dialogue.reference.resolving import Judging
 from ttr import Model, Record, RecordType, rectype
 
@@ -47,11 +47,11 @@ def said_by(words: Sequence[Record], *, types: DialogueTypes | None = None) -> P
     """The parts of a phrase of these words, without putting its type together first."""
     types = types or packaged_types()
     at = next((i for i, it in enumerate(words) if it.kind == "relation"), None)
-    before = [taken_apart(sign.meaning) for sign in words[:at]]
-    phrase = put_together(taken_apart(types.record_type("Phrase")), *before)
+    before = [take_apart(sign.meaning) for sign in words[:at]]
+    phrase = put_together(take_apart(types.record_type("Phrase")), *before)
     if at is None:
         return phrase
-    nearby = taken_apart(types.meaning_at(words[at], "Nearby"))
+    nearby = take_apart(types.meaning_at(words[at], "Nearby"))
     return put_together(
         phrase, replace(nearby, landmark=said_by(words[at + 1 :], types=types))
     )

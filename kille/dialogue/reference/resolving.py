@@ -15,11 +15,11 @@ from kille.dialogue.meanings import (
     set_at,
     set_to,
 )
-from kille.dialogue.reference.parts import Claim, Part, taken_apart
+from kille.dialogue.reference.parts import Claim, Part, take_apart
 from kille.dialogue.reference.perspectives import front_of
 from kille.dialogue.reference.salience import (
-    choosing,
-    chosen,
+    choose,
+    choosing_predicates,
     in_talk,
     just_mentioned,
 )
@@ -78,7 +78,7 @@ class Reading:
         """The content with its phrases set to these things, and its perspectives."""
         s, content, types = self.s, self.open, self.types or packaged_types()
         for label, fit in self.fits:
-            phrase = _set(s, phrase_at(content, label), fit.things, types=types)
+            phrase = _set_phrase(s, phrase_at(content, label), fit.things, types=types)
             content = set_to(content, **{label: phrase})
         return in_view(s, content, types=types)
 
@@ -243,7 +243,7 @@ def denoted(
 
 def _chooses(phrase: RecordType, *, types: DialogueTypes) -> bool:
     """Whether a phrase says by itself which of several things it speaks of."""
-    return bool(taken_apart(phrase, types.derive(choosing)).choices)
+    return bool(take_apart(phrase, types.derive(choosing_predicates)).choices)
 
 
 class Judging:
@@ -260,7 +260,9 @@ class Judging:
         self, phrase: RecordType, among: Sequence[str] | None = None
     ) -> dict[str, Fit]:
         """How well each thing in view, or each of these, fits a phrase."""
-        return self.fits_part(taken_apart(phrase, self._types.derive(choosing)), among)
+        return self.fits_part(
+            take_apart(phrase, self._types.derive(choosing_predicates)), among
+        )
 
     def fits_part(
         self, part: Part, among: Sequence[str] | None = None
@@ -275,7 +277,7 @@ class Judging:
             found = dict(self._beside(part, part.landmark, found))
         for pred in part.choices:
             fitting = fits_well(self._s, found)
-            left = chosen(self._s, self._model, pred, fitting, types=self._types)
+            left = choose(self._s, self._model, pred, fitting, types=self._types)
             found = {x: found[x] for x in left}
         return found
 
@@ -326,7 +328,7 @@ class Judging:
         return known
 
 
-def _set(
+def _set_phrase(
     s: Record, phrase: RecordType, things: tuple[str, ...], *, types: DialogueTypes
 ) -> RecordType:
     """The phrase set to a thing, and to what that stands beside, as seen from there.
@@ -338,6 +340,6 @@ def _set(
     fields["x"] = types["Ind"] @ x
     if beside:
         landmark = phrase_at(phrase, "landmark")
-        fields["landmark"] = _set(s, landmark, tuple(beside), types=types)
+        fields["landmark"] = _set_phrase(s, landmark, tuple(beside), types=types)
         fields["frame"] = types["Front"] @ front_of(s, beside[0])
     return rectype(fields)

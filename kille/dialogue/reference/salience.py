@@ -66,12 +66,12 @@ def _other(
 
 
 def _nth(n: int) -> Choice:
-    def counted(
+    def choose_nth(
         s: Record, model: Model, things: Sequence[str], types: DialogueTypes
     ) -> Sequence[str]:
         return across(s, model, things, types=types)[n:][:1]
 
-    return counted
+    return choose_nth
 
 
 CHOICES: Mapping[str, Choice] = {
@@ -86,12 +86,12 @@ CHOICES: Mapping[str, Choice] = {
 """The words that choose, by the names of their predicates."""
 
 
-def choosing(types: DialogueTypes) -> frozenset[Pred]:
+def choosing_predicates(types: DialogueTypes) -> frozenset[Pred]:
     """The predicates that choose among the things that fit the rest of a phrase."""
     return frozenset(types[name] for name in CHOICES)
 
 
-def chosen(
+def choose(
     s: Record, model: Model, pred: Pred, things: Sequence[str], *, types: DialogueTypes
 ) -> Sequence[str]:
     """Those of the things of which the predicate is true, where only they fit."""

@@ -82,7 +82,9 @@ def _adjectives(language: str) -> frozenset[str]:
     known, words = vocabulary(language).adjectives.values(), lexicon(language)
     articles = (*words.articles.beginnings, *words.articles.endings)
     said = {
-        words.agreeing(str(it.form), article) for it in known for article in articles
+        words.predicative_form(str(it.form), article)
+        for it in known
+        for article in articles
     }
     return frozenset(said | {str(it.form) for it in known})
 

@@ -162,8 +162,8 @@ def test_the_article_is_what_the_tutor_said() -> None:
 def test_swedish_nouns(word: str, definite: str, plural: str) -> None:
     swedish = lexicon("sv")
     article = swedish.article(noun(word))
-    assert swedish.inflected(word, "DEFINITE", article) == definite
-    assert swedish.inflected(word, "PLURAL", article) == plural
+    assert swedish.inflect(word, "DEFINITE", article) == definite
+    assert swedish.inflect(word, "PLURAL", article) == plural
     assert [(word, article)] in forms(f"Var är {definite}?", "sv")
 
 
@@ -193,8 +193,8 @@ def test_swedish_nouns(word: str, definite: str, plural: str) -> None:
 )
 def test_swedish_adjectives(word: str, neuter: str, weak: str) -> None:
     swedish = lexicon("sv")
-    assert swedish.inflected(word, "NEUTER", "ett") == neuter
-    assert swedish.inflected(word, "WEAK", "en") == weak
+    assert swedish.inflect(word, "NEUTER", "ett") == neuter
+    assert swedish.inflect(word, "WEAK", "en") == weak
     assert forms(f"Huset är {neuter}.", "sv")[0][-1][0] == word
     assert any(it[0][0] == word for it in forms(f"Var är den {weak} koppen?", "sv"))
 

@@ -33,8 +33,8 @@ from kille.dialogue.reference import (
     thing_at,
     things_in,
 )
-from kille.dialogue.reference.parts import taken_apart
-from kille.dialogue.reference.salience import choosing
+from kille.dialogue.reference.parts import take_apart
+from kille.dialogue.reference.salience import choosing_predicates
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from ttr import Model, Record, RecordType, record, rectype, replace
@@ -266,7 +266,7 @@ def _form(sign: Record) -> str:
 @given(words())
 def test_a_phrase_has_the_parts_of_its_words(phrase: list[Record]) -> None:
     whole, parts = (
-        taken_apart(meant_by(phrase), choosing(packaged_types())),
+        take_apart(meant_by(phrase), choosing_predicates(packaged_types())),
         said_by(phrase),
     )
     assert set(whole.claims) == set(parts.claims)
