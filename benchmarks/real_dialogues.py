@@ -27,7 +27,7 @@ from random import Random
 from kille.agent.agent import Agent
 from kille.agent.attention import Attention
 from kille.dialogue.commitments import affirmation
-from kille.dialogue.meanings import is_denial, named, predicate_at, word_of
+from kille.dialogue.meanings import is_denial, predicate_at, record_type, word_of
 from kille.perception.look import Sighting, look
 from kille.scene import Frame, Look
 from kille.sensors.sensor import SensorError
@@ -218,7 +218,7 @@ class Tutor:
     def check(self) -> None:
         """What must be so after every turn."""
         state = self.robot.state
-        assert self.robot.model.judge(state, named("State")).holds
+        assert self.robot.model.judge(state, record_type("State")).holds
         learned = {sign.form for sign in state.private.nouns}
         assert learned <= self.said, f"never said: {learned - self.said}"
         kept = {int(lesson.key) for lesson in state.private.lessons}

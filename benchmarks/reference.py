@@ -18,7 +18,7 @@ from _measuring import Measure, Measures, Task, arguments, clock_of, report, res
 from kille.dialogue.describing import describe
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import adjective, noun, relation, theory, word_of
-from kille.dialogue.reference import contents, denoted, ranking
+from kille.dialogue.reference import intended_readings, possible_readings, ranking
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from ttr import Model, Record, RecordType, record, replace
@@ -67,13 +67,16 @@ def content(text: str) -> RecordType:
 
 
 def resolved(text: str) -> Callable[[int], Task]:
-    """The phrases of a sentence are set to things among n; `contents` and ranking."""
+    """The phrases of a sentence are set to things among n: readings and ranking."""
 
     def make(n: int) -> Task:
         (s, model), said = scene(n), content(text)
 
         def resolve() -> object:
-            return [it.content for it in denoted(s, contents(s, model, said))[:1]]
+            return [
+                it.content
+                for it in intended_readings(s, possible_readings(s, model, said))[:1]
+            ]
 
         assert n < max(SIZES) or resolve(), text
         return resolve

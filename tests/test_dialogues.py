@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from kille.agent.story_replay import play
-from kille.dialogue.meanings import named
+from kille.dialogue.meanings import record_type
 from kille.perception.look import look
 from kille.scene import Look
 from kille.sensors.sensor import Sensor
@@ -112,5 +112,5 @@ def test_the_stories_show_every_game() -> None:
         if line.mark == "="
     }
     wanted = {"Learned", "AssertName", "HedgeName", "AskRelation", "LearnedRelation"}
-    assert all(named(name).fields for name in wanted)
+    assert all(record_type(name).fields for name in wanted)
     assert wanted <= judged

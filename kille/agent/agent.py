@@ -20,7 +20,7 @@ from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes, set_to, types_of, word_of
 from kille.dialogue.state import blank_model
-from kille.dialogue.tutoring import heard, tutoring
+from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.dialogue.wording import did_not_understand
 from kille.grounding.knowledge import Knowledge, Learners
 from kille.grounding.witness_functions import Witnesses, thing
@@ -273,7 +273,9 @@ class Agent:
         exchange, now = Exchange(text, None, (), ()), self._now_at
         for said in self._sentences(words, text if len(numbers) == 1 else ""):
             sentence = self._in_full(said, now.state)
-            exchange, now = self._answering(sentence, heard(sentence), exchange, now)
+            exchange, now = self._answering(
+                sentence, hear_sentences(sentence), exchange, now
+            )
         return exchange, now
 
     def _overhearing(self, texts: Sequence[tuple[str, float]]) -> Played:
@@ -285,7 +287,7 @@ class Agent:
         ways = tuple(reading for it in sentences for reading in it.readings)
         text = " | ".join(f"{text} {p:g}" for text, p in texts)
         text = text if ways else max(texts, key=lambda it: it[1])[0]
-        event = heard(*sentences, p=[p for _, p in texts])
+        event = hear_sentences(*sentences, p=[p for _, p in texts])
         so_far = Exchange(text, None, (), ())
         return self._answering(Sentence(text, ways), event, so_far, self._now_at)
 

@@ -14,7 +14,7 @@ from kille.dialogue.meanings import (
     CLAIMS,
     DialogueTypes,
     claims,
-    denied,
+    denial,
     is_denial,
     word_of,
 )
@@ -43,21 +43,21 @@ def act_of(content: RecordType) -> str:
 
 def affirmation(content: RecordType) -> RecordType:
     """What a content says of its things, or what it denies of them."""
-    return denied(content) if is_denial(content) else content
+    return denial(content) if is_denial(content) else content
 
 
 def same(claim: RecordType, other: RecordType) -> bool:
     """Whether two claims say the same of the same things, be it in different looks.
 
-    >>> from kille.dialogue.meanings import noun, placed, set_at
-    >>> cup = set_at(placed(noun("cup"), "Naming"), "target.x", "o1")
-    >>> same(cup, set_at(cup, "look", "look2")), same(cup, denied(cup))
+    >>> from kille.dialogue.meanings import meaning_at, noun, set_at
+    >>> cup = set_at(meaning_at(noun("cup"), "Naming"), "target.x", "o1")
+    >>> same(cup, set_at(cup, "look", "look2")), same(cup, denial(cup))
     (True, False)
 
     What claims nothing says nothing that is the same.
 
-    >>> from kille.dialogue.meanings import named
-    >>> same(named("Asked"), named("Asked"))
+    >>> from kille.dialogue.meanings import record_type
+    >>> same(record_type("Asked"), record_type("Asked"))
     False
     """
     label = kind_of(claim)
@@ -120,7 +120,7 @@ def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
 def is_here(s: Record, claim: RecordType, *, types: DialogueTypes) -> bool:
     """Whether what a claim is about is still in view, or was when it was denied."""
     now = types["Look"] @ s.view.look
-    return claim["look"] == now or bool({claim, denied(claim)} & {*s.shared.here})
+    return claim["look"] == now or bool({claim, denial(claim)} & {*s.shared.here})
 
 
 # --- what is to be learned and unlearned ---------------------------------------------
@@ -130,7 +130,7 @@ def opposite_lesson_keys(
     s: Record, content: RecordType, *, types: DialogueTypes
 ) -> list[str]:
     """The keys of the lessons that say the opposite of a content."""
-    return [it.key for it in lessons_in(s, denied(content), types=types)]
+    return [it.key for it in lessons_in(s, denial(content), types=types)]
 
 
 def effects_of_rejection(
@@ -147,7 +147,7 @@ def effects_of_rejection(
         taught = lessons_in(s, claim, types=types)
         forgets += (it.key for it in taught)
         if not taught or any(same(claim, it) for it in s.shared.pending):
-            teaches.append(denied(claim))
+            teaches.append(denial(claim))
     return teaches, forgets
 
 

@@ -16,7 +16,7 @@ from itertools import combinations, product
 from typing import NamedTuple
 
 from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
-from kille.dialogue.reference import Judging, fits_well, front_of, meant_by, said_by
+from kille.dialogue.reference import PhraseJudge, fits_well, front_of, meant_by, said_by
 from ttr import Model, Record, RecordType
 
 __all__ = ["Description", "describe"]
@@ -80,9 +80,9 @@ class _Describing:
     types: DialogueTypes
 
     @cached_property
-    def judge(self) -> Judging:
+    def judge(self) -> PhraseJudge:
         """The judgements that are made for it, each once."""
-        return Judging(self.s, self.model, types=self.types)
+        return PhraseJudge(self.s, self.model, types=self.types)
 
     def context_score(self, words: Signs) -> float:
         """How much more probably they are true of x than of any other thing.

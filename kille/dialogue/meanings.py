@@ -5,8 +5,8 @@ A word is a sign: a form, and a meaning that is the type `Noun`, `Adjective` or
 for it there. In other places the word means other types, made in the same way.
 
 Which types these are is said by `DialogueTypes`, a value that whoever needs a type is
-given. The functions `theory`, `named`, `spoken`, `sign`, `noun`, `adjective`,
-`relation`, `kind_in`, `meaning_in` and `placed` are about the packaged theory.
+given. The functions `theory`, `record_type`, `move_type`, `sign`, `noun`, `adjective`,
+`relation`, `kind_in`, `meaning_in` and `meaning_at` are about the packaged theory.
 """
 
 from __future__ import annotations
@@ -20,9 +20,21 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from kille.dialogue.theory_files import packaged_theory
 from ttr import Pred, Record, RecordType, Theory, join, meet, merge, record, rectype
+from ttr.aliases import former_names
 from ttr.types import Meet, Negation, PType, Singleton, TypeNode
 from ttr.types.objects import Object
 from ttr.types.paths import free_paths
+
+__getattr__ = former_names(
+    __name__,
+    {
+        "denied": "denial",
+        "named": "record_type",
+        "placed": "meaning_at",
+        "reworded": "replace_word",
+        "spoken": "move_type",
+    },
+)
 
 __all__ = [
     "CLAIMS",
@@ -30,24 +42,24 @@ __all__ = [
     "DialogueTypes",
     "adjective",
     "claims",
-    "denied",
+    "denial",
     "is_denial",
     "kind_in",
     "meaning_in",
     "mentions",
     "merge_of",
-    "named",
+    "record_type",
     "noun",
     "packaged_types",
-    "placed",
+    "meaning_at",
     "predicate_at",
     "predicate_name",
     "relation",
-    "reworded",
+    "replace_word",
     "set_at",
     "set_to",
     "sign",
-    "spoken",
+    "move_type",
     "theory",
     "value_at",
     "word_of",
@@ -207,20 +219,20 @@ def theory() -> Theory:
     return packaged_types().theory
 
 
-def named(name: str) -> RecordType:
+def record_type(name: str) -> RecordType:
     """The record type that the packaged theory gives this name.
 
-    >>> print(named("Phrase"))
+    >>> print(record_type("Phrase"))
     [look : Look, x : Ind]
     """
     return packaged_types().record_type(name)
 
 
-def spoken(speaking: str, move: str) -> RecordType:
+def move_type(speaking: str, move: str) -> RecordType:
     """The type of a move of the packaged theory, as something that is heard or said.
 
-    >>> greeted = spoken("Heard", "Greet")
-    >>> greeted <= named("Heard"), greeted <= named("Greet")
+    >>> greeted = move_type("Heard", "Greet")
+    >>> greeted <= record_type("Heard"), greeted <= record_type("Greet")
     (True, True)
     """
     return packaged_types().move_type(speaking, move)
@@ -279,7 +291,7 @@ def meaning_in(form: str, template: str) -> RecordType:
     return packaged_types().meaning(form, template)
 
 
-def placed(sign: Record, template: str) -> RecordType:
+def meaning_at(sign: Record, template: str) -> RecordType:
     """What a sign means in another place: a noun as said of a target, for example."""
     return packaged_types().meaning_at(sign, template)
 
@@ -381,10 +393,10 @@ def _first_predicate(T: RecordType) -> Pred | None:
     return next(_predicates(T), None)
 
 
-def reworded(T: RecordType, sign: Record, other: Record) -> RecordType:
+def replace_word(T: RecordType, sign: Record, other: Record) -> RecordType:
     """The type with what one word means in place of what another of its kind does.
 
-    >>> print(reworded(noun("cupp").meaning, noun("cupp"), noun("cup")))
+    >>> print(replace_word(noun("cupp").meaning, noun("cupp"), noun("cup")))
     [look : Look, x : Ind, c : cup(x, look)]
     """
     changed = _with(T, word_of(sign), word_of(other))
@@ -401,10 +413,10 @@ CLAIMS = ("c", "a", "rel")
 """The labels under which the claim of a sentence stands: what its word is true of."""
 
 
-def denied(content: RecordType) -> RecordType:
+def denial(content: RecordType) -> RecordType:
     """What is so if the claim of a content is not.
 
-    >>> print(denied(meaning_in("cup", "Noun")))
+    >>> print(denial(meaning_in("cup", "Noun")))
     [look : Look, x : Ind, c : ~cup(x, look)]
     """
     claims = {label: content[label] for label in CLAIMS if label in content}
@@ -434,7 +446,7 @@ def is_denial(content: RecordType) -> bool:
 def set_at(T: RecordType, path: str, value: Object) -> RecordType:
     """The record type with the field at a path made manifest, or set anew.
 
-    >>> print(set_at(named("Asked"), "target.x", "o2"))
+    >>> print(set_at(record_type("Asked"), "target.x", "o2"))
     [look : Look, target : [look = ^.look : Look, x = o2 : Ind]]
     """
     label, _, rest = path.partition(".")

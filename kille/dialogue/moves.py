@@ -14,8 +14,18 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.reference.perspectives import front_of
 from ttr import Rec, Record, RecordType, RecType, record, rectype, replace
+from ttr.aliases import former_names
 from ttr.types import TypeNode
 from ttr.types.objects import Object
+
+__getattr__ = former_names(
+    __name__,
+    {
+        "numbered": "number_field",
+        "standing": "placement",
+        "used": "words_in",
+    },
+)
 
 __all__ = [
     "answering",
@@ -24,11 +34,11 @@ __all__ = [
     "instead",
     "issue",
     "nouns_said",
-    "numbered",
+    "number_field",
     "plan",
     "said_of",
-    "standing",
-    "used",
+    "placement",
+    "words_in",
 ]
 
 DOES = ("drops", "degrees", "explains", "recalls", "points", "undoes")
@@ -163,7 +173,7 @@ def instead(
     return set_to(content, **{label: types.meaning_at(sign, template)[label]})
 
 
-def numbered(
+def number_field(
     s: Record, x: str, *, types: DialogueTypes | None = None
 ) -> dict[str, TypeNode]:
     """The field of a content that says which number a thing in view has."""
@@ -179,7 +189,7 @@ def changed_act(
     return set_to(planned, e=types.record_type(act)["e"])
 
 
-def standing(
+def placement(
     s: Record,
     x: str,
     target: Record,
@@ -211,6 +221,6 @@ def _individual(content: RecordType, part: str, sign: Record, x: str) -> RecordT
     return set_at(set_to(sign.meaning, **dict(own.fields)), "x", x)
 
 
-def used(known: Iterable[Record], *contents: RecordType) -> Sequence[Record]:
+def words_in(known: Iterable[Record], *contents: RecordType) -> Sequence[Record]:
     """The words that are known and occur in one of the contents."""
     return [sign for sign in known if any(mentions(one, sign) for one in contents)]

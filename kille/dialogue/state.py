@@ -25,9 +25,9 @@ def initial(
     adjectives that answer what colour something is; `taught` says how many lessons
     there were in a word before, as `Taught`.
 
-    >>> from kille.dialogue.meanings import named, noun
+    >>> from kille.dialogue.meanings import noun, record_type
     >>> s = initial([noun("cup")])
-    >>> blank_model().judge(s, named("State")).holds
+    >>> blank_model().judge(s, record_type("State")).holds
     True
     """
     words = list(signs)

@@ -18,7 +18,10 @@ from typing import Any, NamedTuple
 
 from kille.dialogue.sources import STRATEGIES, language_in, last_change, source
 from ttr import Record, record
+from ttr.aliases import former_names
 from ttr.safety.inputs import parse_toml
+
+__getattr__ = former_names(__name__, {"expected": "expected_value"})
 
 __all__ = [
     "MODES",
@@ -26,7 +29,7 @@ __all__ = [
     "Option",
     "Stake",
     "best",
-    "expected",
+    "expected_value",
     "strategy",
     "threshold",
 ]
@@ -56,10 +59,10 @@ class Option(NamedTuple):
     stake: Stake
 
 
-def expected(stake: Stake, p: float) -> float:
+def expected_value(stake: Stake, p: float) -> float:
     """What is expected of something that is right with a probability.
 
-    >>> expected(Stake(right=1.0, wrong=-1.0), 0.75)
+    >>> expected_value(Stake(right=1.0, wrong=-1.0), 0.75)
     0.5
     """
     return p * stake.right + (1.0 - p) * stake.wrong
@@ -76,8 +79,8 @@ def best(options: Iterable[Option], nothing: float = 0.0) -> Option | None:
     'say'
     >>> best([ask])
     """
-    chosen = max(options, key=lambda it: expected(it.stake, it.p), default=None)
-    if chosen is None or expected(chosen.stake, chosen.p) <= nothing:
+    chosen = max(options, key=lambda it: expected_value(it.stake, it.p), default=None)
+    if chosen is None or expected_value(chosen.stake, chosen.p) <= nothing:
         return None
     return chosen
 

@@ -23,11 +23,14 @@ from kille.dialogue.state import blank_model, initial
 from kille.dialogue.strategies import strategy
 from kille.dialogue.wording import say as worded
 from ttr import Model, Record, RecordType
+from ttr.aliases import former_names
 from ttr.judging import Judgement
 from ttr.updates import Algorithm, Game, NBest, nbest
 from ttr.updates.games import Act
 
-__all__ = ["hear", "heard", "say", "tutoring"]
+__getattr__ = former_names(__name__, {"heard": "hear_sentences"})
+
+__all__ = ["hear", "hear_sentences", "say", "tutoring"]
 
 
 def tutoring(
@@ -81,10 +84,10 @@ def hear(
 
     Of several sentences it is the first.
     """
-    return heard(understand(text, language, types=types)[0])
+    return hear_sentences(understand(text, language, types=types)[0])
 
 
-def heard(
+def hear_sentences(
     *sentences: Sentence, p: Iterable[float] = (1.0,)
 ) -> RecordType | NBest | None:
     """The event that one of these sentences was said, each so probable.

@@ -22,7 +22,7 @@ from kille.dialogue.meanings import (
     value_at,
     word_of,
 )
-from kille.dialogue.reference import PARTS, contents, phrases, thing_at
+from kille.dialogue.reference import PARTS, phrases, possible_readings, thing_at
 from kille.dialogue.state import words
 from ttr import Model, Pred, Record, RecordType
 from ttr.types import PType
@@ -109,7 +109,7 @@ def _scene_weight(
     content, strange = said.content, s.private.strategy.hearing.strange
     if not phrases(content):
         return 1.0
-    ways = contents(s, model, content, types=types)
+    ways = possible_readings(s, model, content, types=types)
     teaches = model.judge(said, types["Teaching"]).holds
     true = [
         way.p * (_truth(s, model, said, way.content) if teaches else 1.0)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import Beliefs, beliefs_about, is_sure, knows
 from kille.dialogue.commitments import as_told
-from kille.dialogue.meanings import DialogueTypes, claims, denied
+from kille.dialogue.meanings import DialogueTypes, claims, denial
 from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
@@ -59,7 +59,7 @@ def say_rather(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     content = instead(content_of(s), best.sign, types=types)
     signs = [*s.shared.latest.signs, best.sign]
-    rival = denied(content_of(s))
+    rival = denial(content_of(s))
     return plan(
         s, "SayRather", content, rival, signs=signs, pending=[content], types=types
     )
@@ -70,7 +70,7 @@ def say_no(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is hardly possible that it is so."""
     unlikely = _p(s) <= s.private.strategy.bands.unlikely
     return (
-        _plan_claim(s, "SayNo", denied(content_of(s)), types=types)
+        _plan_claim(s, "SayNo", denial(content_of(s)), types=types)
         if unlikely
         else None
     )

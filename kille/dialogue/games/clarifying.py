@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from kille.dialogue.games.referring import about, differing_things, plan_question
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan
-from kille.dialogue.reference import Judging, fits_well, phrase_at
+from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at
 from kille.dialogue.rules import reply, rule
 from ttr import Model, Record, replace
 from ttr.updates import first, maybe, seq
@@ -105,7 +105,7 @@ def _fitting_options(
     options = _options(s)
     _, things = differing_things(options)
     phrase = phrase_at(content_of(s), "target")
-    meant = fits_well(s, Judging(s, model, types=types).fits(phrase, things))
+    meant = fits_well(s, PhraseJudge(s, model, types=types).fits(phrase, things))
     return [it for x, it in zip(things, options, strict=True) if x in meant]
 
 

@@ -12,7 +12,7 @@ from kille.dialogue.commitments import (
     signs_for,
 )
 from kille.dialogue.meanings import DialogueTypes, is_denial
-from kille.dialogue.moves import plan, used
+from kille.dialogue.moves import plan, words_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Record
@@ -38,7 +38,7 @@ def ask_which(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     content, rival = s.shared.pending
     act = next(ASKED[label] for label in ASKED if label in content)
-    signs = used(words(s), content, rival)
+    signs = words_in(words(s), content, rival)
     return plan(
         s, act, content, rival, signs=signs, pending=s.shared.pending, types=types
     )

@@ -24,7 +24,7 @@ from kille.dialogue.commitments import (
     same,
     signs_for,
 )
-from kille.dialogue.meanings import DialogueTypes, denied, is_denial, set_to
+from kille.dialogue.meanings import DialogueTypes, denial, is_denial, set_to
 from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import PARTS, thing_at
 from kille.dialogue.rules import rule
@@ -119,7 +119,7 @@ def _wrong(
     """What is not so, by a correction: what it names, or was claimed, or was taught."""
     named = content_of(s).get(DENIED)
     if isinstance(named, RecordType):
-        wrong = _in_place(content, denied(named))
+        wrong = _in_place(content, denial(named))
         return [] if same(wrong, content) else [wrong]
     claimed = [
         it

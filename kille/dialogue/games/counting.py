@@ -6,7 +6,7 @@ from kille.dialogue.beliefs import knows
 from kille.dialogue.games.surveying import in_view
 from kille.dialogue.meanings import DialogueTypes, mentions
 from kille.dialogue.moves import content_of, plan
-from kille.dialogue.reference import Judging, phrase_at
+from kille.dialogue.reference import PhraseJudge, phrase_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, record
@@ -29,7 +29,7 @@ def count(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     """It counts what it is sure of, and what may be one besides."""
     counted = phrase_at(content_of(s), "counted")
     bands = s.private.strategy.bands
-    found = Judging(s, model, types=types).fits(counted)
+    found = PhraseJudge(s, model, types=types).fits(counted)
     sign = record(meaning=counted)
     fits = [
         record(sit=record(x=x), sign=sign, p=fit.weakest)

@@ -8,10 +8,10 @@ from kille.dialogue.meanings import DialogueTypes, set_to
 from kille.dialogue.moves import (
     content_of,
     nouns_said,
-    numbered,
+    number_field,
+    placement,
     plan,
     said_of,
-    standing,
 )
 from kille.dialogue.reference import phrase_at, thing_at
 from kille.dialogue.rules import rule
@@ -43,7 +43,7 @@ def plan_pointing(
     found = phrase_at(asked, "target")
     nouns = nouns_said(s.shared.latest, found)[:1]
     content, beside = _where(s, model, asked, x, nouns, types=types)
-    content = set_to(content, target=found, **numbered(s, x, types=types))
+    content = set_to(content, target=found, **number_field(s, x, types=types))
     signs = tuple(dict.fromkeys((*s.shared.latest.signs, *beside)))
     claims = [said_of(s, noun, x, types=types) for noun in nouns]
     planned = plan(
@@ -74,7 +74,7 @@ def _where(
     if not is_sure(s, stands):
         return content, []
     where = stands[0].sign
-    return standing(s, x, nouns[0], y, at, where, types=types), [at, where]
+    return placement(s, x, nouns[0], y, at, where, types=types), [at, where]
 
 
 FINDING = first(point_out)

@@ -24,20 +24,20 @@ from kille.dialogue.meanings import (
     set_to,
     value_at,
 )
-from kille.dialogue.moves import content_of, issue, plan, used
+from kille.dialogue.moves import content_of, issue, plan, words_in
 from kille.dialogue.reference import (
     LANDMARK,
     OPEN,
     PARTS,
     VIEWER,
-    Judging,
-    contents,
-    denoted,
-    facing,
+    PhraseJudge,
     fits_well,
     front_of,
     in_view,
+    intended_readings,
+    known_front,
     phrase_at,
+    possible_readings,
     thing_at,
     things_in,
 )
@@ -97,7 +97,7 @@ def answer_anew(s: Record, *, model: Model, types: DialogueTypes) -> Update | No
     question = set_to(
         types.move_type("Heard", act),
         text=types["Text"] @ s.shared.latest.text,
-        signs=types.record_type("Heard")["signs"] @ tuple(used(words(s), content)),
+        signs=types.record_type("Heard")["signs"] @ tuple(words_in(words(s), content)),
         content=RecType @ in_view(settled, content, types=types),
     )
     move, model = model.create(question)
@@ -209,7 +209,7 @@ def ask_frame_of_place(
         return None
     thing, model = asked_thing(s, model, str(x))
     landmark, model = landmark_for(s, model, thing) if thing else (None, model)
-    if landmark is None or facing(s, landmark.sit.x) is None:
+    if landmark is None or known_front(s, landmark.sit.x) is None:
         return None
     said = []
     for frame in FRAMES:
@@ -273,7 +273,7 @@ def _has_front(
     turned = [str(it.x) for it in s.shared.turned]
     if "landmark" not in content:
         return bool(turned)
-    fits = Judging(s, model, types=types).fits(phrase_at(content, "landmark"))
+    fits = PhraseJudge(s, model, types=types).fits(phrase_at(content, "landmark"))
     return any(x in turned for x in fits_well(s, fits))
 
 
@@ -287,7 +287,9 @@ def _phrases_with_landmark(content: RecordType) -> Iterator[str]:
 def _resolved_content(s: Record, model: Model, *, types: DialogueTypes) -> RecordType:
     """What the latest move is about if its phrases are resolved, or else as it is."""
     content = content_of(s)
-    readings = denoted(s, contents(s, model, content, types=types), types=types)
+    readings = intended_readings(
+        s, possible_readings(s, model, content, types=types), types=types
+    )
     return readings[0].content if len(readings) == 1 else content
 
 
@@ -297,7 +299,7 @@ def _open_landmark(s: Record) -> str | None:
     landmark = thing_at(content, "landmark")
     if s.shared.frame != OPEN or "rel" not in content or landmark is None:
         return None
-    return landmark if facing(s, landmark) is not None else None
+    return landmark if known_front(s, landmark) is not None else None
 
 
 def _verdict(
@@ -307,7 +309,7 @@ def _verdict(
     content, bands = content_of(s), s.private.strategy.bands
     target, look = thing_at(content, "target"), s.view.look
     word, front = predicate_at(content, "rel"), front_of(s, landmark)
-    p = Judging(s, model, types=types).degree(word, target, landmark, look, front)
+    p = PhraseJudge(s, model, types=types).degree(word, target, landmark, look, front)
     return bool(p >= bands.sure), bool(p >= bands.likely)
 
 
@@ -336,7 +338,7 @@ def _plan_question(
 ) -> Record:
     """The plan to ask whose perspective is meant; what was claimed stays pending."""
     asked = rectype(look=types["Look"], landmark=landmark)
-    signs = used([*words(s), *s.shared.latest.signs], asked)
+    signs = words_in([*words(s), *s.shared.latest.signs], asked)
     asks, pending = [issue(ASKED, options)], s.shared.pending
     return plan(s, ASKED, asked, signs=signs, asks=asks, pending=pending, types=types)
 

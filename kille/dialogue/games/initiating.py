@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from kille.dialogue.beliefs import beliefs_about, doubt, is_sure, knows, lead, thinks
 from kille.dialogue.meanings import DialogueTypes, claims, set_at, set_to
-from kille.dialogue.moves import numbered, plan, said_of, standing
+from kille.dialogue.moves import number_field, placement, plan, said_of
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.strategies import Option, Stake, best
@@ -107,7 +107,7 @@ def _relations(
     if is_sure(s, stand):
         return
     signs = [target.sign, landmark.sign]
-    content = standing(s, x, target.sign, y, landmark.sign, types=types)
+    content = placement(s, x, target.sign, y, landmark.sign, types=types)
     yield Initiative(
         _option_to_ask(s, "relation", doubt(stand)),
         _question("AskRelation", *sorted(it.form for it in signs)),
@@ -139,7 +139,7 @@ def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initia
         content = set_at(
             set_at(types.record_type("Asked"), "look", s.view.look), "target.x", x
         )
-        number = numbered(s, x, types=types) if len(s.view.things) > 1 else {}
+        number = number_field(s, x, types=types) if len(s.view.things) > 1 else {}
         planned = plan(
             s, "AskThing", set_to(content, **number), points=[x], types=types
         )

@@ -8,7 +8,7 @@ said, and so a new word is learned. Anything else drops the question.
 from __future__ import annotations
 
 from kille.dialogue.beliefs import knows
-from kille.dialogue.meanings import DialogueTypes, claims, reworded, word_of
+from kille.dialogue.meanings import DialogueTypes, claims, replace_word, word_of
 from kille.dialogue.moves import issue, plan
 from kille.dialogue.reference import in_view
 from kille.dialogue.rules import rule
@@ -67,7 +67,7 @@ def _intended_word(
 def _with(said: Record, sign: Record, known: Record) -> Record:
     """A move with one word in place of another."""
     signs = [known if it == sign else it for it in said.signs]
-    return replace(said, content=reworded(said.content, sign, known), signs=signs)
+    return replace(said, content=replace_word(said.content, sign, known), signs=signs)
 
 
 def _is_offered(s: Record) -> bool:

@@ -11,7 +11,7 @@ from kille.dialogue.beliefs import (
     thinks,
 )
 from kille.dialogue.meanings import DialogueTypes
-from kille.dialogue.moves import content_of, nouns_said, plan, standing
+from kille.dialogue.moves import content_of, nouns_said, placement, plan
 from kille.dialogue.reference import phrase_at, thing_at
 from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, record, replace
@@ -85,7 +85,7 @@ def _plan_place(
     """The plan to say how the thing stands, as certain as the robot is of it."""
 
     def stands(*relation: Record) -> RecordType:
-        return standing(
+        return placement(
             s,
             thing.sit.x,
             thing.sign,

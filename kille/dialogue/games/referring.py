@@ -22,13 +22,13 @@ from kille.dialogue.reference import (
     PARTS,
     Reading,
     across,
-    contents,
-    denoted,
-    fitting,
+    fitting_readings,
     in_view,
+    intended_readings,
     meant_by,
     phrase_at,
     phrases,
+    possible_readings,
     thing_at,
     things_in,
 )
@@ -190,7 +190,9 @@ def _readings(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Read
     """The ways to take the phrases of the latest move that are meant."""
     content = content_of(s)
     return (
-        denoted(s, contents(s, model, content, types=types), types=types)
+        intended_readings(
+            s, possible_readings(s, model, content, types=types), types=types
+        )
         if phrases(content)
         else ()
     )
@@ -224,7 +226,7 @@ def _unfitting_phrases(
     """What is asked for by the phrases that fit nothing in view by themselves."""
     for label in phrases(content):
         alone = rectype(look=content["look"], target=content[label])
-        if not fitting(s, contents(s, model, alone, types=types)):
+        if not fitting_readings(s, possible_readings(s, model, alone, types=types)):
             yield alone
 
 

@@ -21,7 +21,7 @@ from kille.dialogue.meanings import (
     set_to,
 )
 from kille.dialogue.moves import content_of, plan, said_of
-from kille.dialogue.reference import Judging, fits_well, phrase_at, thing_at
+from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at, thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, record, rectype, replace
@@ -80,7 +80,7 @@ def miss_several(s: Record, *, types: DialogueTypes) -> Record | None:
 def tell_places(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """It points at each of these things, by their numbers, and says where it is."""
     asked = phrase_at(content_of(s), "counted")
-    things = fits_well(s, Judging(s, model, types=types).fits(asked))
+    things = fits_well(s, PhraseJudge(s, model, types=types).fits(asked))
     if not things:
         return None
     act = "PointOut" if len(things) == 1 else "TellPlace"
@@ -122,7 +122,7 @@ def _fitting_things(s: Record, model: Model, *, types: DialogueTypes) -> list[st
     """The things in view of which the adjectives are true: "These are red cups."."""
     said = phrase_at(content_of(s), "counted")
     rest = rectype({label: T for label, T in said.fields if label != "c"})
-    fits = fits_well(s, Judging(s, model, types=types).fits(rest))
+    fits = fits_well(s, PhraseJudge(s, model, types=types).fits(rest))
     return [x for x in s.view.things if x in fits]
 
 

@@ -16,25 +16,37 @@ from kille.dialogue.reference.perspectives import (
     LANDMARK,
     OPEN,
     VIEWER,
-    facing,
     front_of,
+    known_front,
 )
 from kille.dialogue.reference.ranking import meant_by, ranking, said_by
 from kille.dialogue.reference.resolving import (
     PARTS,
-    Judging,
+    PhraseJudge,
     Reading,
-    contents,
-    denoted,
     fits_well,
-    fitting,
+    fitting_readings,
     in_view,
+    intended_readings,
     phrase_at,
     phrases,
+    possible_readings,
     thing_at,
     things_in,
 )
 from kille.dialogue.reference.salience import across
+from ttr.aliases import former_names
+
+__getattr__ = former_names(
+    __name__,
+    {
+        "Judging": "PhraseJudge",
+        "contents": "possible_readings",
+        "denoted": "intended_readings",
+        "facing": "known_front",
+        "fitting": "fitting_readings",
+    },
+)
 
 __all__ = [
     "AWAY",
@@ -42,14 +54,14 @@ __all__ = [
     "OPEN",
     "PARTS",
     "VIEWER",
-    "Judging",
+    "PhraseJudge",
     "Reading",
     "across",
-    "contents",
-    "denoted",
-    "facing",
+    "possible_readings",
+    "intended_readings",
+    "known_front",
     "fits_well",
-    "fitting",
+    "fitting_readings",
     "front_of",
     "in_view",
     "meant_by",

@@ -18,7 +18,7 @@ OPEN, VIEWER, LANDMARK = "", "viewer", "landmark"
 """What the talk has settled on: nothing yet, the viewer's frame, the landmark's."""
 
 
-def facing(s: Record, y: str) -> str | None:
+def known_front(s: Record, y: str) -> str | None:
     """Which way a thing faces, if the tutor has said so."""
     return next((str(it.front) for it in s.shared.turned if it.x == y), None)
 
@@ -27,4 +27,4 @@ def front_of(s: Record, y: str) -> str:
     """The direction that is forward when things are placed beside this landmark."""
     if s.shared.frame != LANDMARK:
         return AWAY
-    return facing(s, y) or AWAY
+    return known_front(s, y) or AWAY

@@ -15,7 +15,7 @@ from kille.dialogue.meanings import (
     packaged_types,
 )
 from kille.dialogue.reference.parts import Part, put_together, take_apart
-from kille.dialogue.reference.resolving import Judging
+from kille.dialogue.reference.resolving import PhraseJudge
 from ttr import Model, Record, RecordType, rectype
 
 
@@ -33,7 +33,7 @@ def ranking(
     """
     types = types or packaged_types()
     said: list[Record] = []
-    judging = Judging(s, model, types=types)
+    judging = PhraseJudge(s, model, types=types)
     shares = []
     for sign in words:
         said.append(sign)

@@ -143,7 +143,7 @@ def things_in(content: RecordType) -> list[str]:
     return list(dict.fromkeys(x for x in (*things, *inside) if x is not None))
 
 
-def contents(
+def possible_readings(
     s: Record, model: Model, content: RecordType, *, types: DialogueTypes | None = None
 ) -> Sequence[Reading]:
     """The ways in which the phrases of a content can be set to things in view.
@@ -151,7 +151,7 @@ def contents(
     Two phrases are set to two things. Ways of no probability are left out.
     """
     types = types or packaged_types()
-    judging = Judging(s, model, types=types)
+    judging = PhraseJudge(s, model, types=types)
     open_ = phrases(content)
     taken = {thing_at(content, label) for label in PARTS if label not in open_}
     choices = [
@@ -185,7 +185,7 @@ def _spoken_of(
     return [x for x in s.view.things if x in claimed] or list(s.view.focus)
 
 
-def fitting(s: Record, readings: Iterable[Reading]) -> list[Reading]:
+def fitting_readings(s: Record, readings: Iterable[Reading]) -> list[Reading]:
     """The readings worth thinking of, the most probable first."""
     return _worth_thinking_of(s, readings)
 
@@ -219,7 +219,7 @@ def _near(share: float, found: Sequence[_Found]) -> list[_Found]:
     return sorted((it for it in found if it.p >= share * best), key=lambda it: -it.p)
 
 
-def denoted(
+def intended_readings(
     s: Record, readings: Iterable[Reading], *, types: DialogueTypes | None = None
 ) -> list[Reading]:
     """The readings that are meant: one, unless the talk leaves open which.
@@ -227,7 +227,7 @@ def denoted(
     Of several things that a phrase fits it is the one that was just talked about.
     """
     types = types or packaged_types()
-    meant = fitting(s, readings)
+    meant = fitting_readings(s, readings)
     for label in PARTS:
         things = {it.things[label] for it in meant if label in it.things}
         latest = just_mentioned(s, things)
@@ -246,7 +246,7 @@ def _chooses(phrase: RecordType, *, types: DialogueTypes) -> bool:
     return bool(take_apart(phrase, types.derive(choosing_predicates)).choices)
 
 
-class Judging:
+class PhraseJudge:
     """Judges phrases of the things in view, in one state: each claim once."""
 
     def __init__(

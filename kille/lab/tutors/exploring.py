@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import CLAIMS, is_denial, value_at, word_of
-from kille.dialogue.tutoring import heard
+from kille.dialogue.tutoring import hear_sentences
 from kille.lab.tutors.openings import Situation, by_side, leads, situation
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glanced, number_of, seen
@@ -265,7 +265,7 @@ def _either(mumbled: tuple[Saying, Saying, tuple[float, float]]) -> object:
     """The event that one of two texts was heard, each so probable."""
     *both, p = mumbled
     sentences = [understand(one.text, one.language)[0] for one in both]
-    return heard(*sentences, p=p)
+    return hear_sentences(*sentences, p=p)
 
 
 def _misspelt(said: Sequence[Talk], known: frozenset[Pred]) -> st.SearchStrategy[str]:

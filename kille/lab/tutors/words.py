@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import named, sign
+from kille.dialogue.meanings import record_type, sign
 from kille.lab.worlds.sayings import NOTHING, THIS, Claim, Matter, Phrase, Saying
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import COLOURS, KINDS, Thing
@@ -114,7 +114,7 @@ class Words:
         """Which way a thing faces."""
         content = rectype(
             {
-                **dict(named(f"Faces{front.capitalize()}").fields),
+                **dict(record_type(f"Faces{front.capitalize()}").fields),
                 "target": phrase.meaning,
             }
         )
@@ -122,7 +122,7 @@ class Words:
 
     def perspective(self, of: str) -> str:
         """Whose perspective is meant: that of the `viewer`, or of the `landmark`."""
-        about = Matter(named(f"By{of.capitalize()}"))
+        about = Matter(record_type(f"By{of.capitalize()}"))
         return Saying(self.language, "take_frame", about).text
 
     def forgetting(self, kind: str, word: str) -> str:

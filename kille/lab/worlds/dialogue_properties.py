@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from kille.dialogue.meanings import named, predicate_at, value_at
+from kille.dialogue.meanings import predicate_at, record_type, value_at
 from kille.lab.worlds.games import words
 from ttr import Record, RecordType
 from ttr.judging import Judgement
@@ -106,7 +106,7 @@ def _is(trial: Trial, move: str) -> bool:
     """Whether what the tutor has said is such a move."""
     if trial.turn is None or not isinstance(trial.turn.heard, Record):
         return False
-    return trial.turn.model.judge(trial.turn.heard, named(move)).at_least(1.0)
+    return trial.turn.model.judge(trial.turn.heard, record_type(move)).at_least(1.0)
 
 
 # --- P12 -----------------------------------------------------------------------------

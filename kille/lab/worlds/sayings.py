@@ -14,7 +14,7 @@ from itertools import islice, permutations
 from string import Formatter
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import denied, merge_of, named, placed
+from kille.dialogue.meanings import denial, meaning_at, merge_of, record_type
 from kille.dialogue.reference import meant_by
 from kille.dialogue.wording import tell
 from kille.lab.worlds.vocabulary import vocabulary
@@ -57,7 +57,7 @@ class Phrase:
     def meaning(self) -> RecordType:
         """What it means."""
         meant = meant_by(self.signs) if self.signs else rectype()
-        return merge_of(meant, named(self.talk)) if self.talk else meant
+        return merge_of(meant, record_type(self.talk)) if self.talk else meant
 
 
 NOTHING, THIS = Phrase(), Phrase("This")
@@ -84,9 +84,13 @@ class Claim:
             if part is not NOTHING
         }
         sign = self.sign
-        said = named("Asked") if sign is None else placed(sign, TEMPLATES[sign.kind])
+        said = (
+            record_type("Asked")
+            if sign is None
+            else meaning_at(sign, TEMPLATES[sign.kind])
+        )
         content = merge_of(said, rectype(parts))
-        return denied(content) if self.denies else content
+        return denial(content) if self.denies else content
 
     @property
     def signs(self) -> tuple[Record, ...]:
@@ -186,7 +190,7 @@ def _about(
         case ["the_landmark"]:
             return (_perspective(Phrase("", (noun,))) for noun in nouns)
         case ["by"]:
-            return [Matter(named("ByViewer")), Matter(named("ByLandmark"))]
+            return [Matter(record_type("ByViewer")), Matter(record_type("ByLandmark"))]
     return ()
 
 
@@ -195,14 +199,14 @@ def _facing(language: str, world: World) -> Iterator[Matter]:
     for x in world.in_view:
         front = world.thing(x).front or "left"
         for phrase in phrases_of(language, world, x):
-            faces = named(f"Faces{front.capitalize()}")
+            faces = record_type(f"Faces{front.capitalize()}")
             content = merge_of(faces, rectype(target=phrase.meaning))
             yield Matter(content, phrase.signs)
 
 
 def _perspective(phrase: Phrase) -> Matter:
     """That places are meant as this thing sees them."""
-    content = merge_of(named("ByLandmark"), rectype(landmark=phrase.meaning))
+    content = merge_of(record_type("ByLandmark"), rectype(landmark=phrase.meaning))
     return Matter(content, phrase.signs)
 
 

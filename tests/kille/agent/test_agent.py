@@ -23,7 +23,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from kille import Agent, Memory
-from kille.dialogue.meanings import named, predicate_name, word_of
+from kille.dialogue.meanings import predicate_name, record_type, word_of
 from kille.memory import MemoryFileError, ObjectLesson
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
@@ -232,7 +232,7 @@ def test_any_text_gets_an_answer_and_a_state_of_its_type(text: str) -> None:
             pointless = "#" in text and "nothing is in view" in told
             if not pointless:
                 raise
-        assert robot.model.judge(robot.state, named("State")).holds
+        assert robot.model.judge(robot.state, record_type("State")).holds
 
 
 WORD = st.text(st.characters(categories=["L", "N"]), min_size=1, max_size=12)
@@ -256,7 +256,7 @@ def before_a_cup() -> Iterator[Agent]:
 def test_any_word_that_is_parsed_can_be_learned(before_a_cup: Agent, word: str) -> None:
     robot = before_a_cup
     answer = robot.hear(f"This is a {word}.")
-    assert robot.model.judge(robot.state, named("State")).holds
+    assert robot.model.judge(robot.state, record_type("State")).holds
     if robot.exchanges[-1].heard is not None:
         assert answer.startswith("OK, I learned a")
         known = {word_of(sign).name for sign in robot.state.private.nouns}
@@ -555,7 +555,7 @@ def test_the_rules_that_ran_are_in_the_trace() -> None:
         assert robot.trace[-1].after == robot.state
         heard = robot.exchanges[-1].heard
         assert heard is not None
-        assert heard.type <= named("Instruct")
+        assert heard.type <= record_type("Instruct")
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.state import blank_model
-from kille.dialogue.tutoring import heard, tutoring
+from kille.dialogue.tutoring import hear_sentences, tutoring
 from ttr import Model, Record, record
 from ttr.judging import Judgement
 from ttr.updates import Game, Run, Turn
@@ -93,7 +93,7 @@ class Scene:
         """What it says when one of these was heard, each so probable ("_" is " ")."""
         said = {text.replace("_", " "): p for text, p in texts.items()}
         sentences = [understand(text)[0] for text in said]
-        return self._worded(self._take(heard(*sentences, p=said.values())))
+        return self._worded(self._take(hear_sentences(*sentences, p=said.values())))
 
     def look(self, kept: Sequence[str] | None = None) -> list[str]:
         """What it does of its own accord at a look; `kept` were in view, or all."""

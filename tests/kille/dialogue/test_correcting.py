@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.dialogue.commitments import lessons_in, same
-from kille.dialogue.meanings import denied, is_denial, packaged_types, theory
+from kille.dialogue.meanings import denial, is_denial, packaged_types, theory
 from ttr import Record, replace
 
 KNOWN = {
@@ -278,7 +278,7 @@ def test_no_two_lessons_about_a_thing_contradict_each_other(
 ) -> None:
     one = told(scene(nouns=WORDS, adjectives=["red"], known=KNOWN), texts)
     contents = [it.content for it in one.state.private.lessons]
-    assert not any(same(denied(a), b) for a in contents for b in contents)
+    assert not any(same(denial(a), b) for a in contents for b in contents)
 
 
 @given(st.lists(SAID, max_size=8))

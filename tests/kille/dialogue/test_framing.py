@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from kille.dialogue.meanings import denied, predicate_at, value_at
+from kille.dialogue.meanings import denial, predicate_at, value_at
 
 Scenes = Callable[..., Any]
 
@@ -217,7 +217,7 @@ def test_what_was_denied_of_a_place_is_denied_in_the_other_perspective(
     assert said == 'OK, this relation is not called "to the left of".'
     assert robot.hear("From its side.") == said
     (lesson,) = robot.state.private.lessons
-    assert predicate_at(denied(lesson.content), "rel").name == "to_the_left_of"
+    assert predicate_at(denial(lesson.content), "rel").name == "to_the_left_of"
     assert value_at(lesson.content, "frame") == "faces_left"
 
 

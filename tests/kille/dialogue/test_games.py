@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import named, noun, predicate_at, word_of
+from kille.dialogue.meanings import noun, predicate_at, record_type, word_of
 from kille.dialogue.tutoring import tutoring
 
 Make = Callable[..., Any]
@@ -280,13 +280,13 @@ def test_every_utterance_is_answered_once(
     for text in texts:
         assert len(robot.acts(text)) == 1
         assert robot.state.private.agenda == ()
-        assert robot.now.model.judge(robot.state, named("State")).holds
+        assert robot.now.model.judge(robot.state, record_type("State")).holds
 
 
 def test_every_move_of_the_robot_has_its_wording_and_its_type() -> None:
     for act in lexicon().says:
         name = "".join(part.capitalize() for part in act.split("_"))
-        assert predicate_at(named(name), "e").name == act
+        assert predicate_at(record_type(name), "e").name == act
 
 
 # --- the rules themselves -------------------------------------------------------------

@@ -15,9 +15,9 @@ from kille.dialogue.language import LANGUAGES, Sentence, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
     adjective,
-    named,
     noun,
     predicate_at,
+    record_type,
     set_to,
     theory,
     word_of,
@@ -78,7 +78,7 @@ def test_a_turn_may_be_several_moves(
 )
 def test_what_is_said_of_one_thing_is_no_lesson_about_all(text: str) -> None:
     [said] = understand(text, "sv")
-    assert not any(it.type <= named("InstructSeveral") for it in said.readings)
+    assert not any(it.type <= record_type("InstructSeveral") for it in said.readings)
 
 
 @pytest.mark.parametrize(
@@ -103,8 +103,8 @@ def test_a_word_for_a_thing_is_first_taken_to_be_a_noun(
 def test_a_parse_is_a_judgement_of_the_whole_event() -> None:
     (said,) = understand("This is a cup.")
     (reading,) = said.readings
-    assert reading.type <= named("Heard")
-    assert reading.type <= named("Instruct")
+    assert reading.type <= record_type("Heard")
+    assert reading.type <= record_type("Instruct")
     assert str(reading.type["spkr"]) == "Ind@tutor"
     assert reading.type["text"].value == "This is a cup."
 
@@ -221,7 +221,7 @@ def test_the_examples_of_the_lexicon_are_understood(language: str) -> None:
 def test_any_text_is_understood_or_refused(language: str, text: str) -> None:
     for said in understand(text, language):
         assert isinstance(said.text, str)
-        assert all(one.type <= named("Heard") for one in said.readings)
+        assert all(one.type <= record_type("Heard") for one in said.readings)
 
 
 SMALL = (

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from kille.dialogue.language import Sentence, Utterance, understand
-from kille.dialogue.meanings import named, set_to, spoken
-from kille.dialogue.tutoring import heard
+from kille.dialogue.meanings import move_type, record_type, set_to
+from kille.dialogue.tutoring import hear_sentences
 
 Make = Callable[..., Any]
 
@@ -111,18 +111,18 @@ def test_what_is_seen_does_not_weigh_against_a_denial(scene: Make) -> None:
     """Also where a theory takes it as a correction: who denies sets something right."""
     denial, other = (understand(f"This is not a {word}.")[0] for word in WORDS)
     [said] = denial.readings
-    corrects = set_to(spoken("Heard", "Correct"), **dict(said.type.fields))
-    corrects = set_to(corrects, e=named("Correct")["e"])
+    corrects = set_to(move_type("Heard", "Correct"), **dict(said.type.fields))
+    corrects = set_to(corrects, e=record_type("Correct")["e"])
     denial = Sentence(denial.text, (Utterance(said.text, corrects),))
     robot = scene(nouns=WORDS, known=CUP)
-    (move,) = robot._take(heard(denial, other, p=[0.8, 0.2]))
+    (move,) = robot._take(hear_sentences(denial, other, p=[0.8, 0.2]))
     assert robot.game.say(move) == "OK, this is not a cup."
 
 
 def test_what_is_heard_has_one_probability_for_each_text() -> None:
     cup, cap = (understand(text)[0] for text in ("This is a cup.", "This is a cap."))
     with pytest.raises(ValueError, match="shorter"):
-        heard(cup, cap, p=[1.0])
+        hear_sentences(cup, cap, p=[1.0])
 
 
 # --- after the tests of OpenDial's example of reference ------------------------------

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kille.dialogue.meanings import named
+from kille.dialogue.meanings import record_type
 from kille.lab.tutors.exploring import NONSENSE, tutoring
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING
@@ -165,7 +165,7 @@ def test_whatever_is_said_there_is_an_answer_and_a_state(texts, language):
         for move in turn.said:
             assert not move.sit.teaches or "text" in str(turn.heard)
     now = dialogue.now
-    assert now.model.judge(now.state, named("State")).holds
+    assert now.model.judge(now.state, record_type("State")).holds
 
 
 @pytest.mark.parametrize("text", ["cup " * 2500, "?" * 10_000, "\U0001f600" * 10_000])
@@ -188,4 +188,4 @@ def test_hundreds_of_turns():
         turn = game.take(now, game.hear(text))
         assert turn.said, (number, text)
         now = turn.run
-    assert now.model.judge(now.state, named("State")).holds
+    assert now.model.judge(now.state, record_type("State")).holds

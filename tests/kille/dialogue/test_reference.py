@@ -23,11 +23,11 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.reference import (
-    Judging,
-    contents,
-    denoted,
-    fitting,
+    PhraseJudge,
+    fitting_readings,
+    intended_readings,
     meant_by,
+    possible_readings,
     ranking,
     said_by,
     thing_at,
@@ -92,7 +92,10 @@ def said(text: str) -> RecordType:
 def meant(text: str, known: Degrees = TWO_CUPS, **changes: Any) -> list[list[str]]:
     """The things that what is said may be about, by its readings."""
     s, model = scene(known, **changes)
-    return [things_in(it.content) for it in denoted(s, contents(s, model, said(text)))]
+    return [
+        things_in(it.content)
+        for it in intended_readings(s, possible_readings(s, model, said(text)))
+    ]
 
 
 # --- single phrases ------------------------------------------------------------------
@@ -136,7 +139,7 @@ def test_counted_from_left_to_right() -> None:
         ("What is the second one?", "o3"),
         ("What is the right one?", "o1"),
     ]:
-        readings = denoted(s, contents(s, model, said(text)))
+        readings = intended_readings(s, possible_readings(s, model, said(text)))
         assert [it.things["target"] for it in readings] == [x]
 
 
@@ -187,7 +190,7 @@ def test_nothing_unseen_is_meant() -> None:
 def test_a_resolved_phrase_is_specific() -> None:
     s, model = scene(TWO_CUPS)
     content = said("Where is the cup near the book?")
-    (reading,) = denoted(s, contents(s, model, content))
+    (reading,) = intended_readings(s, possible_readings(s, model, content))
     target = reading.content["target"]
     assert isinstance(target, RecordType)
     assert thing_at(reading.content, "target") == "o2"
@@ -198,7 +201,9 @@ def test_a_resolved_phrase_is_specific() -> None:
 
 def test_what_is_only_true_in_the_talk_is_no_part_of_it() -> None:
     s, model = scene(TWO_CUPS)
-    (reading,) = denoted(s, contents(s, model, said("What is this?")))
+    (reading,) = intended_readings(
+        s, possible_readings(s, model, said("What is this?"))
+    )
     assert "d" not in reading.content["target"]  # type: ignore[operator]
 
 
@@ -221,7 +226,7 @@ def test_the_settled_perspective_decides(frame: str, x: str, front: str) -> None
     s, model = scene(TWO_CUPS, **changes)
     model = model.witnessed(word_of(relation("near")), by=turned)
     content = said("What is the cup near the book?")
-    (reading,) = denoted(s, contents(s, model, content))
+    (reading,) = intended_readings(s, possible_readings(s, model, content))
     target = reading.content["target"]
     assert isinstance(target, RecordType)
     assert reading.things == {"target": x}
@@ -281,7 +286,7 @@ def test_a_thing_fits_as_it_is_judged_to_be_of_the_type(
     """Taking a type apart changes nothing: `perceive` says the same of the record."""
     s, model = drawn
     T = rectype(look=theory()["Look"], part=meant_by(phrase))
-    for x, fit in Judging(s, model).fits(meant_by(phrase)).items():
+    for x, fit in PhraseJudge(s, model).fits(meant_by(phrase)).items():
         part = {"x": x, "look": "look1"}
         if len(fit.things) > 1:
             part |= {"frame": "away"}
@@ -294,7 +299,7 @@ def test_a_thing_fits_as_it_is_judged_to_be_of_the_type(
 def test_more_words_never_fit_better(
     drawn: tuple[Record, Model], phrase: list[Record]
 ) -> None:
-    judging = Judging(*drawn)
+    judging = PhraseJudge(*drawn)
     fits = [judging.fits_part(said_by(phrase[: n + 1])) for n in range(len(phrase))]
     for before, after in pairwise(fits):
         assert all(fit.p <= before[x].p + 1e-9 for x, fit in after.items())
@@ -396,7 +401,7 @@ def test_what_describes_a_thing_resolves_to_it(drawn: tuple[Record, Model]) -> N
         if found is None:
             continue
         content = rectype(look=theory()["Look"], target=found.phrase)
-        readings = contents(s, model, content)
-        [best] = fitting(s, readings)
+        readings = possible_readings(s, model, content)
+        [best] = fitting_readings(s, readings)
         assert best.things == {"target": x}
         assert all(it.p < best.p for it in readings if it is not best)

@@ -18,11 +18,11 @@ from kille.dialogue.language import LANGUAGES, overhear, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
     CLAIMS,
-    denied,
-    named,
+    denial,
+    meaning_at,
     noun,
-    placed,
     predicate_at,
+    record_type,
     relation,
     sign,
     theory,
@@ -146,7 +146,7 @@ def in_view(chance: random.Random, wording: str) -> dict[str, RecordType]:
     for slot in slots_of(wording):
         for label in several.get(slot, ()):
             WORDS.append(a_word(chance, "en", "Noun"))
-            seen = named("Phrase") if label == "unknown" else WORDS[-1].meaning
+            seen = record_type("Phrase") if label == "unknown" else WORDS[-1].meaning
             for n in range(chance.randint(1, 3)):
                 parts[f"{label}{n + 1:02}"] = seen
     return parts
@@ -168,13 +168,13 @@ def a_phrase(chance: random.Random, language: str, article: str) -> RecordType:
         kinds += ["Other Noun"]
     if article == "the":
         kinds += ["Adjective", "This", "It", "Other", "This Noun"]
-    meaning: RecordType = named("Phrase")
+    meaning: RecordType = record_type("Phrase")
     for name in chance.choice(kinds).split():
         if name in ("Noun", "Adjective"):
             WORDS.append(a_word(chance, language, name))
             meaning = merge(meaning, WORDS[-1].meaning)
         else:
-            meaning = merge(meaning, named(name))
+            meaning = merge(meaning, record_type(name))
     return meaning
 
 
@@ -205,7 +205,7 @@ def a_move(
     WORDS.clear()
     chosen: dict[tuple[bool, str], Record] = {}
     by_itself = told_of in ("Asked", "Scene", "ByLandmark")
-    content: RecordType = named(told_of) if by_itself else Rec
+    content: RecordType = record_type(told_of) if by_itself else Rec
     rival: RecordType = Rec
     for slot in slots_of(wording):
         if slot in WORD_SLOTS:
@@ -216,7 +216,7 @@ def a_move(
                 if word not in WORDS:
                     chosen[rivalry, template] = word
                     WORDS.append(word)
-            said = placed(chosen[rivalry, template], template)
+            said = meaning_at(chosen[rivalry, template], template)
             if told_of == "Word":
                 said = rectype(word=chosen[rivalry, template].meaning)
             if "rival" in slot:
@@ -229,7 +229,7 @@ def a_move(
             nouns = [noun(it) for it in chance.sample(NOUNS[language], 3)]
             WORDS.extend(nouns)
             choices = {f"choice{n:02}": it.meaning for n, it in enumerate(nouns, 1)}
-            content = merge(named("Scene"), rectype(choices))
+            content = merge(record_type("Scene"), rectype(choices))
         elif slot.startswith("rival_the_"):
             part = slot.split("_")[-1]
             while rival is Rec or rival[part] == content[part]:
@@ -296,7 +296,7 @@ def test_what_the_robot_says_is_understood(
         for it in said
     ]
     assert (act, move.content, move.rival) in readings, text
-    assert (act, denied(move.content), move.rival) not in readings or not is_claim(
+    assert (act, denial(move.content), move.rival) not in readings or not is_claim(
         move.content
     )
 
@@ -312,7 +312,7 @@ def test_what_the_tutor_says_is_understood(
     (said,) = understand(text, language)
     found = [(predicate_at(it.type, "e").name, it.content) for it in said.readings]
     assert (act, move.content) in found, text
-    assert (act, denied(move.content)) not in found or not is_claim(move.content)
+    assert (act, denial(move.content)) not in found or not is_claim(move.content)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -324,6 +324,6 @@ def test_the_languages_say_the_same_acts(language: str) -> None:
 def test_words_are_said_as_the_tutor_says_them() -> None:
     english = lexicon("en")
     move = record(
-        content=placed(noun("hotel", "an"), "Naming"), signs=[noun("hotel", "an")]
+        content=meaning_at(noun("hotel", "an"), "Naming"), signs=[noun("hotel", "an")]
     )
     assert say(english, "learned", move) == "OK, I learned an hotel."

@@ -19,7 +19,7 @@ from kille.dialogue.strategies import (
     Option,
     Stake,
     best,
-    expected,
+    expected_value,
     strategy,
     threshold,
 )
@@ -43,7 +43,7 @@ def test_from_its_threshold_on_the_stronger_is_expected_to_be_worth_more(
     at = threshold(stronger, weaker)
     for p in (0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0):
         if steeper > 1e-3 and abs(p - at) > 1e-6:
-            more = expected(stronger, p) > expected(weaker, p)
+            more = expected_value(stronger, p) > expected_value(weaker, p)
             assert more == (p > at)
 
 
@@ -59,9 +59,9 @@ def test_nothing_is_done_of_which_nothing_is_expected() -> None:
 def test_the_best_is_expected_to_be_worth_most(ps: list[float]) -> None:
     options = [Option(str(n), p, Stake(1.0, -0.2)) for n, p in enumerate(ps)]
     chosen = best(options)
-    top = max(expected(it.stake, it.p) for it in options)
+    top = max(expected_value(it.stake, it.p) for it in options)
     assert (chosen is None) == (top <= 0.0)
-    assert chosen is None or expected(chosen.stake, chosen.p) == top
+    assert chosen is None or expected_value(chosen.stake, chosen.p) == top
 
 
 def ways(wording: str) -> Mapping[str, Stake]:

@@ -19,7 +19,7 @@ from kille.agent.story_replay import play
 from kille.dialogue import meanings
 from kille.dialogue.games import TUTORING
 from kille.dialogue.language import understand
-from kille.dialogue.meanings import DialogueTypes, named, packaged_types
+from kille.dialogue.meanings import DialogueTypes, packaged_types, record_type
 from kille.dialogue.rules import NamedRule, bind, rule
 from kille.dialogue.tutoring import tutoring
 from kille.lab.worlds.games import simulated
@@ -211,7 +211,7 @@ def test_what_is_understood_is_of_the_types_that_were_given(
     for types in (renamed, packaged_types(), renamed):
         [said] = understand("Where is the book?", types=types)
         assert said.readings[0].type <= types.record_type("AskPlace")
-    assert not said.readings[0].type <= named("AskPlace")
+    assert not said.readings[0].type <= record_type("AskPlace")
 
 
 # --- rules on names ------------------------------------------------------------------
@@ -280,8 +280,8 @@ def test_a_name_that_a_theory_does_not_have_is_told(rules: dict[str, str]) -> No
 ROOM = Path(kille.__file__).parent
 
 OF_THE_PACKAGED = {
-    *("theory", "named", "spoken", "sign", "noun", "adjective", "relation"),
-    *("kind_in", "meaning_in", "placed"),
+    *("theory", "record_type", "move_type", "sign", "noun", "adjective", "relation"),
+    *("kind_in", "meaning_in", "meaning_at"),
 }
 """What is about the packaged theory."""
 
@@ -329,7 +329,7 @@ def test_what_needs_types_in_a_game_is_given_them() -> None:
                         for module, name in wanting
                     ):
                         known.add(one.name)
-        known |= {"Judging"}
+        known |= {"PhraseJudge"}
         lacking += [
             f"{file.name}:{call.lineno}: {call.func.id}"
             for call in ast.walk(tree)

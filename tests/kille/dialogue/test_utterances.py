@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from kille.dialogue.language import LANGUAGES, Utterance, understand
-from kille.dialogue.meanings import named, predicate_at, theory
+from kille.dialogue.meanings import predicate_at, record_type, theory
 from ttr import Pred, parse
 
 
@@ -64,7 +64,7 @@ def test_judged(language: str, text: str, move: str, content: str) -> None:
     (said,) = understand(text, language)
     assert said.readings, "not understood"
     best = known_best(language, said.readings)
-    assert best.type <= named(move), predicate_at(best.type, "e")
+    assert best.type <= record_type(move), predicate_at(best.type, "e")
     assert best.content is in_notation(content)
 
 

@@ -25,7 +25,7 @@ do = "ask"
 """
 
 OWN = """\
-from kille.dialogue.meanings import spoken
+from kille.dialogue.meanings import move_type
 from kille.dialogue.moves import answering, plan
 from ttr import Ind, rectype
 from ttr.updates import rule

@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.games import TUTORING
-from kille.dialogue.meanings import named, noun, packaged_types, relation, theory
+from kille.dialogue.meanings import noun, packaged_types, record_type, relation, theory
 from kille.dialogue.rules import bind
 from kille.dialogue.theory_files import redefine
 from kille.grounding.knowledge import Knowledge
@@ -718,7 +718,7 @@ def test_a_theory_that_has_changed_is_read_anew(deictic: Study) -> None:
     try:
         file.write_text(text.replace(SHOWN, "It := Phrase"), encoding="utf-8")
         os.utime(file, ns=(at + 1, at + 1))
-        assert meanings_of(theory)["It"] is named("Phrase")
+        assert meanings_of(theory)["It"] is record_type("Phrase")
     finally:
         file.write_text(text, encoding="utf-8")
         os.utime(file, ns=(at, at))

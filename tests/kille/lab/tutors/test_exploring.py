@@ -6,7 +6,14 @@ import pytest
 
 from kille.dialogue.language import LANGUAGES, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import denied, kind_in, noun, placed, predicate_at, set_at
+from kille.dialogue.meanings import (
+    denial,
+    kind_in,
+    meaning_at,
+    noun,
+    predicate_at,
+    set_at,
+)
 from kille.lab.tutors.exploring import happenings, is_true
 from kille.lab.worlds.sayings import acts, sayings
 from kille.lab.worlds.worlds import Thing, World, drawn
@@ -45,14 +52,14 @@ def test_he_knows_what_is_true():
     )
 
     def naming(form, x):
-        content = set_at(placed(noun(form), "Naming"), "target.x", x)
+        content = set_at(meaning_at(noun(form), "Naming"), "target.x", x)
         assert kind_in("Naming") == "noun"
         assert isinstance(content, RecordType)
         return content
 
     assert is_true("en", world, naming("cup", "o1"))
     assert not is_true("en", world, naming("cup", "o2"))
-    assert is_true("en", world, denied(naming("cup", "o2")))
+    assert is_true("en", world, denial(naming("cup", "o2")))
     assert not is_true("en", world.moved(1, None), naming("cup", "o1"))
 
 

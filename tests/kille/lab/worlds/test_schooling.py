@@ -2,7 +2,7 @@
 
 import pytest
 
-from kille.dialogue.meanings import named
+from kille.dialogue.meanings import record_type
 from kille.lab.worlds.games import simulated, words
 from kille.lab.worlds.schooling import rested, schooled
 from kille.lab.worlds.worlds import drawn
@@ -19,7 +19,7 @@ def test_all_that_is_in_view_was_named_and_placed(language, times):
     lessons = [len(it.lessons) for it in words(game.model) if it.sign.kind == "noun"]
     assert lessons == [times] * len(WORLD.in_view)
     assert len(game.start.private.relations) > 1
-    assert game.model.judge(game.start, named("State")).holds
+    assert game.model.judge(game.start, record_type("State")).holds
 
 
 def test_nothing_was_said_of_what_is_in_view_now_but_a_front():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.dialogue.meanings import named
+from kille.dialogue.meanings import record_type
 from kille.lab.worlds.games import model_of
 from kille.lab.worlds.perception import (
     colour,
@@ -67,9 +67,9 @@ def test_places_have_a_direction_unless_they_are_the_same(world, front):
 @given(worlds())
 def test_what_is_seen_is_of_its_type(world):
     model = model_of(world)
-    assert model.judge(view(world), named("View")).holds
-    assert model.judge(seen(world, world), named("Seen")).holds
-    assert model.judge(glanced(world, world), named("Glance")).holds
+    assert model.judge(view(world), record_type("View")).holds
+    assert model.judge(seen(world, world), record_type("Seen")).holds
+    assert model.judge(glanced(world, world), record_type("Glance")).holds
 
 
 @given(worlds())
