@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from datetime import datetime
 
-from kille.agent.attention import Gaze
-from kille.agent.dialogue_log import Journal
-from kille.agent.explanations import Recollection, sign_of
+from kille.agent.attention import AttentiveSensor
+from kille.agent.dialogue_log import DialogueLog
+from kille.agent.explanations import Explainer, sign_of
 from kille.dialogue.meanings import DialogueTypes, claims, is_denial, value_at, word_of
 from kille.dialogue.reference import PARTS, phrase_at
-from kille.grounding.knowledge import Evidence, Knowledge, Named
-from kille.grounding.witness_functions import Witnesses, number_of
+from kille.grounding.knowledge import Knowledge, LessonSource, Named
+from kille.grounding.witness_functions import WitnessFunctions, number_of
 from kille.memory import Word
 from kille.scene import Percept
 from ttr import Model, Record, RecordType, replace
 from ttr.types import PType, TypeNode
 
 
-class Body:
+class MoveExecutor:
     """Makes the moves of a game by what it knows and sees, and writes down from where.
 
     A move is done before it is said. SensorError and MemoryFileError as gaze and memory
@@ -28,27 +28,27 @@ class Body:
     def __init__(
         self,
         knowledge: Knowledge,
-        witnesses: Witnesses,
-        gaze: Gaze,
-        journal: Journal,
+        witnesses: WitnessFunctions,
+        gaze: AttentiveSensor,
+        log: DialogueLog,
         now: Callable[[], datetime],
         types: DialogueTypes,
     ) -> None:
         self._knowledge, self._witnesses = knowledge, witnesses
-        self._gaze, self._journal = gaze, journal
+        self._gaze, self._log = gaze, log
         self._now, self._types = now, types
 
     def act(self, planned: TypeNode, model: Model) -> tuple[Record, Model]:
         """Make a planned move: the event, and the model in which it has been made."""
         move, model = model.create(planned)
         keys = tuple(str(self._learn(it, move.signs)) for it in move.teaches)
-        recollection = Recollection(
+        explainer = Explainer(
             self._knowledge, self._witnesses, self._now(), self._types
         )
-        dropped = recollection.dropped(move.drops)
-        undone = recollection.latest(len(move.undoes))
+        dropped = explainer.lesson_keys(move.drops)
+        undone = explainer.latest(len(move.undoes))
         undone_keys = [it.key for it in undone]
-        lost = self._unlearned((*move.forgets, *dropped, *undone_keys))
+        lost = self._unlearn((*move.forgets, *dropped, *undone_keys))
         if keys or move.forgets or dropped or undone:
             self._witnesses.reconsider()
             model = self._witnesses.in_model(model, move.signs, types=self._types)
@@ -59,8 +59,8 @@ class Body:
             "dropped": dropped,
             "undone": undone or move.undone,
             "lost": lost,
-            "reasons": [recollection.reason(it, move.signs) for it in move.explains],
-            "recalled": recollection.recalled(*move.recalls),
+            "reasons": [explainer.reason(it, move.signs) for it in move.explains],
+            "recalled": explainer.recall_words(*move.recalls),
         }
         return replace(move, done), model
 
@@ -90,18 +90,21 @@ class Body:
         x, y = (value_at(phrase_at(content, part), "x") for part in PARTS)
         stand = self._witnesses.configuration(x, y, look, front)
         if stand is None:
-            raise _let_go(look)
+            raise _missing_look_error(look)
         return self._knowledge.learn_relation(
             word_of(learned).name,
             learned.form,
-            (self._named(content, "target"), self._named(content, "landmark")),
+            (
+                self._thing_with_word(content, "target"),
+                self._thing_with_word(content, "landmark"),
+            ),
             stand,
             self._evidence(look),
             article=learned.article,
             holds=not is_denial(content),
         )
 
-    def _named(self, content: RecordType, part: str) -> Named:
+    def _thing_with_word(self, content: RecordType, part: str) -> Named:
         """A thing in a look, by the word that is said of it there."""
         claim = phrase_at(content, part).get("c")
         name = claim.pred.name if isinstance(claim, PType) else ""
@@ -111,17 +114,17 @@ class Body:
         x, look = value_at(phrase_at(content, part), "x"), value_at(content, "look")
         percept = self._witnesses.percept(x, look)
         if percept is None:
-            raise _let_go(look)
+            raise _missing_look_error(look)
         return percept
 
-    def _evidence(self, handle: str) -> Evidence:
+    def _evidence(self, handle: str) -> LessonSource:
         look = self._witnesses.look(handle)
         time = 0.0 if look is None else look.frame.time
-        return Evidence(self._journal.source(), self._gaze.sensor.name, time)
+        return LessonSource(self._log.record_source(), self._gaze.sensor.name, time)
 
     # --- unlearning ------------------------------------------------------------------
 
-    def _unlearned(self, keys: Collection[str]) -> tuple[Record, ...]:
+    def _unlearn(self, keys: Collection[str]) -> tuple[Record, ...]:
         """Unlearn these lessons; the words of which there are none left."""
         if not keys:
             return ()
@@ -140,5 +143,5 @@ class Body:
         return word.kind == "attribute" and colour in self._knowledge.colours.labels
 
 
-def _let_go(look: str) -> RuntimeError:
+def _missing_look_error(look: str) -> RuntimeError:
     return RuntimeError(f"{look} was let go before its lesson")

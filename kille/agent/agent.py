@@ -10,10 +10,10 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from kille.agent.actions import Body
-from kille.agent.attention import Gaze, View
-from kille.agent.dialogue_log import Journal
-from kille.agent.exchanges import Exchange, Said
+from kille.agent.actions import MoveExecutor
+from kille.agent.attention import AttentiveSensor, View
+from kille.agent.dialogue_log import DialogueLog
+from kille.agent.exchanges import Exchange, RobotSentence
 from kille.agent.explanations import sign_of
 from kille.dialogue.games.clarifying import asked_which
 from kille.dialogue.language import Sentence, understand
@@ -23,8 +23,8 @@ from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.dialogue.wording import did_not_understand
 from kille.grounding.knowledge import Knowledge, Learners
-from kille.grounding.witness_functions import Witnesses, thing
-from kille.grounding.word_meanings import Vocabulary
+from kille.grounding.witness_functions import WitnessFunctions, thing_name
+from kille.grounding.word_meanings import WordMeanings
 from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
 from kille.sensors.sensor import Sensor, SensorError
@@ -40,7 +40,7 @@ _POINTING = re.compile(r"#([0-9]{1,6})\b")
 
 TUTOR = "tutor"
 
-Played = tuple[Exchange, Run]
+TurnResult = tuple[Exchange, Run]
 """A turn, and the state and model that it leads to."""
 
 
@@ -76,7 +76,7 @@ class Agent:
         the packaged one. `change` makes another game of the one that it would play.
         """
         self.types = types_of(theory)
-        self.gaze = Gaze(sensor, scans)
+        self.gaze = AttentiveSensor(sensor, scans)
         self.language, self._mode, self._wording = language, mode, wording
         self._now = now
         self._learners, self._change = learners, change
@@ -84,7 +84,7 @@ class Agent:
         self.exchanges: list[Exchange] = []
         with ExitStack() as failing:
             failing.callback(self.gaze.close)
-            opened = _opened(memory)
+            opened = _open_memory(memory)
             failing.callback(opened.close)
             self._wake(opened)
             failing.pop_all()
@@ -92,7 +92,7 @@ class Agent:
     def _wake(self, memory: Memory) -> None:
         """Begin a dialogue, knowing what the memory holds."""
         knowledge = Knowledge(memory, self._learners)
-        witnesses = Witnesses.of(knowledge)
+        witnesses = WitnessFunctions.of(knowledge)
         colours = tuple(self._colour_words(knowledge.colours.labels))
         counts = memory.counts()
         taught = [
@@ -105,9 +105,9 @@ class Agent:
         known = list({word_of(it): it for it in signs}.values())
         self._looks = 0
         self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
-        self._journal = Journal(memory, self._now)
-        body = Body(
-            knowledge, witnesses, self.gaze, self._journal, self._now, self.types
+        self._log = DialogueLog(memory, self._now)
+        executor = MoveExecutor(
+            knowledge, witnesses, self.gaze, self._log, self._now, self.types
         )
         game = tutoring(
             known,
@@ -115,7 +115,7 @@ class Agent:
             mode=self._mode,
             wording=self._wording,
             model=witnesses.in_model(blank_model(self.types), known, types=self.types),
-            act=body.act,
+            act=executor.act,
             colours=colours,
             taught=taught,
             types=self.types,
@@ -149,7 +149,7 @@ class Agent:
         `#2` in the text points at the thing with that number. Who says nothing leaves
         the floor to the robot. What is not understood leaves the state as it was.
         """
-        return self._taking(lambda: self._hearing(_legible(text)))
+        return self._take_turn(lambda: self._hear_text(_legible(text)))
 
     def hear_perhaps(self, *texts: tuple[str, float]) -> str:
         """Take in what the tutor perhaps says: one of these texts, each so probable.
@@ -158,14 +158,14 @@ class Agent:
         `UpdateError` for probabilities that are none, or come to more than 1.
         """
         _check_probable(texts)
-        return self._taking(lambda: self._overhearing(texts))
+        return self._take_turn(lambda: self._hear_alternatives(texts))
 
     def look(self) -> str:
         """Look at the scene of one's own accord; what the robot then says, if anything.
 
         It may ask about what it sees.
         """
-        return self._taking(self._looking)
+        return self._take_turn(self._look_around)
 
     def do(self, command: str) -> str:
         """Change what there is to see, and look; what the robot then says, if anything.
@@ -183,7 +183,7 @@ class Agent:
                 self._wake(self.memory)
                 return ""
             case "scene":
-                self.gaze.turn_to(rest)
+                self.gaze.switch_sensor(rest)
             case "look":
                 pass
             case _:
@@ -197,7 +197,7 @@ class Agent:
         new meanings: it is neither kept nor known to the robot.
         """
         known = self._knowledge
-        vocabulary = Vocabulary(self._witnesses, known.objects, known.relations)
+        vocabulary = WordMeanings(self._witnesses, known.objects, known.relations)
         private = self.state.private
         return vocabulary.speaker("robot", private.nouns, private.relations)
 
@@ -240,14 +240,14 @@ class Agent:
 
     # --- taking turns ----------------------------------------------------------------
 
-    def _taking(self, turn: Callable[[], Played]) -> str:
+    def _take_turn(self, turn: Callable[[], TurnResult]) -> str:
         """Take a turn, and keep it for good; or, if anything fails, none of it.
 
         The state is taken over, and the answer given, when all of it is on disk.
         """
         attention = self.gaze.attention
         try:
-            with self._knowledge.together(), self._journal.whole():
+            with self._knowledge.together(), self._log.all_or_nothing():
                 exchange, after = turn()
         except BaseException as error:
             self.gaze.attention = attention
@@ -260,7 +260,7 @@ class Agent:
         self.exchanges.append(exchange)
         return exchange.answer
 
-    def _hearing(self, text: str) -> Played:
+    def _hear_text(self, text: str) -> TurnResult:
         """Take in all that a text says, move by move."""
         numbers = _POINTING.findall(text)
         for number in numbers:
@@ -268,17 +268,17 @@ class Agent:
         words = _POINTING.sub(" ", text)
         if not words.strip():
             if not numbers or not self.state.shared.qud:
-                return self._looking()
+                return self._look_around()
             words = self._lexicon.pointing
         exchange, now = Exchange(text, None, (), ()), self._now_at
         for said in self._sentences(words, text if len(numbers) == 1 else ""):
             sentence = self._in_full(said, now.state)
-            exchange, now = self._answering(
+            exchange, now = self._answer(
                 sentence, hear_sentences(sentence), exchange, now
             )
         return exchange, now
 
-    def _overhearing(self, texts: Sequence[tuple[str, float]]) -> Played:
+    def _hear_alternatives(self, texts: Sequence[tuple[str, float]]) -> TurnResult:
         """Take in a move that may have been said in one of several ways."""
         sentences = [
             understand(_legible(text), self.language, types=self.types)[0]
@@ -289,39 +289,39 @@ class Agent:
         text = text if ways else max(texts, key=lambda it: it[1])[0]
         event = hear_sentences(*sentences, p=[p for _, p in texts])
         so_far = Exchange(text, None, (), ())
-        return self._answering(Sentence(text, ways), event, so_far, self._now_at)
+        return self._answer(Sentence(text, ways), event, so_far, self._now_at)
 
-    def _answering(
+    def _answer(
         self, sentence: Sentence, event: object, so_far: Exchange, now: Run
-    ) -> Played:
+    ) -> TurnResult:
         """Take in one move of the tutor's, and answer it."""
-        self._journal.heard(sentence.text)
+        self._log.record_heard(sentence.text)
         if not sentence.readings:
-            sorry = Said(
+            sorry = RobotSentence(
                 did_not_understand(self._lexicon, sentence.text, types=self.types), None
             )
-            self._journal.said(sorry.text)
+            self._log.record_said(sorry.text)
             return so_far.then(None, (), (sorry,)), now
         if any("look" in reading.content for reading in sentence.readings):
-            glance, now = self._seeing("Glance", "tutor", now)
+            glance, now = self._play_look("Glance", "tutor", now)
             so_far = so_far.then(None, glance.steps, ())
-        answered, after = self._played(now, event)
-        judged = _judged(sentence, answered.steps, after.model)
-        self._journal.understood(str(judged))
+        answered, after = self._play(now, event)
+        judged = _judge_move(sentence, answered.steps, after.model)
+        self._log.record_judgement(str(judged))
         return so_far.then(judged, answered.steps, answered.said), after
 
-    def _looking(self) -> Played:
+    def _look_around(self) -> TurnResult:
         """A look of one's own accord, about which nothing can be learned yet."""
-        self._journal.looking()
-        return self._seeing("Seen", "robot", self._now_at)
+        self._log.begin_look()
+        return self._play_look("Seen", "robot", self._now_at)
 
-    def _played(self, now: Run, event: object) -> Played:
+    def _play(self, now: Run, event: object) -> TurnResult:
         """Play an event, and what the robot says to it."""
         assert self.game.say is not None
         turn = self.game.take(now, event)
-        said = tuple(Said(self.game.say(move), move) for move in turn.said)
+        said = tuple(RobotSentence(self.game.say(move), move) for move in turn.said)
         for it in said:
-            self._journal.said(it.text, str(it.judgement))
+            self._log.record_said(it.text, str(it.judgement))
         return Exchange("", None, turn.trace, said), turn.run
 
     def _sentences(self, words: str, numbered: str) -> tuple[Sentence, ...]:
@@ -345,29 +345,31 @@ class Agent:
 
     # --- seeing ----------------------------------------------------------------------
 
-    def _seeing(self, kind: str, floor: str, now: Run) -> Played:
+    def _play_look(self, kind: str, floor: str, now: Run) -> TurnResult:
         """Take a look, and play it as an event."""
         view = self.gaze.look()
         self._looks += 1
         handle = f"look{self._looks}"
         self._witnesses.remember(handle, view.look, _looks_of(now.state))
-        things = [thing(number) for number in range(1, len(view.look.percepts) + 1)]
+        things = [
+            thing_name(number) for number in range(1, len(view.look.percepts) + 1)
+        ]
         places = [percept.region.place for percept in view.look.percepts]
         seen = record(
             look=handle,
             things=things,
             placed=[x for x, place in zip(things, places, strict=True) if place],
-            focus=[] if view.focus is None else [thing(view.focus)],
+            focus=[] if view.focus is None else [thing_name(view.focus)],
         )
         model = now.model.given(handle, self.types["Look"])
         for x in things:
             model = model.given(x, self.types["Ind"])
-        kept = [thing(number) for number in view.kept]
+        kept = [thing_name(number) for number in view.kept]
         event = record(view=seen, kept=kept, floor=floor)
-        return self._played(now._replace(model=model), event)
+        return self._play(now._replace(model=model), event)
 
 
-def _opened(memory: Memory | Path | str | None) -> Memory:
+def _open_memory(memory: Memory | Path | str | None) -> Memory:
     match memory:
         case None:
             return Memory.transient()
@@ -386,7 +388,7 @@ def _cause(error: BaseException) -> SensorError | MemoryFileError | None:
     return None
 
 
-def _judged(sentence: Sentence, steps: Sequence[Step], model: Model) -> Judgement:
+def _judge_move(sentence: Sentence, steps: Sequence[Step], model: Model) -> Judgement:
     """The move that a sentence was taken to be, as a judgement.
 
     An answer to a question of the robot's may make another move the latest one.

@@ -46,7 +46,7 @@ class Attention:
 
 
 @runtime_checkable
-class Looker(Protocol):
+class LookingSensor(Protocol):
     """A sensor that takes its looks itself, as one on another machine does."""
 
     def look(self, scans: int, pointed: Sighting | None) -> Look:
@@ -54,7 +54,7 @@ class Looker(Protocol):
         ...
 
 
-class Gaze:
+class AttentiveSensor:
     """A sensor to look through, and what is attended to.
 
     Pointing holds until the tutor points elsewhere or the scene changes. `attention`
@@ -73,7 +73,9 @@ class Gaze:
         before = self.attention.view
         order = _in_order(seen.percepts, before)
         focus = _focus(order, before) if pointed is None else _first(order, seen)
-        view = View(replace(seen, percepts=tuple(order)), focus, _kept(order, before))
+        view = View(
+            replace(seen, percepts=tuple(order)), focus, _kept_numbers(order, before)
+        )
         self.attention = Attention(pointed, view)
         return view
 
@@ -89,13 +91,13 @@ class Gaze:
         words = target.replace("#", " ").replace(",", " ").split()
         numbers = [int(word) for word in words if _NUMBER.fullmatch(word)]
         if len(numbers) == len(words) == 1:
-            return self._numbered(numbers[0])
+            return self._thing_with_number(numbers[0])
         frame = self.sensor.frame()
         if len(numbers) == len(words) == 2:
-            return frame, _touched(frame, (numbers[0], numbers[1]))
+            return frame, _thing_at_pixel(frame, (numbers[0], numbers[1]))
         return frame, region_of(frame, _outline(frame, target))
 
-    def _numbered(self, number: int) -> Sighting:
+    def _thing_with_number(self, number: int) -> Sighting:
         """The thing that has this number in the latest view."""
         view = self.attention.view or self.look()
         things = view.look.percepts
@@ -111,7 +113,7 @@ class Gaze:
         perform(self.sensor, command)
         self.attention = Attention()
 
-    def turn_to(self, name: str) -> None:
+    def switch_sensor(self, name: str) -> None:
         """Look through another sensor from now on; the old one stays if it fails."""
         sensor = open_sensor(name)
         self.sensor.close()
@@ -123,21 +125,21 @@ class Gaze:
 
 
 def _look(sensor: Sensor, scans: int, pointed: Sighting | None) -> Look:
-    if isinstance(sensor, Looker):
+    if isinstance(sensor, LookingSensor):
         return sensor.look(scans, pointed)
     return look(sensor, scans, pointed)
 
 
 def _in_order(percepts: Sequence[Percept], before: View | None) -> list[Percept]:
     """The things in the places they had before; what is new where something went."""
-    places = _found_again(percepts, before)
+    places = _match_earlier(percepts, before)
     known = {id(percept) for percept in places}
     new = iter(sorted((it for it in percepts if id(it) not in known), key=_nearness))
     kept = (next(new, None) if percept is None else percept for percept in places)
     return [percept for percept in kept if percept is not None] + list(new)
 
 
-def _found_again(
+def _match_earlier(
     percepts: Sequence[Percept], before: View | None
 ) -> list[Percept | None]:
     """For each thing that was seen before, the one that it is now, if it is in view."""
@@ -150,15 +152,15 @@ def _found_again(
     return found
 
 
-def _kept(order: Sequence[Percept], before: View | None) -> tuple[int, ...]:
+def _kept_numbers(order: Sequence[Percept], before: View | None) -> tuple[int, ...]:
     """The numbers of the things that had them before."""
-    found = zip(order, _found_again(order, before), strict=False)
+    found = zip(order, _match_earlier(order, before), strict=False)
     return tuple(n for n, (it, again) in enumerate(found, start=1) if it is again)
 
 
 def _focus(order: Sequence[Percept], before: View | None) -> int | None:
     """The number of the nearest thing; that of before if the things are the same."""
-    found = _found_again(order, before)
+    found = _match_earlier(order, before)
     if before is not None and len(found) == len(order) and None not in found:
         return before.focus
     nearest = min(order, key=_nearness, default=None)
@@ -178,7 +180,7 @@ def _nearness(percept: Percept) -> float:
     return nearness(percept.region)
 
 
-def _touched(frame: Frame, pixel: tuple[int, int]) -> Region:
+def _thing_at_pixel(frame: Frame, pixel: tuple[int, int]) -> Region:
     """The thing at a pixel (u, v)."""
     region = region_at(frame, pixel)
     if region is None:
@@ -192,9 +194,9 @@ def _touched(frame: Frame, pixel: tuple[int, int]) -> Region:
 
 def _outline(frame: Frame, name: str) -> Mask:
     """The outline that a labelled recording or a simulation has under this name."""
-    wanted = _spoken(name)
+    wanted = _normalise_name(name)
     for known, mask in frame.outlines.items():
-        if _spoken(known) == wanted:
+        if _normalise_name(known) == wanted:
             return mask
     names = ", ".join(sorted(frame.outlines)) or "no named outlines"
     raise SensorError(
@@ -203,5 +205,5 @@ def _outline(frame: Frame, name: str) -> Mask:
     )
 
 
-def _spoken(name: str) -> str:
+def _normalise_name(name: str) -> str:
     return re.sub(r"[\W_]+", " ", name.lower()).strip()

@@ -10,7 +10,7 @@ from datetime import datetime
 from kille.memory import Memory, Turn
 
 
-class Journal:
+class DialogueLog:
     """The turns of one dialogue, numbered from 1; `turn` is what goes on now.
 
     A look in which nothing is said or learned is no turn. MemoryFileError as the memory
@@ -23,29 +23,29 @@ class Journal:
         self._turns = 0
         self.turn = self._next("world", "")
 
-    def looking(self) -> None:
+    def begin_look(self) -> None:
         """The robot looks of its own accord."""
         self.turn = self._next("world", "")
 
-    def heard(self, text: str) -> None:
+    def record_heard(self, text: str) -> None:
         """The tutor says something."""
-        self.turn = self._kept(self._next("tutor", text))
+        self.turn = self._record(self._next("tutor", text))
 
-    def understood(self, judgement: str) -> None:
+    def record_judgement(self, judgement: str) -> None:
         """What the tutor said was taken to be this."""
         completed = dataclasses.replace(self.turn, judgement=judgement)
         self._memory.record_turn(completed)
 
-    def said(self, text: str, judgement: str = "") -> None:
+    def record_said(self, text: str, judgement: str = "") -> None:
         """The robot says something, or did not understand."""
-        self._kept(self._next("robot", text, judgement))
+        self._record(self._next("robot", text, judgement))
 
-    def source(self) -> Turn:
+    def record_source(self) -> Turn:
         """What goes on now, on record: where a lesson comes from."""
-        return self._kept(self.turn)
+        return self._record(self.turn)
 
     @contextmanager
-    def whole(self) -> Iterator[None]:
+    def all_or_nothing(self) -> Iterator[None]:
         """What is done inside counts, or, if anything fails, no turn of it."""
         turns = self._turns
         try:
@@ -58,7 +58,7 @@ class Journal:
         number = self._turns + 1
         return Turn(self._dialogue, number, speaker, text, judgement, self._time())
 
-    def _kept(self, turn: Turn) -> Turn:
+    def _record(self, turn: Turn) -> Turn:
         self._memory.record_turn(turn)
         self._turns = max(self._turns, turn.number)
         return turn

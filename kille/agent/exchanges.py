@@ -10,7 +10,7 @@ from ttr.updates import Step
 
 
 @dataclass(frozen=True)
-class Said:
+class RobotSentence:
     """A sentence of the robot's, and the judgement of which move it was.
 
     `judgement` is None for saying that it did not understand, which is no move.
@@ -31,10 +31,13 @@ class Exchange:
     text: str
     heard: Judgement | None
     steps: tuple[Step, ...]
-    said: tuple[Said, ...]
+    said: tuple[RobotSentence, ...]
 
     def then(
-        self, heard: Judgement | None, steps: Iterable[Step], said: Iterable[Said]
+        self,
+        heard: Judgement | None,
+        steps: Iterable[Step],
+        said: Iterable[RobotSentence],
     ) -> Exchange:
         """The turn with more of it."""
         return Exchange(

@@ -14,7 +14,7 @@ from kille.dialogue.meanings import DialogueTypes, claims, value_at, word_of
 from kille.dialogue.reference import thing_at
 from kille.grounding.knowledge import Knowledge
 from kille.grounding.reasons import Reasons
-from kille.grounding.witness_functions import Witnesses
+from kille.grounding.witness_functions import WitnessFunctions
 from kille.memory import Kind, Lesson, Word
 from ttr import Record, RecordType, record
 
@@ -36,13 +36,13 @@ def sign_of(word: Word, types: DialogueTypes) -> Record:
     return types.sign(word.surface, kind, word.article, means)
 
 
-class Recollection:
+class Explainer:
     """Answers from what a robot knows and has in view, as of some time."""
 
     def __init__(
         self,
         knowledge: Knowledge,
-        witnesses: Witnesses,
+        witnesses: WitnessFunctions,
         now: datetime,
         types: DialogueTypes,
     ) -> None:
@@ -65,7 +65,7 @@ class Recollection:
             reminders=[self._reminder(lesson) for lesson in lessons],
         )
 
-    def recalled(self, *words: Record) -> list[Record]:
+    def recall_words(self, *words: Record) -> list[Record]:
         """In how many lessons each word was said to hold, as `Recalled`.
 
         Of a single word also which others it was corrected from: those that a lesson
@@ -77,12 +77,12 @@ class Recollection:
             record(
                 sign=word,
                 lessons=float(taught.get((KINDS[word.kind], word_of(word).name), 0)),
-                confused=self._confused(word) if alone else [],
+                confused=self._confused_words(word) if alone else [],
             )
             for word in words
         ]
 
-    def dropped(self, words: Iterable[Record]) -> tuple[str, ...]:
+    def lesson_keys(self, words: Iterable[Record]) -> tuple[str, ...]:
         """The keys of all lessons in some words."""
         return tuple(str(key) for word in words for key in self._keys(word))
 
@@ -96,7 +96,7 @@ class Recollection:
         kind, name = KINDS[word.kind], word_of(word).name
         return self._knowledge.memory.keys_of(kind, name)
 
-    def _confused(self, word: Record) -> list[Record]:
+    def _confused_words(self, word: Record) -> list[Record]:
         """The words that were denied when a word was taught, the most often first."""
         lessons = self._knowledge.memory.lessons()
         keys = set(self._keys(word))

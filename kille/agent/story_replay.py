@@ -52,7 +52,7 @@ def play(
     except SensorError as error:
         raise story.lines[0].wrong(str(error)) from error
     with robot:
-        return _Playing(robot, echo).play(story)
+        return _StoryPlayer(robot, echo).play(story)
 
 
 def story_language(story: Story) -> str:
@@ -65,11 +65,11 @@ def _first_scene(story: Story) -> str:
     """The scene that the story begins with, so that no other is opened first."""
     first = story.lines[0]
     if first.mark == "@" and first.text.startswith("scene "):
-        return _expanded(first)
+        return _sensor_of_line(first)
     return _DEFAULT_SCENE
 
 
-def _expanded(line: Line) -> str:
+def _sensor_of_line(line: Line) -> str:
     """The sensor that an `@ scene` line names; a path is from the story's folder."""
     name = os.path.expandvars(line.text.removeprefix("scene ").strip())
     if unset := re.search(r"\$\{?(\w+)", name):
@@ -78,7 +78,7 @@ def _expanded(line: Line) -> str:
     return str(beside) if not Path(name).is_absolute() and beside.exists() else name
 
 
-class _Playing:
+class _StoryPlayer:
     """A story being played: the robot, and what it said that the story has not had."""
 
     def __init__(self, robot: Agent, echo: Echo) -> None:
@@ -120,14 +120,14 @@ class _Playing:
         if line.mark == "U>":
             return self._robot.hear(line.text)
         if line.mark == "U~":
-            return self._overheard(line)
+            return self._hear_alternatives(line)
         if not line.text.startswith("scene "):
             return self._robot.do(line.text)
         if not self._started:
             return self._robot.look()
-        return self._robot.do(f"scene {_expanded(line)}")
+        return self._robot.do(f"scene {_sensor_of_line(line)}")
 
-    def _overheard(self, line: Line) -> str:
+    def _hear_alternatives(self, line: Line) -> str:
         """What the robot says to what the tutor perhaps said."""
         said = [(it.text, it.p) for it in alternatives(line)]
         try:
@@ -141,23 +141,23 @@ class _Playing:
             return None
         if line.mark == "S~" and fits(line, found):
             return None
-        return self._differing(line, line.text or SILENCE, found or SILENCE)
+        return self._mismatch(line, line.text or SILENCE, found or SILENCE)
 
     def _left_over(self, line: Line) -> Mismatch | None:
         """What the robot said more than the story has, before this line."""
         if not self._said:
             return None
         expected = "nothing more to be said before this"
-        return self._differing(line, expected, self._said[0])
+        return self._mismatch(line, expected, self._said[0])
 
     def _judge(self, line: Line) -> Mismatch | None:
         T = _type_of_state(line, self._robot.types.theory)
         judgement = self._robot.model.judge(self._robot.state, T)
         if judgement.p == CERTAIN:
             return None
-        return self._differing(line, str(T), failure_reason(judgement))
+        return self._mismatch(line, str(T), failure_reason(judgement))
 
-    def _differing(self, line: Line, expected: str, found: str) -> Mismatch:
+    def _mismatch(self, line: Line, expected: str, found: str) -> Mismatch:
         latest = self._robot.exchanges[-1:]
         trace = latest[0].steps if latest else ()
         return Mismatch(line, expected, found, trace)

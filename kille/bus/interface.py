@@ -70,7 +70,7 @@ class Bus(Protocol):
         ...
 
 
-class Kinds:
+class TopicKinds:
     """Which kind of messages each topic has, as its first use says."""
 
     def __init__(self) -> None:
@@ -86,7 +86,7 @@ class Kinds:
             raise BusError(told)
 
 
-class Taking(Generic[M]):
+class SerialReceiver(Generic[M]):
     """Takes messages one at a time, whatever threads they come in.
 
     An error does not come out of it.

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from threading import Condition, Lock, Thread, current_thread
 from typing import Any, Generic, TypeVar
 
-from kille.bus.interface import Kinds, Publisher, Subscription, Taking
+from kille.bus.interface import Publisher, SerialReceiver, Subscription, TopicKinds
 from kille.bus.messages import Message, Topic
 
 M = TypeVar("M", bound=Message)
@@ -29,7 +29,7 @@ class LocalBus:
 
     def __init__(self) -> None:
         self._lock = Lock()
-        self._kinds = Kinds()
+        self._kinds = TopicKinds()
         self._listening: dict[str, tuple[_Listening[Any], ...]] = {}
         self._latest: dict[str, Any] = {}
         self._closed = False
@@ -106,7 +106,7 @@ class _Listening(Generic[M]):
         self, bus: LocalBus, topic: Topic[M], take: Callable[[M], None]
     ) -> None:
         self._bus, self._topic = bus, topic
-        self._take = Taking(topic, take)
+        self._take = SerialReceiver(topic, take)
         self._waiting: deque[M] = deque(maxlen=topic.waiting)
         self._changed = Condition()
         self._open = True

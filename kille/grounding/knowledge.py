@@ -46,7 +46,7 @@ Named = tuple[str, Percept]
 
 
 @dataclass(frozen=True)
-class Evidence:
+class LessonSource:
     """Where a lesson comes from: what was said, seen through which sensor, and when."""
 
     turn: Turn
@@ -54,7 +54,7 @@ class Evidence:
     time: float
 
 
-def _unhurried(views: Iterable[View]) -> ObjectMemory:
+def _index_in_background(views: Iterable[View]) -> ObjectMemory:
     """A memory that has its index built while it goes on, see `Background`."""
     return ObjectMemory(views, builder=Background())
 
@@ -63,7 +63,7 @@ def _unhurried(views: Iterable[View]) -> ObjectMemory:
 class Learners:
     """What makes the learners of nouns, from views, and of relations."""
 
-    objects: Callable[[Iterable[View]], ObjectMemory] = _unhurried
+    objects: Callable[[Iterable[View]], ObjectMemory] = _index_in_background
     relations: Callable[[], RelationMemory] = RelationMemory
 
 
@@ -119,7 +119,7 @@ class Knowledge:
         name: str,
         surface: str,
         percept: Percept,
-        evidence: Evidence,
+        evidence: LessonSource,
         *,
         article: str = "",
         holds: bool = True,
@@ -140,7 +140,7 @@ class Knowledge:
         name: str,
         surface: str,
         percept: Percept,
-        evidence: Evidence,
+        evidence: LessonSource,
         *,
         article: str = "",
         holds: bool = True,
@@ -171,7 +171,7 @@ class Knowledge:
         surface: str,
         things: tuple[Named, Named],
         stand: Configuration,
-        evidence: Evidence,
+        evidence: LessonSource,
         *,
         article: str = "",
         holds: bool = True,
@@ -318,7 +318,7 @@ class Knowledge:
         return self.memory.lesson(key) if isinstance(key, int) else None
 
     def _sighting(
-        self, percept: Percept, evidence: Evidence, traits: Traits
+        self, percept: Percept, evidence: LessonSource, traits: Traits
     ) -> Sighting:
         features = kept_features(percept)
         return Sighting(

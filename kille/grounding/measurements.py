@@ -17,7 +17,7 @@ Pair = tuple[int, int]
 """The numbers of a target and a landmark in a look, from 0."""
 
 
-class Seen:
+class Measurements:
     """A look, with what the learners of words ask of it."""
 
     def __init__(self, look: Look) -> None:

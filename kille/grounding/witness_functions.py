@@ -17,7 +17,7 @@ from typing import Self
 
 from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
 from kille.grounding.knowledge import Knowledge, colour_named
-from kille.grounding.measurements import Seen
+from kille.grounding.measurements import Measurements
 from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, xkcd
 from kille.perception.evidence import Evidence
@@ -37,7 +37,7 @@ UNKNOWN = (0.0, 1.0)
 _REMEMBERED_LOOKS = 4
 
 
-def thing(number: int) -> str:
+def thing_name(number: int) -> str:
     """The name of the thing with this number in a look."""
     return f"o{number}"
 
@@ -47,7 +47,7 @@ def number_of(x: str) -> int:
     return int(x[1:])
 
 
-class Witnesses:
+class WitnessFunctions:
     """Judges words of the things in the latest looks, by what the learners know.
 
     A look that is no longer remembered says nothing: [0, 1].
@@ -64,7 +64,7 @@ class Witnesses:
         self._objects, self._relations = objects, relations
         self._colours = ColourMemory(prior=xkcd()) if colours is None else colours
         self._attributes = AttributeMemory() if attributes is None else attributes
-        self._seen: dict[str, Seen] = {}
+        self._seen: dict[str, Measurements] = {}
         self._evident: dict[tuple[str, str], Evidence] = {}
         self._named: dict[tuple[str, str], Mapping[str, float]] = {}
         self._coloured: dict[tuple[str, str], Mapping[str, float]] = {}
@@ -82,7 +82,7 @@ class Witnesses:
 
         Of the others only those that are still needed and the latest are kept.
         """
-        self._seen[handle] = Seen(look)
+        self._seen[handle] = Measurements(look)
         kept = {*needed, *list(self._seen)[-_REMEMBERED_LOOKS:]}
         self._seen = {name: it for name, it in self._seen.items() if name in kept}
         for judged in (self._evident, self._named, self._coloured, self._described):
@@ -101,7 +101,7 @@ class Witnesses:
         if seen is None:
             return
         for number in range(1, len(seen.look.percepts) + 1):
-            x = thing(number)
+            x = thing_name(number)
             self._names(x, handle)
             self._colours_of(x, handle)
             self._descriptions(x, handle)

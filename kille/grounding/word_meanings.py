@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, Generic, Protocol, Self, TypeVar
 
 from kille.dialogue.meanings import word_of
-from kille.grounding.witness_functions import Witnesses
+from kille.grounding.witness_functions import WitnessFunctions
 from kille.perception.learners import Learner
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
@@ -31,7 +31,7 @@ X = TypeVar("X")
 X_contra = TypeVar("X_contra", contravariant=True)
 
 
-class Copied(Learner[X_contra], Protocol[X_contra]):
+class CopyableLearner(Learner[X_contra], Protocol[X_contra]):
     """A learner that can be copied with what it knows."""
 
     @property
@@ -44,10 +44,10 @@ class Copied(Learner[X_contra], Protocol[X_contra]):
         ...
 
 
-class Pupil(Generic[X]):
+class KeylessLearner(Generic[X]):
     """A learner that is taught without keys, apart from the robot's memory."""
 
-    def __init__(self, learner: Copied[X], lessons: int = 0) -> None:
+    def __init__(self, learner: CopyableLearner[X], lessons: int = 0) -> None:
         self._learner, self._lessons = learner, lessons
 
     @property
@@ -69,12 +69,12 @@ class Pupil(Generic[X]):
         """The degree of each word."""
         return self._learner.predict_proba_one(x)
 
-    def copy(self) -> Pupil[X]:
+    def copy(self) -> KeylessLearner[X]:
         """Another pupil that knows the same."""
-        return Pupil(self._learner.copy(), self._lessons)
+        return KeylessLearner(self._learner.copy(), self._lessons)
 
 
-class OneWord(Pupil[Configuration]):
+class SingleRelationLearner(KeylessLearner[Configuration]):
     """A pupil that is asked about one spatial word only.
 
     Several of them may hold of the same things, to degrees that sum to more than 1.
@@ -94,16 +94,19 @@ class OneWord(Pupil[Configuration]):
         degrees = self._relations.degrees(x)
         return {word: degrees[word] for word in self.labels}
 
-    def copy(self) -> OneWord:
+    def copy(self) -> SingleRelationLearner:
         """Another pupil that knows the same."""
-        return OneWord(self._relations.copy(), self._word, self._lessons)
+        return SingleRelationLearner(self._relations.copy(), self._word, self._lessons)
 
 
-class Vocabulary:
+class WordMeanings:
     """Makes meanings of words, of what the learners know and the eyes remember."""
 
     def __init__(
-        self, witnesses: Witnesses, objects: ObjectMemory, relations: RelationMemory
+        self,
+        witnesses: WitnessFunctions,
+        objects: ObjectMemory,
+        relations: RelationMemory,
     ) -> None:
         self._witnesses, self._objects, self._relations = witnesses, objects, relations
 
@@ -111,18 +114,18 @@ class Vocabulary:
         self, name: str, nouns: Iterable[Record], relations: Iterable[Record]
     ) -> Speaker:
         """Who has these words: nouns share a learner, each relation has its own."""
-        shared = _params(Pupil(self._objects))
+        shared = _params(KeylessLearner(self._objects))
         meanings = {
             sign.form: _meaning(sign, shared, self._witnesses.percept) for sign in nouns
         }
         for sign in relations:
-            own = _params(OneWord(self._relations, word_of(sign).name))
+            own = _params(SingleRelationLearner(self._relations, word_of(sign).name))
             meanings[sign.form] = _meaning(sign, own, self._witnesses.configuration)
         return Speaker(name, meanings)
 
 
-def _params(pupil: Pupil[Any]) -> Record:
-    return learner_params(pupil, copied=Pupil.copy)
+def _params(pupil: KeylessLearner[Any]) -> Record:
+    return learner_params(pupil, copied=KeylessLearner.copy)
 
 
 def _meaning(

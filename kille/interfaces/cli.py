@@ -13,7 +13,7 @@ from pathlib import Path
 from shlex import join
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from kille.interfaces.parsing import counted, positive, seed
+from kille.interfaces.parsing import parse_count, parse_seed, positive
 from kille.interfaces.streams import drop_output, end_line, prepare_streams, write_error
 from ttr.cli.command_line import Parser, Version
 from ttr.cli.consent_options import add_consent, consent_of
@@ -113,7 +113,11 @@ def _parser() -> Parser:
 def _add_demo(commands: Any) -> None:
     demo = commands.add_parser("demo", help="watch a tutor teach and test the robot")
     demo.add_argument(
-        "--seed", type=seed, default=7, metavar="N", help="another run of chance (7)"
+        "--seed",
+        type=parse_seed,
+        default=7,
+        metavar="N",
+        help="another run of chance (7)",
     )
     demo.add_argument(
         "--out",
@@ -268,7 +272,7 @@ def _add_record(commands: Any) -> None:
         "--seconds", type=positive, metavar="N", help="how long (until Ctrl-C)"
     )
     ending.add_argument(
-        "--frames", type=counted, metavar="N", help="how many frames (until Ctrl-C)"
+        "--frames", type=parse_count, metavar="N", help="how many frames (until Ctrl-C)"
     )
     record.add_argument(
         "--force", action="store_true", help="take the place of a recording"
@@ -340,7 +344,11 @@ def _add_measuring(
         f"may be repeated ({methods})",
     )
     parser.add_argument(
-        "--seed", type=seed, default=0, metavar="N", help="another run of chance (0)"
+        "--seed",
+        type=parse_seed,
+        default=0,
+        metavar="N",
+        help="another run of chance (0)",
     )
     parser.add_argument("--json", action="store_true", help="report for machines")
     parser.add_argument(
@@ -418,7 +426,7 @@ def _add_study(action: argparse.ArgumentParser) -> None:
 
 def _add_players(action: argparse.ArgumentParser) -> None:
     action.add_argument(
-        "--workers", type=counted, metavar="N", help="processes (one for each core)"
+        "--workers", type=parse_count, metavar="N", help="processes (one for each core)"
     )
     action.add_argument(
         "--scheduler",

@@ -12,7 +12,7 @@ from rich.table import Table
 from kille.agent.agent import Agent
 from kille.agent.attention import View
 from kille.demo import Answer, Event, demonstration
-from kille.interfaces.showing import claims, explained
+from kille.interfaces.showing import claims, format_account
 from kille.interfaces.terminal import FINE, complain, console
 from kille.perception.picture_sheet import picture_sheet, write_picture
 
@@ -54,7 +54,7 @@ def _print_event(out: Console, event: Event) -> None:
         out.print(f"U> {event.turn.text}", style="bold", markup=False)
     for said in event.turn.said:
         out.print(f"S> {said.text}", style="bold cyan", markup=False)
-    for line in explained(claims(event.turn)):
+    for line in format_account(claims(event.turn)):
         out.print(line, style="dim", markup=False)
 
 

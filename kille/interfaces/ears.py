@@ -12,7 +12,7 @@ from kille.dialogue.language import understand
 from kille.dialogue.state import words
 from kille.interfaces.terminal import complain, console
 from kille.speech.expectations import LANGUAGES, expected_speech, speech
-from kille.speech.recognition import Perhaps, Recogniser
+from kille.speech.recognition import Hypothesis, Recogniser
 from kille.speech.sound import SoundError
 from kille.speech.utterances import from_file, from_microphone, from_pipe
 
@@ -28,10 +28,10 @@ _SURE = 0.9
 
 
 @dataclass(frozen=True)
-class Heard:
+class SpeechHypotheses:
     """The hypotheses about an utterance, the most probable first; none for a noise."""
 
-    perhaps: tuple[Perhaps, ...]
+    perhaps: tuple[Hypothesis, ...]
 
     @property
     def text(self) -> str:
@@ -39,7 +39,7 @@ class Heard:
         return self.perhaps[0].text if self.perhaps else "…"
 
 
-class Ears:
+class SpeechInput:
     """Ears for a conversation; a `SoundError` says in one line why they cannot hear.
 
     What they listen for follows what the robot knows: each word that it learns is
@@ -62,7 +62,7 @@ class Ears:
             ) from error
         self._expected: tuple[object, ...] | None = None
 
-    def lines(self, robot: Agent) -> Iterator[Heard | str]:
+    def lines(self, robot: Agent) -> Iterator[SpeechHypotheses | str]:
         """The tutor's utterances, one by one, and as text what they type."""
         if self._source == DEVICE:
             yield from self._after_enter(robot)
@@ -81,7 +81,7 @@ class Ears:
         yield first
         yield from waiting
 
-    def _after_enter(self, robot: Agent) -> Iterator[Heard | str]:
+    def _after_enter(self, robot: Agent) -> Iterator[SpeechHypotheses | str]:
         """What is typed or spoken; without a microphone one can still type."""
         while True:
             try:
@@ -93,15 +93,15 @@ class Ears:
             except SoundError as error:
                 complain(error)
 
-    def _recognise(self, robot: Agent, sound: bytes) -> Heard:
+    def _recognise(self, robot: Agent, sound: bytes) -> SpeechHypotheses:
         """Recognise a sound by the words that the robot knows at present."""
         known = tuple(words(robot.state))
         if known != self._expected:
             self._recogniser.expect(expected_speech(known, self._language))
             self._expected = known
         found = self._recogniser.hear(sound)
-        return Heard(
-            tuple(Perhaps(punctuate(it.text, self._language), it.p) for it in found)
+        return SpeechHypotheses(
+            tuple(Hypothesis(punctuate(it.text, self._language), it.p) for it in found)
         )
 
 
@@ -115,7 +115,9 @@ def punctuate(text: str, language: str = "en") -> str:
     return f"{text[:1].upper()}{text[1:]}{'?' if asks else '.'}"
 
 
-def answered(robot: Agent, heard: Sequence[Perhaps], language: str = "en") -> str:
+def answer_hypotheses(
+    robot: Agent, heard: Sequence[Hypothesis], language: str = "en"
+) -> str:
     """The robot's answer to what was perhaps said; it begs pardon for a noise.
 
     Several moves in one utterance are taken as the likeliest; of one move, all that it

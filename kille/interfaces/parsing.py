@@ -7,14 +7,14 @@ import math
 from contextlib import suppress
 
 
-def seed(text: str) -> int:
+def parse_seed(text: str) -> int:
     """Parse a seed."""
     if text.isascii() and text.isdigit():
         return int(text)
     raise argparse.ArgumentTypeError(f"{text} is no whole number from 0, such as 7")
 
 
-def counted(text: str) -> int:
+def parse_count(text: str) -> int:
     """Parse a number of things, at least one."""
     if text.isascii() and text.isdigit() and int(text):
         return int(text)

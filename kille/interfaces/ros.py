@@ -149,12 +149,12 @@ def launch(arguments: Sequence[str]) -> int:
 
 def _sensor(bus: Bus, setting: Setting, consent: Consent) -> Callable[[], None]:
     """Starts the sensor node; what ends it."""
-    from kille.nodes.sensor import Sensing
+    from kille.nodes.sensor import SensorNode
     from kille.sensors.sources import open_sensor
 
     rate = setting("rate")
     sensor = open_sensor(setting("sensor"))
-    sensing = Sensing(bus, sensor, rate=rate)
+    sensing = SensorNode(bus, sensor, rate=rate)
 
     def end() -> None:
         sensing.close()
@@ -165,17 +165,17 @@ def _sensor(bus: Bus, setting: Setting, consent: Consent) -> Callable[[], None]:
 
 def _perception(bus: Bus, setting: Setting, consent: Consent) -> Callable[[], None]:
     """Starts the perception node; what ends it."""
-    from kille.nodes.perception import Seeing
+    from kille.nodes.perception import PerceptionNode
 
-    return Seeing(bus, patience=setting("patience") / 2).close
+    return PerceptionNode(bus, patience=setting("patience") / 2).close
 
 
 def _dialogue(bus: Bus, setting: Setting, consent: Consent) -> Callable[[], None]:
     """Starts the dialogue node; what ends it."""
     from kille.agent.agent import Agent
     from kille.interfaces.theories import robot_of, theory_named
-    from kille.nodes.dialogue import Talking
-    from kille.nodes.remote_sensor import Eyes
+    from kille.nodes.dialogue import DialogueNode
+    from kille.nodes.remote_sensor import RemoteSensor
 
     patience = setting("patience")
     memory = memory_path(Path(setting("memory")) if setting("memory") else None)
@@ -186,7 +186,7 @@ def _dialogue(bus: Bus, setting: Setting, consent: Consent) -> Callable[[], None
     if named := setting("theory"):
         theory = theory_named(named, language, mode, wording, consent)
         make = partial(robot_of, theory)
-    return Talking(bus, lambda: make(Eyes(bus, patience), memory)).close
+    return DialogueNode(bus, lambda: make(RemoteSensor(bus, patience), memory)).close
 
 
 _STARTS = {"sensor": _sensor, "perception": _perception, "dialogue": _dialogue}

@@ -49,7 +49,7 @@ def derivation(turn: Exchange) -> Iterator[tuple[str, str]]:
     yield from _judged_and_said(turn)
 
 
-def explained(account: Iterable[tuple[str, str]]) -> Iterator[str]:
+def format_account(account: Iterable[tuple[str, str]]) -> Iterator[str]:
     """Format an account as lines, in a column beside the dialogue."""
     for kind, text in account:
         yield hanging_type(f"     {kind:>6}  ", text)

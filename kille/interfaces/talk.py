@@ -11,8 +11,8 @@ from pathlib import Path
 
 from kille.agent.agent import Agent
 from kille.dialogue.sources import plain
-from kille.interfaces.ears import Ears, Heard, answered
-from kille.interfaces.showing import Account, explained, things_in_view
+from kille.interfaces.ears import SpeechHypotheses, SpeechInput, answer_hypotheses
+from kille.interfaces.showing import Account, format_account, things_in_view
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
 from kille.perception.picture_sheet import overview, write_picture
@@ -65,7 +65,7 @@ def talk(
     try:
         _check_apart(hear, say)
         speaks = voice(say, plain(language))
-        ears = Ears(hear, language) if hear else None
+        ears = SpeechInput(hear, language) if hear else None
         robot = make(sensor, place, language=language, mode=mode, wording=wording)
     except (SensorError, MemoryFileError, SoundError) as error:
         return complain(error)
@@ -92,7 +92,7 @@ class _Conversation:
         self,
         robot: Agent,
         account: Account,
-        ears: Ears | None,
+        ears: SpeechInput | None,
         speak: Voice,
         language: str,
     ) -> None:
@@ -107,8 +107,10 @@ class _Conversation:
             self._welcome()
         self._answer("@ look")
         for line in self._lines():
-            if isinstance(line, Heard) or not sys.stdin.isatty():
-                self._print(f"U> {line.text if isinstance(line, Heard) else line}")
+            if isinstance(line, SpeechHypotheses) or not sys.stdin.isatty():
+                self._print(
+                    f"U> {line.text if isinstance(line, SpeechHypotheses) else line}"
+                )
             self._answer(line)
             if self._has_said("Part"):
                 return
@@ -122,7 +124,7 @@ class _Conversation:
             'Say "This is a cup." or "What is this?"; help says what else.'
         )
 
-    def _lines(self) -> Iterator[str | Heard]:
+    def _lines(self) -> Iterator[str | SpeechHypotheses]:
         """What the tutor says or types, without empty lines from a pipe."""
         if self._ears is not None:
             yield from self._ears.lines(self._robot)
@@ -137,7 +139,7 @@ class _Conversation:
             if line or self._typed:
                 yield line
 
-    def _answer(self, line: str | Heard) -> None:
+    def _answer(self, line: str | SpeechHypotheses) -> None:
         """Does what a line says; what goes wrong is one line, and the talk goes on."""
         try:
             answer = self._done(line)
@@ -148,10 +150,10 @@ class _Conversation:
             self._print(sentence if sentence.startswith(" ") else f"S> {sentence}")
             self._speak(sentence)
 
-    def _done(self, line: str | Heard) -> str:
-        if isinstance(line, Heard):
+    def _done(self, line: str | SpeechHypotheses) -> str:
+        if isinstance(line, SpeechHypotheses):
             return self._told(
-                lambda: answered(self._robot, line.perhaps, self._language)
+                lambda: answer_hypotheses(self._robot, line.perhaps, self._language)
             )
         if line.startswith("@"):
             return self._command(line[1:].strip())
@@ -164,7 +166,7 @@ class _Conversation:
         turns = len(self._robot.exchanges)
         answer = take()
         for turn in self._robot.exchanges[turns:]:
-            for text in explained(self._account(turn)):
+            for text in format_account(self._account(turn)):
                 self._print(text, style="dim")
         if self._has_said("GiveHelp"):
             answer += "".join(f"\n  {command}" for command in COMMANDS.splitlines())

@@ -23,11 +23,14 @@ from kille.nodes.topics import (
 )
 from kille.sensors.sensor import SensorError
 from ttr import RecordType, TTRError
+from ttr.aliases import former_names
 from ttr.judging import Judgement
 from ttr.types import TypeNode
 
+__getattr__ = former_names(__name__, {"Talking": "DialogueNode"})
 
-class Talking:
+
+class DialogueNode:
     """Lets a tutor and programs talk to a robot, one turn after the other.
 
     What is learned is on disk before it is said. After a farewell a new dialogue

@@ -16,12 +16,15 @@ from kille.perception.segment import region_of
 from kille.scene import Frame, Mask
 from kille.sensors.sensor import SensorError
 from kille.sensors.stream import Feed, Stream
+from ttr.aliases import former_names
+
+__getattr__ = former_names(__name__, {"Seeing": "PerceptionNode"})
 
 _KEPT = 4
 """So many frames of earlier looks are kept."""
 
 
-class Seeing:
+class PerceptionNode:
     """Answers requests for looks.
 
     A request may say how many `scans` to take, none for a frame alone; that only what

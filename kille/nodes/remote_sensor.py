@@ -11,11 +11,14 @@ from kille.nodes.topics import LOOKS, STAGE
 from kille.perception.look import Sighting
 from kille.scene import Frame, Look
 from kille.sensors.sensor import At, Beside, SensorError
+from ttr.aliases import former_names
+
+__getattr__ = former_names(__name__, {"Eyes": "RemoteSensor"})
 
 Seen = TypeVar("Seen", Frame, Look)
 
 
-class Eyes:
+class RemoteSensor:
     """A sensor, a stage, and one who looks, by asking the nodes that do it.
 
     SensorError if they do not answer within `patience` seconds, or cannot do it.

@@ -14,6 +14,9 @@ from kille.scene import Frame
 from kille.sensors.sensor import Sensor, SensorError, Stage
 from kille.sensors.stage import perform
 from kille.sensors.stream import Feed
+from ttr.aliases import former_names
+
+__getattr__ = former_names(__name__, {"Sensing": "SensorNode"})
 
 RATE = 30.0
 """Frames in a second: those of a Kinect."""
@@ -26,7 +29,7 @@ _AGAIN = 1.0
 """Seconds after which a sensor that failed is tried again."""
 
 
-class Sensing:
+class SensorNode:
     """Sends the frames of a sensor, and changes its scene when it is asked to.
 
     `now` gives nanoseconds. Who asks for a change is told from which moment on the

@@ -14,7 +14,7 @@ from xmlrpc.client import Error as XMLRPCError
 from xmlrpc.client import ServerProxy, Transport
 
 from kille.bus import BusError, Facts, Message, Publisher, Subscription, Topic
-from kille.bus.interface import Kinds, Taking
+from kille.bus.interface import SerialReceiver, TopicKinds
 from kille.ros.conversion import Form, form_of
 from kille.ros.modules import ros
 
@@ -59,7 +59,7 @@ class RosBus:
 
     def __init__(self) -> None:
         self._rospy: Any = ros("rospy")
-        self._kinds = Kinds()
+        self._kinds = TopicKinds()
         self._opened: list[_Sending[Any] | _Listening[Any]] = []
         self._ended = Event()
         self._rospy.on_shutdown(self._ended.set)
@@ -152,7 +152,7 @@ class _Listening(Generic[M]):
         self._form: Form = form_of(topic.kind)
         self._name, self._kind = topic.name, topic.kind
         self._rospy, self._open = rospy, True
-        self._take = Taking(topic, take)
+        self._take = SerialReceiver(topic, take)
         self._trouble = ""
         self._subscriber = _connect(
             rospy,

@@ -21,7 +21,7 @@ from kille.bus import (
     Subscription,
     Topic,
 )
-from kille.bus.interface import Kinds, Taking
+from kille.bus.interface import SerialReceiver, TopicKinds
 from kille.ros2.conversion import Form, form_of
 from kille.ros2.types import module, sample_type
 
@@ -62,7 +62,7 @@ class DdsBus:
 
     def __init__(self, participant: Any, node: str, names: Mapping[str, str]) -> None:
         self._participant, self.node, self._names = participant, node, names
-        self._kinds = Kinds()
+        self._kinds = TopicKinds()
         self._topics: dict[tuple[str, str], Any] = {}
         self._opened: list[_Sending[Any] | _Listening[Any]] = []
         self._ended = Event()
@@ -154,7 +154,7 @@ class _Listening(Generic[M]):
         self, reader: Any, topic: Topic[M], form: Form, take: Callable[[M], None]
     ) -> None:
         self._reader, self._topic, self._form = reader, topic, form
-        self._take = Taking(topic, take)
+        self._take = SerialReceiver(topic, take)
         self._trouble, self._closing = "", Event()
         name = f"taking /{topic.name}"
         self._thread = Thread(target=self._run, name=name, daemon=True)

@@ -52,7 +52,7 @@ class Speech:
 
 
 @dataclass(frozen=True)
-class Expected:
+class ExpectedSpeech:
     """All that may be said, how probable its words are, and which are the tutor's."""
 
     network: State
@@ -83,7 +83,7 @@ def speech(language: str = "en") -> Speech:
     )
 
 
-def expected_speech(words: Iterable[Record], language: str = "en") -> Expected:
+def expected_speech(words: Iterable[Record], language: str = "en") -> ExpectedSpeech:
     """What may be said to a robot that knows these words.
 
     >>> from kille.dialogue.meanings import sign
@@ -118,7 +118,7 @@ def expected_speech(words: Iterable[Record], language: str = "en") -> Expected:
     new = _words_of(language_.nouns) - _words_of(forms["noun"]) - plain
     learned = frozenset(set().union(*map(_words_of, slots.values())) - plain)
     weights = language_.weights
-    return Expected(
+    return ExpectedSpeech(
         fuse_words(restrict(network, _Neighbours(lexicon_, known)), CONTRACTED),
         dict.fromkeys(plain | learned, float(weights["usual"]))
         | dict.fromkeys(_clitics(plain), float(weights["attached"]))

@@ -19,10 +19,10 @@ _VOWELS = "aeiouy"
 
 
 @dataclass(frozen=True)
-class Pronouncing:
+class Pronouncer:
     """Ways to pronounce words of which the dictionary may know the parts.
 
-    >>> said = Pronouncing(
+    >>> said = Pronouncer(
     ...     dictionary={"hair": "HH EH R", "brush": "B R AH SH"}.get,
     ...     letters={"w": "W", "u": "AH", "g": "G", "d": "D", "a": "AE", "z": "Z"},
     ...     long={"a": "EY"},

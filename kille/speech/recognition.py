@@ -16,9 +16,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import islice
 from typing import Any, NamedTuple
 
-from kille.speech.expectations import Expected, Speech
+from kille.speech.expectations import ExpectedSpeech, Speech
 from kille.speech.grammar import in_full
-from kille.speech.pronunciation import Pronouncing
+from kille.speech.pronunciation import Pronouncer
 from kille.speech.sound import RATE
 from kille.speech.word_network import NOTHING, State, allows, reachable_states
 
@@ -58,7 +58,7 @@ _FAINT = 0.05
 """What is less probable is not reported."""
 
 
-class Perhaps(NamedTuple):
+class Hypothesis(NamedTuple):
     """A text that was perhaps said, and how probable that is."""
 
     text: str
@@ -77,7 +77,7 @@ class Recogniser:
         self._decoder = Decoder(**_SETTINGS)
         self._decoder.add_allphone_file(_SOUNDS, None)
         self._pronounced = speech.pronounced
-        self._pronouncing = Pronouncing(
+        self._pronouncing = Pronouncer(
             self._decoder.lookup_word, speech.letters, speech.long
         )
         self._network = NOTHING
@@ -89,7 +89,7 @@ class Recogniser:
         """How a word is expected to be pronounced."""
         return self._pronouncing.of(word)
 
-    def expect(self, what: Expected) -> None:
+    def expect(self, what: ExpectedSpeech) -> None:
         """Listen for this from now on. New words are pronounced as is guessed."""
         for word in sorted(what.learned):
             if self._decoder.lookup_word(self._entry_name(word)) is None:
@@ -99,7 +99,7 @@ class Recogniser:
         grammar = self._decoder.create_fsg(_WORDS, 0, 1, arcs)
         self._decoder.add_fsg(_WORDS, grammar)
 
-    def hear(self, sound: bytes) -> tuple[Perhaps, ...]:
+    def hear(self, sound: bytes) -> tuple[Hypothesis, ...]:
         """What was perhaps said in a sound (16 kHz, 16 bits), the likeliest first.
 
         What is missing to 1 is that it was something else, or nothing at all.
@@ -178,7 +178,7 @@ def _nats(score: float) -> float:
 
 def _probabilities(
     ways: Iterable[tuple[str, float]], other: float
-) -> tuple[Perhaps, ...]:
+) -> tuple[Hypothesis, ...]:
     """Scores as probabilities: of each text the best way; contractions as the rest."""
     best: dict[str, float] = {}
     for text, nats in ways:
@@ -191,7 +191,7 @@ def _probabilities(
         whole += share
         alike.setdefault(in_full(text.split()), []).append((share, text))
     found = (
-        Perhaps(join_clitics(max(them)[1]), sum(share for share, _ in them) / whole)
+        Hypothesis(join_clitics(max(them)[1]), sum(share for share, _ in them) / whole)
         for them in alike.values()
     )
     return tuple(

@@ -22,6 +22,10 @@ RENAMED = [
     ("kille.dialogue.reference", "fitting", "fitting_readings"),
     ("kille.dialogue.strategies", "expected", "expected_value"),
     ("kille.dialogue.tutoring", "heard", "hear_sentences"),
+    ("kille.nodes.dialogue", "Talking", "DialogueNode"),
+    ("kille.nodes.perception", "Seeing", "PerceptionNode"),
+    ("kille.nodes.remote_sensor", "Eyes", "RemoteSensor"),
+    ("kille.nodes.sensor", "Sensing", "SensorNode"),
 ]
 
 

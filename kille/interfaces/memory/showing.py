@@ -45,14 +45,14 @@ _NAME = 50  # characters of a word in the name of a file
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownLesson:
     """A lesson to show, and where its pictures were written."""
 
     lesson: ObjectLesson | RelationLesson
     files: Mapping[str, Path]
 
 
-Report = Callable[[Iterable[Shown]], None]
+Report = Callable[[Iterable[ShownLesson]], None]
 """Shows lessons."""
 
 
@@ -71,12 +71,12 @@ def show(given: Path | None, named: str, out: Path | None, report: Report) -> in
     return FINE
 
 
-def as_json(shown: Iterable[Shown]) -> None:
+def as_json(shown: Iterable[ShownLesson]) -> None:
     """The lessons as a list of objects, for machines."""
     print_json([_facts(it) for it in shown])
 
 
-def as_text(shown: Iterable[Shown]) -> None:
+def as_text(shown: Iterable[ShownLesson]) -> None:
     """The lessons for people, with a picture where the terminal can show one."""
     out = console()
     for number, it in enumerate(shown):
@@ -85,7 +85,7 @@ def as_text(shown: Iterable[Shown]) -> None:
         _tell(out, it)
 
 
-def _tell(out: Console, shown: Shown) -> None:
+def _tell(out: Console, shown: ShownLesson) -> None:
     out.print(title(shown.lesson), style="bold", markup=False)
     for line in _lines(shown):
         out.print(hang_text("  ", line), markup=False)
@@ -94,7 +94,7 @@ def _tell(out: Console, shown: Shown) -> None:
         _draw(out, picture)
 
 
-def _lines(shown: Shown) -> Iterator[str]:
+def _lines(shown: ShownLesson) -> Iterator[str]:
     yield describe_turn(shown.lesson.turn)
     yield ", ".join(describe_sight(shown.lesson))
     if looked := looks(shown.lesson):
@@ -130,11 +130,13 @@ class _Unwritable(Exception):
     """Pictures that cannot be written where the user wants them."""
 
 
-def _write_lesson(lesson: ObjectLesson | RelationLesson, out: Path | None) -> Shown:
+def _write_lesson(
+    lesson: ObjectLesson | RelationLesson, out: Path | None
+) -> ShownLesson:
     """Write the pictures of a lesson into the folder; returns the lesson to show."""
     picture = lesson.seen.picture
     if out is None or picture is None:
-        return Shown(lesson, {})
+        return ShownLesson(lesson, {})
     name = re.sub(r"[^\w-]", "_", lesson.word.name)[:_NAME]
     files: dict[str, Path] = {}
     try:
@@ -148,7 +150,7 @@ def _write_lesson(lesson: ObjectLesson | RelationLesson, out: Path | None) -> Sh
             f"the pictures cannot be written to {out} ({error.strerror}): "
             "name another folder with --out"
         ) from error
-    return Shown(lesson, files)
+    return ShownLesson(lesson, files)
 
 
 def _pictures(picture: Picture) -> Mapping[str, tuple[str, bytes]]:
@@ -166,7 +168,7 @@ def _pictures(picture: Picture) -> Mapping[str, tuple[str, bytes]]:
 # --- facts for machines --------------------------------------------------------------
 
 
-def _facts(shown: Shown) -> dict[str, Any]:
+def _facts(shown: ShownLesson) -> dict[str, Any]:
     lesson = shown.lesson
     facts = {
         "lesson": lesson.key,

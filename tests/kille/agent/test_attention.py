@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kille.agent.attention import Gaze, View
+from kille.agent.attention import AttentiveSensor, View
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
 
@@ -20,9 +20,9 @@ NEAR, MIDDLE, FAR = Card(0.15, 0.7), Card(-0.15, 0.8), Card(0.02, 1.0)
 NEW = Card(0.0, 0.62, width=0.06, height=0.06)
 
 
-def gaze_at(*scenes: tuple[Card, ...]) -> Gaze:
+def gaze_at(*scenes: tuple[Card, ...]) -> AttentiveSensor:
     """A gaze at a table on which things come and go from look to look."""
-    return Gaze(Camera(*(frame_of(*cards) for cards in scenes)), scans=1)
+    return AttentiveSensor(Camera(*(frame_of(*cards) for cards in scenes)), scans=1)
 
 
 def numbers(view: View, frame: Frame) -> list[int]:
@@ -64,7 +64,9 @@ def test_later_things_move_up_when_one_goes() -> None:
 
 def test_the_focus_stays_where_it_was_while_the_same_things_are_in_view() -> None:
     level = Card(0.15, 0.8), Card(-0.15, 0.8)
-    gaze = Gaze(Camera(*(frame_of(*level, noise=0.004, seed=i) for i in range(6))), 1)
+    gaze = AttentiveSensor(
+        Camera(*(frame_of(*level, noise=0.004, seed=i) for i in range(6))), 1
+    )
     views = [gaze.look() for _ in range(6)]
     assert {view.focus for view in views} == {views[0].focus}
     assert all(numbers(it, it.look.frame) == [1, 2] for it in views) or all(

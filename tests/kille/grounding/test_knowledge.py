@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kille.agent.attention import Gaze
-from kille.grounding.knowledge import Evidence, Knowledge
-from kille.grounding.witness_functions import Witnesses, thing
+from kille.agent.attention import AttentiveSensor
+from kille.grounding.knowledge import Knowledge, LessonSource
+from kille.grounding.witness_functions import WitnessFunctions, thing_name
 from kille.memory import Memory, NoSuchLessonError, Turn
 from kille.memory.lessons import Kind
 from kille.perception.look import look
@@ -35,7 +35,7 @@ def percepts(seed: int) -> dict[str, Percept]:
 
 def seen_together() -> Look:
     """A cup, a book and a car."""
-    gaze = Gaze("synthetic:empty?seed=4", scans=2)
+    gaze = AttentiveSensor("synthetic:empty?seed=4", scans=2)
     gaze.change("show cup")
     gaze.change("place book at -0.25 0.1")
     gaze.change("place car at 0.25 0.05")
@@ -68,10 +68,10 @@ class Tutor:
         self.dialogue = knowledge.memory.begin_dialogue("now")
         self.said = 0
 
-    def evidence(self) -> Evidence:
+    def evidence(self) -> LessonSource:
         self.said += 1
         turn = Turn(self.dialogue, self.said, "tutor", f"sentence {self.said}", "", "")
-        return Evidence(turn, "synthetic", 0.0)
+        return LessonSource(turn, "synthetic", 0.0)
 
     def teach(self, lesson: Lesson) -> int:
         kind, word, number, holds = lesson
@@ -91,9 +91,9 @@ class Tutor:
 
 def degrees_of(knowledge: Knowledge) -> list[float]:
     """All that is judged of all that is seen: the bounds of each degree."""
-    witnesses = Witnesses.of(knowledge)
+    witnesses = WitnessFunctions.of(knowledge)
     witnesses.remember("look1", LOOK)
-    names = [thing(number) for number in (1, 2, 3)]
+    names = [thing_name(number) for number in (1, 2, 3)]
     of_one = {"object": witnesses.noun, "attribute": witnesses.attribute}
     found = [
         of(word, x, "look1")
@@ -136,7 +136,7 @@ def test_a_robot_that_starts_again_judges_as_it_did(tmp_path: Path) -> None:
         knowledge, dialogue = Knowledge(memory), memory.begin_dialogue("now")
         for number, (word, percept) in enumerate(percepts(1).items()):
             turn = Turn(dialogue, number, "tutor", word, "", "now")
-            evidence = Evidence(turn, "synthetic", 0.0)
+            evidence = LessonSource(turn, "synthetic", 0.0)
             knowledge.learn_noun(word, word, percept, evidence)
         before = [knowledge.objects.predict_proba_one(it) for it in asked.values()]
     with Memory.open(path) as memory:
@@ -180,7 +180,7 @@ def test_what_was_denied_is_weaker_there(
     tutor = Tutor(known)
     tutor.teach((kind, word, 0, True))
     tutor.teach((kind, word, 1, True))
-    witnesses = Witnesses.of(known)
+    witnesses = WitnessFunctions.of(known)
     witnesses.remember("look1", LOOK)
 
     def degree() -> float:

@@ -8,10 +8,10 @@ from functools import partial
 
 import pytest
 
-from kille.agent.attention import Gaze
+from kille.agent.attention import AttentiveSensor
 from kille.dialogue.meanings import noun, relation, theory
 from kille.dialogue.state import blank_model
-from kille.grounding.witness_functions import UNKNOWN, Witnesses, thing
+from kille.grounding.witness_functions import UNKNOWN, WitnessFunctions, thing_name
 from kille.perception.attributes import AttributeMemory
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
@@ -22,7 +22,7 @@ from ttr import Model, Theory, record
 @pytest.fixture(scope="module")
 def seen() -> Look:
     """A book and a car, nearest first."""
-    gaze = Gaze("synthetic:empty?seed=5", scans=2)
+    gaze = AttentiveSensor("synthetic:empty?seed=5", scans=2)
     gaze.change("show car")
     gaze.change("place book at -0.28 0.1")
     return gaze.look().look
@@ -37,27 +37,27 @@ def objects(seen: Look) -> ObjectMemory:
 
 
 @pytest.fixture
-def witnesses(seen: Look, objects: ObjectMemory) -> Witnesses:
+def witnesses(seen: Look, objects: ObjectMemory) -> WitnessFunctions:
     relations = RelationMemory()
     relations.learn_one(Configuration((-0.2, 0.1, 0.0)), "to_the_left_of", key=1)
     relations.learn_one(Configuration((0.2, 0.1, 0.0)), "to_the_right_of", key=2)
-    made = Witnesses(objects, relations)
+    made = WitnessFunctions(objects, relations)
     made.remember("look1", seen)
     return made
 
 
 def test_a_degree_is_what_the_learner_says(
-    witnesses: Witnesses, objects: ObjectMemory, seen: Look
+    witnesses: WitnessFunctions, objects: ObjectMemory, seen: Look
 ) -> None:
     for number, percept in enumerate(seen.percepts, start=1):
         for word, p in objects.predict_proba_one(percept).items():
-            assert witnesses.noun(word, thing(number), "look1") == pytest.approx(p)
+            assert witnesses.noun(word, thing_name(number), "look1") == pytest.approx(p)
     assert witnesses.noun("unicorn", "o1", "look1") == 0.0
 
 
 @pytest.mark.parametrize(("x", "look"), [("o3", "look1"), ("o1", "look9")])
 def test_what_is_not_in_a_remembered_look_is_unknown(
-    witnesses: Witnesses, x: str, look: str
+    witnesses: WitnessFunctions, x: str, look: str
 ) -> None:
     assert witnesses.percept(x, look) is None
     assert witnesses.configuration(x, "o2", look) is None
@@ -66,9 +66,9 @@ def test_what_is_not_in_a_remembered_look_is_unknown(
 
 
 def test_colour_words_are_judged_of_what_is_seen() -> None:
-    gaze = Gaze("synthetic:empty?seed=5", scans=1)
+    gaze = AttentiveSensor("synthetic:empty?seed=5", scans=1)
     gaze.change("show banana")
-    made = Witnesses(ObjectMemory(), RelationMemory())
+    made = WitnessFunctions(ObjectMemory(), RelationMemory())
     made.remember("look1", gaze.look().look)
     theory = Theory.parse("basic Ind, Look\npred yellow(Ind, Look), blue(Ind, Look)")
     model = Model(theory).given("look1", theory.Look).given("o1", theory.Ind)
@@ -86,7 +86,7 @@ def test_colour_words_are_judged_of_what_is_seen() -> None:
 
 
 def test_without_depth_a_place_is_unknown_but_a_name_is_not(
-    witnesses: Witnesses, seen: Look
+    witnesses: WitnessFunctions, seen: Look
 ) -> None:
     flat = [
         replace(it, region=replace(it.region, place=None), scans=it.scans[:1])
@@ -105,7 +105,7 @@ def test_without_depth_a_place_is_unknown_but_a_name_is_not(
 
 
 def test_configurations_are_right_away_and_up_and_turn_around(
-    witnesses: Witnesses,
+    witnesses: WitnessFunctions,
 ) -> None:
     there = witnesses.configuration("o2", "o1", "look1")
     back = witnesses.configuration("o1", "o2", "look1")
@@ -117,7 +117,7 @@ def test_configurations_are_right_away_and_up_and_turn_around(
 
 
 def test_old_looks_are_let_go_but_for_those_still_needed(
-    witnesses: Witnesses, seen: Look
+    witnesses: WitnessFunctions, seen: Look
 ) -> None:
     for number in range(2, 20):
         witnesses.remember(f"look{number}", seen, {"look1"})
@@ -129,7 +129,7 @@ def test_old_looks_are_let_go_but_for_those_still_needed(
 
 
 def test_after_a_lesson_it_is_judged_anew(
-    witnesses: Witnesses, objects: ObjectMemory, seen: Look
+    witnesses: WitnessFunctions, objects: ObjectMemory, seen: Look
 ) -> None:
     before = witnesses.noun("car", "o2", "look1")
     objects.learn_one(seen.percepts[1], "car", key=3)
@@ -141,7 +141,7 @@ def test_after_a_lesson_it_is_judged_anew(
     assert after > before
 
 
-def test_the_theory_asks_them_when_it_perceives(witnesses: Witnesses) -> None:
+def test_the_theory_asks_them_when_it_perceives(witnesses: WitnessFunctions) -> None:
     car, left = noun("car"), relation("to the left of")
     model = witnesses.in_model(blank_model(), [car, left])
     model = model.given("look1", theory()["Look"])
@@ -161,7 +161,9 @@ def test_the_theory_asks_them_when_it_perceives(witnesses: Witnesses) -> None:
     assert placed.p.lo > 0.5
 
 
-def test_what_cannot_be_seen_is_undecided_in_the_theory(witnesses: Witnesses) -> None:
+def test_what_cannot_be_seen_is_undecided_in_the_theory(
+    witnesses: WitnessFunctions,
+) -> None:
     car = noun("car")
     model = witnesses.in_model(blank_model(), [car])
     model = model.given("look9", theory()["Look"]).given("o1", theory()["Ind"])
@@ -174,7 +176,7 @@ def test_what_cannot_be_seen_is_undecided_in_the_theory(witnesses: Witnesses) ->
 
 def test_attributes_are_colours_or_what_was_taught(seen: Look) -> None:
     attributes = AttributeMemory()
-    made = Witnesses(ObjectMemory(), RelationMemory(), attributes=attributes)
+    made = WitnessFunctions(ObjectMemory(), RelationMemory(), attributes=attributes)
     made.remember("look1", seen)
     assert made.attribute("is_red", "o1", "look1") == made.colour("red", "o1", "look1")
     light_blue = made.colour("light blue", "o2", "look1")
@@ -190,7 +192,7 @@ def test_attributes_are_colours_or_what_was_taught(seen: Look) -> None:
 def test_a_word_that_was_only_denied_is_open_elsewhere(seen: Look) -> None:
     attributes = AttributeMemory()
     attributes.deny_one(seen.percepts[0].traits, "is_big")
-    made = Witnesses(ObjectMemory(), RelationMemory(), attributes=attributes)
+    made = WitnessFunctions(ObjectMemory(), RelationMemory(), attributes=attributes)
     made.remember("look1", seen)
     low, high = made.attribute("is_big", "o1", "look1")
     assert (low, high < 0.05) == (0.0, True)
@@ -201,7 +203,7 @@ def test_a_word_that_was_only_denied_is_open_elsewhere(seen: Look) -> None:
 # --- perspectives ---------------------------------------------------------------------
 
 
-def test_relations_are_judged_in_a_perspective(witnesses: Witnesses) -> None:
+def test_relations_are_judged_in_a_perspective(witnesses: WitnessFunctions) -> None:
     left = witnesses.relation("to_the_left_of", "o2", "o1", "look1")
     opposite = witnesses.relation("to_the_left_of", "o2", "o1", "look1", "towards")
     assert left > 0.5 > opposite
@@ -215,7 +217,7 @@ def test_relations_are_judged_in_a_perspective(witnesses: Witnesses) -> None:
     assert witnesses.configuration("o1", "o1", "look1") is None
 
 
-def test_how_far_to_the_right_a_thing_is_seen(witnesses: Witnesses) -> None:
+def test_how_far_to_the_right_a_thing_is_seen(witnesses: WitnessFunctions) -> None:
     car, book = (witnesses.across(x, "look1") for x in ("o1", "o2"))
     assert 0 < book < car < 1
     assert witnesses.across("o3", "look1") == UNKNOWN
@@ -233,13 +235,13 @@ def moved(percept: Percept, right: float) -> Percept:
 
 
 def test_what_was_judged_of_ten_things_is_found_at_once(
-    witnesses: Witnesses, seen: Look
+    witnesses: WitnessFunctions, seen: Look
 ) -> None:
     """A noun and an adjective of ten things, a relation of ninety pairs: looked up."""
     ten = [moved(it, 0.1 * step) for step in range(5) for it in seen.percepts]
     witnesses.remember("look2", replace(seen, percepts=tuple(ten)))
     witnesses.prepare("look2")
-    things = [thing(number) for number in range(1, 11)]
+    things = [thing_name(number) for number in range(1, 11)]
     taken = []
     for _ in range(5):
         start = time.thread_time()

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille import Agent
-from kille.agent.attention import Gaze
+from kille.agent.attention import AttentiveSensor
 from kille.interfaces.showing import claims, derivation, show_nothing, things_in_view
 from kille.interfaces.terminal import hang_text, hanging_type
 
@@ -68,7 +68,7 @@ def test_a_derivation_names_each_rule_that_ran() -> None:
 
 
 def test_things_in_view_have_numbers_and_places() -> None:
-    gaze = Gaze("synthetic:empty?seed=3", scans=1)
+    gaze = AttentiveSensor("synthetic:empty?seed=3", scans=1)
     assert things_in_view(gaze.look()) == "Nothing is in view."
     gaze.change("place car at 0 -0.15")
     gaze.change("place book at -0.25 0.12")

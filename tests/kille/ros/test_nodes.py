@@ -17,11 +17,11 @@ from hypothesis.extra import numpy as arrays
 from kille import Agent, Memory
 from kille.bus import Asking, Bundle, Bus, BusError, Facts, LocalBus, Text, serve
 from kille.bus.packing import pack, unpack
-from kille.nodes.dialogue import Talking
+from kille.nodes.dialogue import DialogueNode
 from kille.nodes.look_messages import bundle_of, look_in, mask_in, runs_of
-from kille.nodes.perception import Seeing
-from kille.nodes.remote_sensor import Eyes
-from kille.nodes.sensor import Sensing
+from kille.nodes.perception import PerceptionNode
+from kille.nodes.remote_sensor import RemoteSensor
+from kille.nodes.sensor import SensorNode
 from kille.nodes.topics import (
     CALLS,
     FRAMES,
@@ -48,10 +48,12 @@ class Robot:
     def __init__(self, bus: Bus, memory: Path | None = None) -> None:
         self.bus, self._running = bus, ExitStack()
         self._sensor = open_sensor(SCENE)
-        self.sensing = self._run(Sensing(bus, self._sensor, rate=12))
-        self.seeing = self._run(Seeing(bus))
-        eyes = Eyes(bus, WAIT)
-        self.talking = self._run(Talking(bus, lambda: Agent(eyes, memory, scans=1)))
+        self.sensing = self._run(SensorNode(bus, self._sensor, rate=12))
+        self.seeing = self._run(PerceptionNode(bus))
+        eyes = RemoteSensor(bus, WAIT)
+        self.talking = self._run(
+            DialogueNode(bus, lambda: Agent(eyes, memory, scans=1))
+        )
 
     def _run(self, node: Any) -> Any:
         self._running.callback(node.close)
@@ -222,12 +224,12 @@ def test_without_perception_the_state_stays_and_the_talk_goes_on(
 ) -> None:
     bus = LocalBus()
     sensor = open_sensor(SCENE)
-    sensing = Sensing(bus, sensor)
-    eyes = Eyes(bus, 0.5)
-    talking = Talking(bus, lambda: Agent(eyes, tmp_path / "m.db", scans=1))
+    sensing = SensorNode(bus, sensor)
+    eyes = RemoteSensor(bus, 0.5)
+    talking = DialogueNode(bus, lambda: Agent(eyes, tmp_path / "m.db", scans=1))
     tutor = Tutor(bus, heard)
     assert "is `kille ros perception` running?" in tutor.cannot("What is this?")
-    seeing = Seeing(bus, patience=WAIT)
+    seeing = PerceptionNode(bus, patience=WAIT)
     # On a busy machine a look may take longer than there is patience for.
     eventually(lambda: asked_for_a_name(bus))
     seeing.close()
@@ -247,7 +249,7 @@ def asked_for_a_name(bus: Bus) -> bool:
 
 def test_without_a_sensor_perception_says_so(heard: Any) -> None:
     bus = LocalBus()
-    seeing = Seeing(bus, patience=0.2)
+    seeing = PerceptionNode(bus, patience=0.2)
     with pytest.raises(BusError, match="no picture came on camera/rgb/image_color"):
         Asking(bus, LOOKS, WAIT).request({"scans": 1})
     seeing.close()
@@ -287,7 +289,7 @@ class Failing:
 def test_a_sensor_that_fails_is_told_once_and_tried_again(heard: Any) -> None:
     bus, sensor = LocalBus(), Failing()
     problems = heard(bus, PROBLEMS)
-    sensing, seeing = Sensing(bus, sensor), Seeing(bus)
+    sensing, seeing = SensorNode(bus, sensor), PerceptionNode(bus)
     asking = Asking(bus, LOOKS, WAIT)
     assert asking.request({"scans": 1}).facts["things"] == []
     sensor.broken = True
@@ -301,10 +303,10 @@ def test_a_sensor_that_fails_is_told_once_and_tried_again(heard: Any) -> None:
 
 def test_a_sensor_is_read_only_while_somebody_listens() -> None:
     bus, sensor = LocalBus(), Failing()
-    sensing = Sensing(bus, sensor)
+    sensing = SensorNode(bus, sensor)
     threading.Event().wait(0.2)
     assert sensor.read == 0
-    seeing = Seeing(bus)
+    seeing = PerceptionNode(bus)
     assert Asking(bus, LOOKS, WAIT).request({"scans": 1}).facts["things"] == []
     assert sensor.read > 0
     for it in (seeing, sensing, sensor, bus):
@@ -313,7 +315,7 @@ def test_a_sensor_is_read_only_while_somebody_listens() -> None:
 
 def test_depth_alone_may_be_listened_to(heard: Any) -> None:
     bus, sensor = LocalBus(), Failing()
-    sensing = Sensing(bus, sensor)
+    sensing = SensorNode(bus, sensor)
     assert FRAMES.depth is not None
     assert heard(bus, FRAMES.depth).next().pixels.dtype == np.float32
     for it in (sensing, sensor, bus):
@@ -335,7 +337,7 @@ def test_a_fault_of_a_sensor_is_told_and_it_is_tried_again(
     bus, sensor = LocalBus(), Odd()
     sensor.broken = True
     problems, pictures = heard(bus, PROBLEMS), heard(bus, FRAMES.colour)
-    sensing = Sensing(bus, sensor)
+    sensing = SensorNode(bus, sensor)
     assert problems.next().text == (
         "a loose cable failed, by a fault of its own; the log of its node says why"
     )
@@ -366,7 +368,7 @@ class Slow:
 
 def test_who_is_told_to_end_in_a_turn_ends_the_turn(heard: Any) -> None:
     bus, eyes = LocalBus(), Slow()
-    talking = Talking(bus, lambda: Agent(eyes, scans=1))
+    talking = DialogueNode(bus, lambda: Agent(eyes, scans=1))
     output = heard(bus, SYSTEM_OUTPUT)
     bus.publisher(USER_INPUT).publish(Text("What is this?"))
     assert eyes.looking.wait(WAIT)
@@ -393,7 +395,7 @@ def test_a_look_that_is_none_is_one_line() -> None:
     bus = LocalBus()
     serving = serve(bus, LOOKS, lambda asked: Bundle({"lens": None, "time": 0.0}))
     with pytest.raises(SensorError, match="what came on kille/results is no look"):
-        Eyes(bus, WAIT).look(1, None)
+        RemoteSensor(bus, WAIT).look(1, None)
     serving.close()
     bus.close()
 

@@ -10,7 +10,7 @@ import pytest
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import sign
-from kille.speech.expectations import Expected, expected_speech, speech
+from kille.speech.expectations import ExpectedSpeech, expected_speech, speech
 from kille.speech.grammar import split_words
 from kille.speech.recognition import join_clitics
 from kille.speech.word_network import State, allows, reachable_states
@@ -24,7 +24,7 @@ KNOWN = [
 
 
 @pytest.fixture(scope="module")
-def what() -> Expected:
+def what() -> ExpectedSpeech:
     return expected_speech(KNOWN)
 
 
@@ -44,7 +44,7 @@ def what() -> Expected:
         "Okay, what do you see, please?",
     ],
 )
-def test_what_a_tutor_says_is_expected(what: Expected, text: str) -> None:
+def test_what_a_tutor_says_is_expected(what: ExpectedSpeech, text: str) -> None:
     assert allows(what.network, split_words(text))
 
 
@@ -52,17 +52,17 @@ def test_what_a_tutor_says_is_expected(what: Expected, text: str) -> None:
     "text",
     ["This is a apple.", "This is an cup.", "Where is the lamp?", "This is a.", "Is."],
 )
-def test_what_nobody_says_is_not(what: Expected, text: str) -> None:
+def test_what_nobody_says_is_not(what: ExpectedSpeech, text: str) -> None:
     assert not allows(what.network, split_words(text))
 
 
-def test_every_word_has_a_weight(what: Expected) -> None:
+def test_every_word_has_a_weight(what: ExpectedSpeech) -> None:
     said = {word for place in reachable_states(what.network) for word, _ in place.after}
     assert said <= set(what.weights)
     assert all(0 < what.weights[it] <= 1 for it in said)
 
 
-def test_what_is_expected_is_understood(what: Expected) -> None:
+def test_what_is_expected_is_understood(what: ExpectedSpeech) -> None:
     texts = list(islice(_drawn(what.network, Random(3)), 150))
     assert [it for it in texts if not _understood(it)] == []
 

@@ -14,7 +14,7 @@ from select import select
 import pytest
 
 from kille.interfaces.cli import main
-from kille.interfaces.ears import Ears, punctuate
+from kille.interfaces.ears import SpeechInput, punctuate
 from kille.speech.sound import RATE, Sound, SoundError, WavFile, read_wav
 
 Lesson = Callable[..., bytes]
@@ -200,4 +200,4 @@ def test_what_is_heard_is_written_as_a_sentence() -> None:
 
 def test_ears_hear_only_what_there_is_a_model_for() -> None:
     with pytest.raises(SoundError, match="only English"):
-        Ears("device", "sv")
+        SpeechInput("device", "sv")
