@@ -29,9 +29,9 @@ from kille.dialogue.meanings import word_of
 from kille.dialogue.phrases import phrase
 from kille.scene import Frame, Percept
 from kille.sensors.synthetic import catalogue
-from kille.sensors.synthetic.camera import Camera
+from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import FAULTS, degrade_colour, degrade_depth
-from kille.sensors.synthetic.render import Body, Image, Pose, render_scene
+from kille.sensors.synthetic.render import Pose, PosedToy, RenderedScene, render_scene
 from kille.sensors.synthetic.specimens import specimen
 from ttr import replace
 from ttr.updates import Run
@@ -51,7 +51,7 @@ PLACES = {
 }
 """Where the target of a relation is taught to be, in metres from its landmark."""
 
-Bodies = Mapping[str, Body]
+Bodies = Mapping[str, PosedToy]
 
 
 class Table:
@@ -60,11 +60,11 @@ class Table:
     name = "table"
 
     def __init__(self) -> None:
-        self._camera, self._frames = Camera(), 0
+        self._camera, self._frames = SimulatedCamera(), 0
         self.put({})
 
     def put(self, bodies: Bodies) -> None:
-        self._image: Image = render_scene(self._camera, bodies)
+        self._image: RenderedScene = render_scene(self._camera, bodies)
 
     def frame(self) -> Frame:
         self._frames += 1
@@ -87,7 +87,7 @@ class Table:
 def scene(size: int, seed: int) -> Bodies:
     """So many things, some of them two of a kind, apart from one another."""
     rng = np.random.default_rng([size, seed])
-    every = [f"{kind} {n}" for kind in catalogue.NAMES for n in range(SPECIMENS)]
+    every = [f"{kind} {n}" for kind in catalogue.TOY_NAMES for n in range(SPECIMENS)]
     names = [str(name) for name in rng.permutation(every)[:size]]
     if size > 2:
         twin = names[0].rsplit(" ", 1)
@@ -103,15 +103,15 @@ def scene(size: int, seed: int) -> Bodies:
     }
 
 
-def body(name: str, pose: Pose) -> Body:
+def body(name: str, pose: Pose) -> PosedToy:
     kind, number = name.rsplit(" ", 1)
-    return Body(specimen(kind, int(number)), pose)
+    return PosedToy(specimen(kind, int(number)), pose)
 
 
 def taught(table: Table) -> Agent:
     """A robot that was taught the things and the relations."""
     robot = Agent(sensor=table, scans=SCANS)
-    for kind in catalogue.NAMES:
+    for kind in catalogue.TOY_NAMES:
         for number in range(SPECIMENS):
             for x, turn in ((-0.1, -20.0), (0.1, 15.0)):
                 table.put({kind: body(f"{kind} {number}", Pose(x, 0.0, turn))})

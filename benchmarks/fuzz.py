@@ -563,7 +563,7 @@ def _package(folder: Path) -> Reader:
         for thing in ("cup", "book"):
             robot.do(f"show {thing}")
             robot.hear(f"This is a {thing}.")
-    with Memory.reading(file) as memory:
+    with Memory.open_to_read(file) as memory:
         export(memory, made)
 
     def read(path: Path) -> None:

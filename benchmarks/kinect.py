@@ -31,7 +31,7 @@ import kille.sensors.kinect.developing as developing  # noqa: E402
 from kille.sensors.kinect import open_kinect  # noqa: E402
 from kille.sensors.kinect.bayer import colour_of  # noqa: E402
 from kille.sensors.kinect.calibration import Calibration  # noqa: E402
-from kille.sensors.kinect.capture import Capture, frame_of  # noqa: E402
+from kille.sensors.kinect.capture import KinectCapture, frame_of  # noqa: E402
 from kille.sensors.kinect.packets import Assembler  # noqa: E402
 from kille.sensors.kinect.pump import IsoStream  # noqa: E402
 from kille.sensors.kinect.registration import register_depth  # noqa: E402
@@ -79,7 +79,7 @@ def register(_: int) -> Task:
 
 def make_frame(_: int) -> Task:
     mosaic = np.random.default_rng(0).integers(0, 256, (480, 640)).astype(np.uint8)
-    capture = Capture(0.0, colour_of(mosaic), scene(), 0, 0)
+    capture = KinectCapture(0.0, colour_of(mosaic), scene(), 0, 0)
     calibration = Calibration.typical()
     return lambda: (colour_of(mosaic), frame_of(capture, calibration))
 

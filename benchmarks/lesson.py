@@ -40,9 +40,9 @@ from typing import Any
 import numpy as np
 
 from kille import Agent
-from kille.demo import OBJECTS
 from kille.dialogue.lexicon import lexicon
 from kille.sensors.sensor import SensorError
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 ROOT = Path(__file__).resolve().parent.parent
 DATA = Path(os.environ.get("KILLE_DATA") or ROOT.parent / "shared" / "data")
@@ -64,20 +64,20 @@ Row = Mapping[str, Any]
 
 def objects() -> list[Row]:
     """Ten objects, four rounds: right by mean score, and how far ahead."""
-    scores = {asked: dict.fromkeys(OBJECTS, 0.0) for asked in OBJECTS}
-    sentences = dict.fromkeys(OBJECTS, 0)
+    scores = {asked: dict.fromkeys(TOY_NAMES, 0.0) for asked in TOY_NAMES}
+    sentences = dict.fromkeys(TOY_NAMES, 0)
     with Agent("synthetic:empty?seed=7") as robot:
         for _ in range(ROUNDS):
-            for word in OBJECTS:
+            for word in TOY_NAMES:
                 robot.do(f"show {word}")
                 robot.hear(f"This is {lexicon().with_article(word)}.")
-            for word in OBJECTS:
+            for word in TOY_NAMES:
                 robot.do(f"show {word}")
                 said = robot.hear("What is this?")
                 sentences[word] += said == f"This is {lexicon().with_article(word)}."
                 for belief in robot.state.private.beliefs:
                     scores[word][belief.sign.form] += belief.p / ROUNDS
-    rows = [_object_row(word, scores[word], sentences[word]) for word in OBJECTS]
+    rows = [_object_row(word, scores[word], sentences[word]) for word in TOY_NAMES]
     rows.sort(key=lambda row: -row["margin"])
     right = sum(row["answer"] == row["object"] for row in rows)
     return [*rows, {**dict.fromkeys(rows[0], ""), "object": f"right: {right} of 10"}]
@@ -271,7 +271,7 @@ def times() -> list[Row]:
         for module in ("kille.interfaces.cli", "ttr.cli.main")
     ]
     with Agent("synthetic:empty?seed=7") as robot:
-        for word in OBJECTS:
+        for word in TOY_NAMES:
             robot.do(f"show {word}")
             robot.hear(f"This is {lexicon().with_article(word)}.")
         robot.do("show cup")

@@ -41,14 +41,14 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from kille.memory import Memory, Scan, Sighting, Turn
-from kille.perception.cues import EMBEDDING, MissingExtraError, measured
+from kille.perception.cues import EMBEDDING, MissingExtraError, measure_cues
 from kille.perception.features import features_of
 from kille.perception.geometry import points_at
 from kille.perception.index import Background, Index, View, rooted
 from kille.perception.look import look
 from kille.perception.objects import ObjectMemory
 from kille.perception.paper_objects import PaperObjects
-from kille.perception.segment import overlap, plainly, region_of, segment
+from kille.perception.segment import overlap, region_of, segment, segment_by_contact
 from kille.perception.votes import beyond_chance, votes
 from kille.scene import Features, Frame, Look, Mask, Percept, Point, Region
 from kille.sensors.sensor import Stage
@@ -73,7 +73,7 @@ class Thing:
 
     def percept(self) -> Percept:
         """It, without anything worked out before."""
-        measure = partial(measured, self.frame, self.region)
+        measure = partial(measure_cues, self.frame, self.region)
         scan = features_of(self.frame, self.region)
         return Percept(self.region, (scan,), measure, self.frame)
 
@@ -105,7 +105,7 @@ def varied(key: int, chance: np.random.Generator) -> View:
 @cache
 def traits_of(name: str) -> Mapping[str, NDArray[np.float32]]:
     thing = next(it for it in things() if it.name == name)
-    return measured(thing.frame, thing.region)
+    return measure_cues(thing.frame, thing.region)
 
 
 @cache
@@ -135,13 +135,13 @@ def extracting(_: int) -> Task:
 
 def describing(_: int) -> Task:
     thing = things()[ASKED]
-    return lambda: measured(thing.frame, thing.region)
+    return lambda: measure_cues(thing.frame, thing.region)
 
 
 def embedding(_: int) -> Task:
     thing = things()[ASKED]
     cues = {EMBEDDING.name: EMBEDDING}
-    return lambda: measured(thing.frame, thing.region, cues)
+    return lambda: measure_cues(thing.frame, thing.region, cues)
 
 
 def voting(size: int) -> Task:
@@ -320,7 +320,7 @@ LIMITS = {100: 12.0, 1_000: 15.0, 10_000: 20.0}
 
 def measures() -> Measures:
     seeing = {
-        "segmentation, plain": Measure(segmenting(plainly), (1,), {1: 8.0}),
+        "segmentation, plain": Measure(segmenting(segment_by_contact), (1,), {1: 8.0}),
         "segmentation, splitting": Measure(segmenting(segment), (1,), {1: 25.0}),
         "SIFT on the thing": Measure(extracting, (1,)),
         "all default cues": Measure(describing, (1,)),

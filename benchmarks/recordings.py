@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from kille.sensors.kinect.capture import Capture
+from kille.sensors.kinect.capture import KinectCapture
 from kille.sensors.recordings.converting import FORMATS, convert
 from kille.sensors.recordings.developing import raw_source
 from kille.sensors.recordings.opening import open_recording
@@ -25,7 +25,7 @@ FRAMES = 30
 ROUNDS = 5
 
 
-def captures() -> list[Capture]:
+def captures() -> list[KinectCapture]:
     source = raw_source(open_sensor("synthetic:desk?seed=7"))
     return [source.capture() for _ in range(FRAMES)]
 
@@ -36,7 +36,7 @@ def milliseconds(laps: Iterator[float]) -> tuple[float, float]:
     return min(row), max(row)
 
 
-def writing(folder: Path, seen: list[Capture]) -> Iterator[float]:
+def writing(folder: Path, seen: list[KinectCapture]) -> Iterator[float]:
     """Seconds for each capture that is handed to the disk."""
     source = raw_source(open_sensor("synthetic:desk"))
     lens = open_sensor("synthetic:desk").frame().intrinsics

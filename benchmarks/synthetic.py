@@ -15,7 +15,7 @@ from functools import partial
 import cv2
 
 from kille.sensors.synthetic import catalogue, open_synthetic
-from kille.sensors.synthetic.camera import Camera
+from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.render import render_scene
 from kille.sensors.synthetic.room import room
 
@@ -46,9 +46,9 @@ def measured(frames: int) -> dict[str, float]:
     """
     result = {
         "ten models, read once": once_ms(
-            lambda: [catalogue.model(name) for name in catalogue.NAMES]
+            lambda: [catalogue.toy_model(name) for name in catalogue.TOY_NAMES]
         ),
-        "the room, painted once": once_ms(lambda: room(Camera())),
+        "the room, painted once": once_ms(lambda: room(SimulatedCamera())),
     }
     for scene in SCENES:
         clean = open_synthetic(f"synthetic:{scene}?faults=none")

@@ -14,20 +14,7 @@ from kille.agent.agent import Agent
 from kille.agent.attention import View
 from kille.agent.exchanges import Exchange
 from kille.dialogue.lexicon import lexicon
-
-OBJECTS = (
-    "apple",
-    "banana",
-    "teddy bear",
-    "book",
-    "cap",
-    "car",
-    "cup",
-    "can of paint",
-    "shoe",
-    "shoe-box",
-)
-"""What the paper's robot was taught."""
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 PLACES = {
     "to the left of": "left of",
@@ -41,7 +28,7 @@ _LESSONS_A_PLACE = 2
 
 
 @dataclass(frozen=True)
-class Answer:
+class DemoAnswer:
     """How the robot answered a question: its best word against the right one.
 
     `margin` is the degree of the right word less that of the best other.
@@ -58,7 +45,7 @@ class Answer:
 
 
 @dataclass(frozen=True, eq=False)
-class Event:
+class DemoStep:
     """A step of the demonstration: what happened in the world, or a turn.
 
     `answer` is there when the turn was a question of the test, `view` when what was in
@@ -67,52 +54,52 @@ class Event:
 
     world: str = ""
     turn: Exchange | None = None
-    answer: Answer | None = None
+    answer: DemoAnswer | None = None
     view: View | None = None
 
 
-def demonstration(robot: Agent) -> Iterator[Event]:
+def demonstration(robot: Agent) -> Iterator[DemoStep]:
     """Teaches and tests a robot on a stage with the ten objects, step by step."""
-    for word in OBJECTS:
+    for word in TOY_NAMES:
         yield from _world(robot, f"show {word}")
-        yield _said(robot, f"This is {lexicon().with_article(word)}.")
-    for word in OBJECTS:
+        yield _say(robot, f"This is {lexicon().with_article(word)}.")
+    for word in TOY_NAMES:
         yield from _world(robot, f"show {word}")
-        turn = _said(robot, "What is this?").turn
-        yield Event(turn=turn, answer=_answer(robot, word), view=robot.view)
-    yield _said(robot, "That is correct.")
+        turn = _say(robot, "What is this?").turn
+        yield DemoStep(turn=turn, answer=_answer(robot, word), view=robot.view)
+    yield _say(robot, "That is correct.")
     yield from _places(robot)
 
 
-def _places(robot: Agent) -> Iterator[Event]:
+def _places(robot: Agent) -> Iterator[DemoStep]:
     yield from _world(robot, "show car")
     for _ in range(_LESSONS_A_PLACE):
         for phrase, spot in PLACES.items():
             yield from _world(robot, f"place book {spot} car")
-            yield _said(robot, f"The book is {phrase} the car.")
+            yield _say(robot, f"The book is {phrase} the car.")
     for phrase, spot in PLACES.items():
         yield from _world(robot, f"place book {spot} car")
-        turn = _said(robot, "Where is the book?").turn
-        yield Event(turn=turn, answer=_answer(robot, phrase))
+        turn = _say(robot, "Where is the book?").turn
+        yield DemoStep(turn=turn, answer=_answer(robot, phrase))
 
 
-def _world(robot: Agent, command: str) -> Iterator[Event]:
+def _world(robot: Agent, command: str) -> Iterator[DemoStep]:
     """Something happens in the world; the robot may speak of its own accord."""
     said = robot.do(command)
-    yield Event(world=command)
+    yield DemoStep(world=command)
     if said:
-        yield Event(turn=robot.exchanges[-1])
+        yield DemoStep(turn=robot.exchanges[-1])
 
 
-def _said(robot: Agent, text: str) -> Event:
+def _say(robot: Agent, text: str) -> DemoStep:
     robot.hear(text)
-    return Event(turn=robot.exchanges[-1])
+    return DemoStep(turn=robot.exchanges[-1])
 
 
-def _answer(robot: Agent, word: str) -> Answer:
+def _answer(robot: Agent, word: str) -> DemoAnswer:
     """The robot's beliefs about its last question, held against the right word."""
     degrees = {b.sign.form: b.p for b in robot.state.private.beliefs}
     others = [p for form, p in degrees.items() if form != word]
     margin = degrees.get(word, 0.0) - max(others, default=0.0)
     best = max(degrees, key=lambda form: degrees[form], default="")
-    return Answer(word, best, margin)
+    return DemoAnswer(word, best, margin)

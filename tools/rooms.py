@@ -23,17 +23,17 @@ PARALLEL = ("-n", "auto", "--dist", "worksteal")
 QUICK = ("-m", "not deep and not slow")
 
 
-class Room(TypedDict):
+class TestRoom(TypedDict):
     """Patterns of paths below the project: what is in the room, and what tests it."""
 
     sources: list[str]
     tests: list[str]
 
 
-def read_rooms() -> Mapping[str, Room]:
+def read_rooms() -> Mapping[str, TestRoom]:
     """The rooms by name, as pyproject.toml lists them."""
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
-    rooms: Mapping[str, Room] = settings["tool"]["kille"]["rooms"]
+    rooms: Mapping[str, TestRoom] = settings["tool"]["kille"]["rooms"]
     return rooms
 
 
@@ -43,7 +43,7 @@ def paths_of(patterns: Sequence[str]) -> list[str]:
     return list(dict.fromkeys(path.relative_to(ROOT).as_posix() for path in found))
 
 
-def complaint(name: str, rooms: Mapping[str, Room]) -> str:
+def complaint(name: str, rooms: Mapping[str, TestRoom]) -> str:
     """One line for a name that no room has, with the name that may be meant."""
     like = difflib.get_close_matches(name, rooms, n=1)
     hint = f"did you mean {like[0]}?" if like else f"rooms are {', '.join(rooms)}"

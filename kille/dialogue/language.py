@@ -26,7 +26,7 @@ from kille.dialogue.meanings import (
     set_to,
     value_at,
 )
-from kille.dialogue.parsing import Grammar, Tree, Word, parts, words
+from kille.dialogue.parsing import Grammar, Token, Tree, parts, words
 from kille.dialogue.sources import FILES, last_change, source
 from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
 from ttr import Rec, Record, RecordType, RecType, rectype
@@ -259,7 +259,7 @@ class _Reader:
             means = self._lexicon.means.get(main, "") if kind == "adjective" else ""
             yield self._types.sign(main, kind, said or article, means)
 
-    def _forms(self, found: list[Word]) -> Iterator[tuple[str, str]]:
+    def _forms(self, found: list[Token]) -> Iterator[tuple[str, str]]:
         """The word that was found, with the article that its form shows."""
         text = " ".join(it.text.lower() for it in found)
         inflections = self._lexicon.inflections

@@ -24,8 +24,8 @@ from kille.memory import (
 )
 from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, Palette, colours_of, xkcd
-from kille.perception.colours.palette import packed, unpacked
-from kille.perception.cues import CUES, measured
+from kille.perception.colours.palette import pack_palette, unpack_palette
+from kille.perception.cues import CUES, measure_cues
 from kille.perception.evidence import Evidence as Heard
 from kille.perception.features import NONE
 from kille.perception.index import Background, View
@@ -153,7 +153,7 @@ class Knowledge:
         traits = dict(self.objects.traits_of(percept))
         palette = _palette_of(percept)
         if palette is not None:
-            traits[PALETTE] = packed(palette)
+            traits[PALETTE] = pack_palette(palette)
         seen = self._sighting(percept, evidence, traits)
         shown = _palette_in(traits)
         with self.together():
@@ -366,7 +366,7 @@ def _palette_of(percept: Percept) -> Palette | None:
 def _palette_in(traits: Traits) -> Palette | None:
     """The colours that were kept with a lesson, if any were."""
     try:
-        return unpacked(traits[PALETTE]) if PALETTE in traits else None
+        return unpack_palette(traits[PALETTE]) if PALETTE in traits else None
     except ValueError:  # a memory may have been made by another program
         return None
 
@@ -407,6 +407,6 @@ def _up_to_date(memory: Memory, lesson: ObjectLesson) -> Traits:
     if picture is None or picture.crop is None:
         return kept
     try:
-        return measured(*restore_crop(picture.crop))
+        return measure_cues(*restore_crop(picture.crop))
     except ValueError:  # a picture that another program made, and nobody can read
         return kept

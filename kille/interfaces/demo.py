@@ -11,7 +11,7 @@ from rich.table import Table
 
 from kille.agent.agent import Agent
 from kille.agent.attention import View
-from kille.demo import Answer, Event, demonstration
+from kille.demo import DemoAnswer, DemoStep, demonstration
 from kille.interfaces.showing import claims, format_account
 from kille.interfaces.terminal import FINE, complain, console
 from kille.perception.picture_sheet import picture_sheet, write_picture
@@ -28,7 +28,7 @@ def demo(seed: int, picture: Path) -> int:
             "is there and may be written, with --out"
         )
     out, started = console(), time.monotonic()
-    answers: list[Answer] = []
+    answers: list[DemoAnswer] = []
     rows: list[Row] = []
     with Agent(sensor=f"synthetic:empty?seed={seed}") as robot:
         for event in demonstration(robot):
@@ -45,7 +45,7 @@ def demo(seed: int, picture: Path) -> int:
     return _write_sheet(out, picture, rows)
 
 
-def _print_event(out: Console, event: Event) -> None:
+def _print_event(out: Console, event: DemoStep) -> None:
     if event.world:
         out.print(f"\n@ {event.world}", style="dim", markup=False)
     if event.turn is None:
@@ -58,7 +58,7 @@ def _print_event(out: Console, event: Event) -> None:
         out.print(line, style="dim", markup=False)
 
 
-def _table(answers: list[Answer]) -> Table:
+def _table(answers: list[DemoAnswer]) -> Table:
     table = Table(title="What it answered", title_justify="left", box=None)
     table.add_column("word")
     table.add_column("answers right", justify="right")

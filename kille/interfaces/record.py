@@ -16,10 +16,10 @@ from kille.sensors.kinect.capture import RawSource
 from kille.sensors.recordings.developing import raw_source
 from kille.sensors.recordings.recorder import (
     Disk,
-    End,
     Limits,
     NoRoomError,
     Progress,
+    RecordingEnd,
     check_room,
     record,
 )
@@ -79,7 +79,7 @@ def _record(source: RawSource, out: Path, limits: Limits, disk: Disk) -> int:
         _tell(screen, out, progress, line.seconds)
     else:
         screen.print("Nothing was recorded.")
-    if progress.end is End.FULL:
+    if progress.end is RecordingEnd.FULL:
         left = in_bytes(disk.free(home(out)))
         return complain(f"the disk is full, {left} are left: it ended there", FAILED)
     return FINE if progress.frames else FAILED

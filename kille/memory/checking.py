@@ -13,7 +13,7 @@ from pathlib import Path
 
 from kille.memory import files, reading, schema
 from kille.memory.errors import DAMAGE, STRANGE_JOURNAL, explain_failures, primary_code
-from kille.memory.exporting import Amount
+from kille.memory.exporting import MemorySize
 from kille.safety.databases import has_strange_journal, printable_name
 
 MOST_FAULTS = 20
@@ -21,26 +21,26 @@ MOST_FAULTS = 20
 
 
 @dataclass(frozen=True)
-class Health:
+class MemoryCheck:
     """The result of checking a memory file."""
 
     faults: tuple[str, ...]
     """What is wrong with it, each as a line for people."""
     notes: tuple[str, ...]
     """What its user should know, although it is no fault."""
-    amount: Amount | None
+    amount: MemorySize | None
     """How much is in it; None if that is unknown."""
 
 
-def check(path: Path) -> Health:
+def check(path: Path) -> MemoryCheck:
     """Check all of a memory file and change nothing.
 
     Raises MemoryFileError if there is no file, or it is not a memory of this or an
     earlier kille.
     """
     if path.is_file() and has_strange_journal(path):
-        return Health((f"it has {STRANGE_JOURNAL}",), tuple(_notes(path)), None)
-    amount: Amount | None = None
+        return MemoryCheck((f"it has {STRANGE_JOURNAL}",), tuple(_notes(path)), None)
+    amount: MemorySize | None = None
     faults: list[str] = []
     with explain_failures(str(path)):
         try:
@@ -52,7 +52,7 @@ def check(path: Path) -> Health:
             if primary_code(error) not in DAMAGE:
                 raise
             faults.append(f"it is damaged: {printable_name(str(error))}")
-    return Health(tuple(dict.fromkeys(faults)), tuple(_notes(path)), amount)
+    return MemoryCheck(tuple(dict.fromkeys(faults)), tuple(_notes(path)), amount)
 
 
 def _faults(connection: sqlite3.Connection) -> Iterator[str]:
@@ -86,14 +86,14 @@ def _lesson_faults(connection: sqlite3.Connection) -> Iterator[str]:
             yield f"lesson {key} cannot be read: {printable_name(str(error))}"
 
 
-def _amount(connection: sqlite3.Connection) -> Amount:
+def _amount(connection: sqlite3.Connection) -> MemorySize:
     if not schema.version(connection):
-        return Amount(0, 0, 0)
+        return MemorySize(0, 0, 0)
     counts = [
         connection.execute(f"SELECT count(*) FROM {table}").fetchone()[0]
         for table in ("dialogues", "turns", "lessons")
     ]
-    return Amount(*counts)
+    return MemorySize(*counts)
 
 
 def _notes(path: Path) -> Iterator[str]:

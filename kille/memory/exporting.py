@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from kille.memory.memory import MemoryReader
-from kille.memory.packages import MANIFEST, Writer, open_to_write
+from kille.memory.packages import MANIFEST, PackageWriter, open_to_write
 from kille.memory.packing import Line, pack_dialogue, pack_lesson, pack_turn
 
 FORMAT, VERSION = "kille memory", 2
@@ -27,7 +27,7 @@ DIALOGUES, TURNS, LESSONS = "dialogues.jsonl", "turns.jsonl", "lessons.jsonl"
 
 
 @dataclass(frozen=True)
-class Amount:
+class MemorySize:
     """The number of dialogues, turns and lessons."""
 
     dialogues: int
@@ -35,7 +35,7 @@ class Amount:
     lessons: int
 
 
-def export(memory: MemoryReader, path: Path) -> Amount:
+def export(memory: MemoryReader, path: Path) -> MemorySize:
     """Write all that the memory holds, as a zip if the path ends in .zip, or a folder.
 
     An older zip of ours is replaced. Raises PackageError, and leaves what was there,
@@ -54,7 +54,7 @@ def export(memory: MemoryReader, path: Path) -> Amount:
         sums = {name: checksum(content) for name, content in files.items()}
         manifest = {"format": FORMAT, "version": VERSION, "files": sums}
         package.write(MANIFEST, _json(manifest, indent=1))
-    return Amount(len(dialogues), len(turns), len(keys))
+    return MemorySize(len(dialogues), len(turns), len(keys))
 
 
 def checksum(content: bytes) -> str:
@@ -67,7 +67,7 @@ def place(key: int, name: str) -> str:
     return f"lessons/{key}/{name}"
 
 
-def _write_lesson(package: Writer, memory: MemoryReader, key: int) -> Line:
+def _write_lesson(package: PackageWriter, memory: MemoryReader, key: int) -> Line:
     """Write the files of a lesson; returns its line."""
     line, files = pack_lesson(memory.lesson(key))
     for name, content in files.items():

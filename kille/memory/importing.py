@@ -21,7 +21,7 @@ from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
 from kille.memory.packages import (
     MANIFEST,
     PackageError,
-    Reader,
+    PackageReader,
     open_to_read,
     report_damage,
 )
@@ -43,7 +43,7 @@ class Package:
     the dialogues, and no two have the same number.
     """
 
-    def __init__(self, reader: Reader, path: Path) -> None:
+    def __init__(self, reader: PackageReader, path: Path) -> None:
         self._reader, self._path = reader, path
         sums = _sums(reader, path)
         self.dialogues: tuple[Dialogue, ...] = tuple(
@@ -100,7 +100,7 @@ def open_package(path: Path) -> Iterator[Package]:
         yield package
 
 
-def _sums(reader: Reader, path: Path) -> dict[str, str]:
+def _sums(reader: PackageReader, path: Path) -> dict[str, str]:
     """The checksums of the lists, from the manifest."""
     manifest = _json(reader.read(MANIFEST))
     if manifest["format"] != FORMAT:
@@ -114,7 +114,7 @@ def _sums(reader: Reader, path: Path) -> dict[str, str]:
     return sums
 
 
-def _lines(reader: Reader, name: str, sums: dict[str, str]) -> Iterator[bytes]:
+def _lines(reader: PackageReader, name: str, sums: dict[str, str]) -> Iterator[bytes]:
     content = _checked_content(reader, name, sums[name])
     return read_lines(io.BytesIO(content))
 
@@ -124,7 +124,7 @@ def _number(line: bytes) -> int:
     return whole(_json(line), "lesson")
 
 
-def _checked_content(reader: Reader, name: str, known: str) -> bytes:
+def _checked_content(reader: PackageReader, name: str, known: str) -> bytes:
     content = reader.read(name)
     if checksum(content) != known:
         raise ValueError(f"{name} is not what was exported")

@@ -26,8 +26,9 @@ from kille.memory.lessons import (
     Turn,
     Word,
 )
-from kille.memory.merging import Merged, Source
+from kille.memory.merging import MergeResult, MergeSource
 from kille.memory.pictures import Picture
+from ttr.aliases import Alias
 
 Scope = Callable[[sqlite3.Connection], AbstractContextManager[None]]
 """A transaction: what happens in it is kept as a whole or undone."""
@@ -36,7 +37,7 @@ Scope = Callable[[sqlite3.Connection], AbstractContextManager[None]]
 class MemoryReader:
     """The content of a memory file, to read only; another program may be writing.
 
-    Made by `Memory.reading`; it is its own context manager. `place` says in words
+    Made by `Memory.open_to_read`; it is its own context manager. `place` says in words
     where the memory is. Any method raises MemoryFileError when the file fails it.
     """
 
@@ -94,13 +95,15 @@ class MemoryReader:
         with explain_content_failures(self.place):
             return reading.latest(self._connection, count)
 
-    def told(self, key: int) -> Lesson:
+    def lesson_without_sight(self, key: int) -> Lesson:
         """The lesson of this key without what was seen. Raises NoSuchLessonError."""
         with explain_content_failures(self.place):
             found = reading.lesson_without_sight(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
         return found
+
+    told = Alias("lesson_without_sight")
 
     def keys_of(self, kind: Kind, name: str) -> tuple[int, ...]:
         """The keys of the lessons in a word, oldest first."""
@@ -175,9 +178,11 @@ class Memory(MemoryReader):
         return cls(files.open_to_write(path), str(path))
 
     @staticmethod
-    def reading(path: Path) -> MemoryReader:
+    def open_to_read(path: Path) -> MemoryReader:
         """Open the memory in this file, only to read. Raises MemoryFileError."""
         return MemoryReader(files.open_to_read(path), str(path))
+
+    reading = Alias("open_to_read")
 
     @classmethod
     def transient(cls) -> Self:
@@ -275,7 +280,7 @@ class Memory(MemoryReader):
             raise NoSuchLessonError(f"{self.place} has no lesson in the {kind} {name}")
         return keys
 
-    def merge(self, other: Source) -> Merged:
+    def merge(self, other: MergeSource) -> MergeResult:
         """Add what is new in another memory, all or nothing; returns what was added.
 
         A lesson is known if it teaches the same, in the same word, from the same turn

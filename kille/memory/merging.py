@@ -27,7 +27,7 @@ Said = Mapping[int, Turn]
 """The turns of one dialogue by their number, without the dialogue's own number."""
 
 
-class Source(Protocol):
+class MergeSource(Protocol):
     """A memory to be merged; its turns and lessons refer to its own dialogues."""
 
     @property
@@ -43,7 +43,7 @@ class Source(Protocol):
 
 
 @dataclass(frozen=True)
-class Merged:
+class MergeResult:
     """What a memory gained from a merge."""
 
     dialogues: int
@@ -54,7 +54,7 @@ class Merged:
     """The number of lessons that it had already."""
 
 
-def merge(connection: sqlite3.Connection, source: Source) -> Merged:
+def merge(connection: sqlite3.Connection, source: MergeSource) -> MergeResult:
     """Add what is new, inside the caller's transaction."""
     before = _counts(connection)
     numbers = _add_dialogues(connection, source)
@@ -62,10 +62,12 @@ def merge(connection: sqlite3.Connection, source: Source) -> Merged:
         writing.add_turn(connection, replace(turn, dialogue=numbers[turn.dialogue]))
     learned, known = _add_lessons(connection, source, numbers)
     dialogues, turns = _counts(connection)
-    return Merged(dialogues - before[0], turns - before[1], tuple(learned), known)
+    return MergeResult(dialogues - before[0], turns - before[1], tuple(learned), known)
 
 
-def _add_dialogues(connection: sqlite3.Connection, source: Source) -> dict[int, int]:
+def _add_dialogues(
+    connection: sqlite3.Connection, source: MergeSource
+) -> dict[int, int]:
     """The number here of each dialogue there; new ones are added."""
     ours = {it.number: it for it in reading.dialogues(connection)}
     keeps = not ours
@@ -92,7 +94,7 @@ def _add_dialogues(connection: sqlite3.Connection, source: Source) -> dict[int, 
 
 
 def _add_lessons(
-    connection: sqlite3.Connection, source: Source, numbers: Mapping[int, int]
+    connection: sqlite3.Connection, source: MergeSource, numbers: Mapping[int, int]
 ) -> tuple[list[int], int]:
     """Add the new lessons; returns their keys, and how many were known."""
     ours = Counter(map(_identity, reading.lessons(connection)))

@@ -55,14 +55,14 @@ def report_damage(path: Path) -> Iterator[None]:
         ) from error
 
 
-class Reader(Protocol):
+class PackageReader(Protocol):
     """Reads the files of a package."""
 
     def read(self, name: str) -> bytes:
         """The content of a file. KeyError if the package has no file of this name."""
 
 
-class Writer(Protocol):
+class PackageWriter(Protocol):
     """Writes the files of a package."""
 
     def write(self, name: str, content: bytes) -> None:
@@ -70,7 +70,7 @@ class Writer(Protocol):
 
 
 @contextmanager
-def open_to_read(path: Path) -> Iterator[Reader]:
+def open_to_read(path: Path) -> Iterator[PackageReader]:
     """Open the package at a path, be it a folder or a zip."""
     if path.is_dir():
         yield _FolderReader(path)
@@ -81,7 +81,7 @@ def open_to_read(path: Path) -> Iterator[Reader]:
 
 
 @contextmanager
-def open_to_write(path: Path) -> Iterator[Writer]:
+def open_to_write(path: Path) -> Iterator[PackageWriter]:
     """Write a package, which is at the path, and on disk, if all inside goes well.
 
     A zip takes the place of an older package of ours, and of nothing else; a folder
@@ -152,7 +152,7 @@ class _ZipWriter:
 
 
 @contextmanager
-def _draft(draft: Path, *, zipped: bool) -> Iterator[Writer]:
+def _draft(draft: Path, *, zipped: bool) -> Iterator[PackageWriter]:
     if not zipped:
         yield _FolderWriter(draft)
         _sync_all()

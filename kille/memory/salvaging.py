@@ -22,7 +22,7 @@ from kille.memory import reading, schema
 from kille.memory.errors import ELSEWHERE, MemoryFileError, explain_failures
 from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
 from kille.memory.memory import Memory
-from kille.memory.merging import Merged
+from kille.memory.merging import MergeResult
 from kille.memory.pages import Row, Rows, Value, rows_in
 from kille.safety.databases import has_strange_journal, printable_name, restrict
 
@@ -47,7 +47,7 @@ _BESIDE = ("-wal", "-journal")
 class Salvage:
     """What was saved, and what was lost."""
 
-    saved: Merged
+    saved: MergeResult
     losses: tuple[str, ...]
     """What is lost, each as a line for people; rows that were not found do not
     count."""
@@ -89,7 +89,7 @@ def _salvage_in(path: Path, folder: Path) -> Salvage:
             )
         with Memory.open(folder / _NEW) as memory:
             saved = memory.merge(kept)
-    Memory.reading(folder / _NEW).close()  # it is one that can be trusted
+    Memory.open_to_read(folder / _NEW).close()  # it is one that can be trusted
     return Salvage(saved, (*losses, *kept.losses))
 
 

@@ -17,10 +17,10 @@ from typing import NamedTuple, TypeVar, overload
 import cv2
 import numpy as np
 
-from kille.perception.cues import measured
+from kille.perception.cues import measure_cues
 from kille.perception.features import features_of
 from kille.perception.pointing import region_at
-from kille.perception.segment import Scene, overlap, region_of, segment
+from kille.perception.segment import SegmentedFrame, overlap, region_of, segment
 from kille.scene import Box, Features, Frame, Look, Mask, Percept, Region, Traits
 from kille.sensors.sensor import Sensor
 
@@ -102,14 +102,14 @@ def _percept(track: Sequence[Sighting], traits: Mapping[Region, Traits]) -> Perc
     if region in traits:
         known = traits[region]
         return Percept(region, Scans(track), lambda: known, frame)
-    return Percept(region, Scans(track), partial(measured, frame, region), frame)
+    return Percept(region, Scans(track), partial(measure_cues, frame, region), frame)
 
 
 class _Captured(NamedTuple):
     """The frames of a look, and what was made out in the first ones meanwhile."""
 
     frames: Sequence[Frame]
-    scenes: Mapping[Frame, Scene]
+    scenes: Mapping[Frame, SegmentedFrame]
     traits: Mapping[Region, Traits]
 
 
@@ -129,7 +129,7 @@ def _capture(sensor: Sensor, scans: int) -> _Captured:
                 scenes[frame] = worker.submit(segment, frame)
             if not traits and (scene := _results(scenes).get(first)):
                 regions = scene.regions
-                traits = {it: worker.submit(measured, first, it) for it in regions}
+                traits = {it: worker.submit(measure_cues, first, it) for it in regions}
         worker.shutdown(cancel_futures=True)
     return _Captured(_distinct(frames), _results(scenes), _results(traits))
 
@@ -146,7 +146,7 @@ def _distinct(frames: Sequence[Frame]) -> list[Frame]:
 
 
 def _track(
-    region: Region, frames: Sequence[Frame], scenes: Callable[[int], Scene]
+    region: Region, frames: Sequence[Frame], scenes: Callable[[int], SegmentedFrame]
 ) -> list[Sighting]:
     """Follow a region through the later frames: its sightings, where it is found again.
 

@@ -21,7 +21,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.cues import CUES, Cue, measured
+from kille.perception.cues import CUES, Cue, measure_cues
 from kille.perception.evidence import Evidence, Weighing, weighing
 from kille.perception.features import NONE
 from kille.perception.index import (
@@ -170,7 +170,7 @@ class ObjectMemory:
         if not lacking or x.frame is None:
             return x.traits
         if x not in _MORE or not lacking.keys() <= _MORE[x].keys():
-            _MORE[x] = measured(x.frame, x.region, lacking)
+            _MORE[x] = measure_cues(x.frame, x.region, lacking)
         return {**x.traits, **_MORE[x]}
 
     def nearest(self, x: Percept, label: str) -> View | None:

@@ -1,9 +1,9 @@
 """Segmentation: which pixels belong to one thing, from depth alone.
 
 What stands out of the table is cut into patches of smooth surface, and a learned merge
-puts the patches of one thing together again (`kille.perception.surfaces`). `plainly`
-is the simpler rule: connected pieces between the jumps of depth. Pictures without depth
-are left to a guess at what is in front.
+puts the patches of one thing together again (`kille.perception.surfaces`). The rule of
+`segment_by_contact` is simpler: connected pieces between jumps of depth. In pictures
+without depth the foreground is guessed.
 """
 
 from __future__ import annotations
@@ -35,14 +35,19 @@ from kille.perception.surfaces.relief import (
 )
 from kille.perception.table import Plane
 from kille.scene import Box, Direction, Frame, Mask, Point, Region
+from ttr.aliases import former_names
+
+__getattr__ = former_names(
+    __name__, {"Scene": "SegmentedFrame", "plainly": "segment_by_contact"}
+)
 
 __all__ = [
     "SEGMENTATIONS",
-    "Scene",
+    "SegmentedFrame",
     "merging_by",
     "nearness",
     "overlap",
-    "plainly",
+    "segment_by_contact",
     "region_of",
     "segment",
     "whole",
@@ -54,17 +59,17 @@ _RIM = 3  # pixels lost at the edges of a piece and given back
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class SegmentedFrame:
     """A segmented frame: its regions, nearest first, and the direction that is up."""
 
     regions: tuple[Region, ...]
     up: Direction
 
 
-Segmentation = Callable[[Frame], Scene]
+Segmentation = Callable[[Frame], SegmentedFrame]
 
 
-def segment(frame: Frame) -> Scene:
+def segment(frame: Frame) -> SegmentedFrame:
     """The things in view, nearest first; things that touch are separated.
 
     Without depth there is one region, a guess, whose place is unknown. Without a table,
@@ -78,12 +83,15 @@ def merging_by(rounds: Rounds) -> Segmentation:
     return partial(_segment_by, labeller=partial(_things, rounds=rounds))
 
 
-def plainly(frame: Frame) -> Scene:
+def segment_by_contact(frame: Frame) -> SegmentedFrame:
     """The connected pieces in view, nearest first; things that touch are one piece."""
     return _segment_by(frame, _pieces)
 
 
-SEGMENTATIONS: Mapping[str, Segmentation] = {"default": segment, "plain": plainly}
+SEGMENTATIONS: Mapping[str, Segmentation] = {
+    "default": segment,
+    "plain": segment_by_contact,
+}
 """The ways to segment a frame, by name."""
 
 
@@ -121,20 +129,20 @@ def overlap(one: Region, other: Region) -> float:
 _Labeller = Callable[[Relief, Mask, Plane | None], Labels]
 
 
-def _segment_by(frame: Frame, labeller: _Labeller) -> Scene:
+def _segment_by(frame: Frame, labeller: _Labeller) -> SegmentedFrame:
     relief = relief_of(frame)
     if relief is None:
-        return Scene((_guess_region(frame),), CAMERA_UP)
+        return SegmentedFrame((_guess_region(frame),), CAMERA_UP)
     table = table_in(relief)
     inside = protruding_pixels(relief, table)
     up = CAMERA_UP if table is None else table.up
     if not inside.any():
-        return Scene((), up)
+        return SegmentedFrame((), up)
     window = window_of(inside)
     part = relief.crop(window)
     labels = _large_enough(part, labeller(part, inside[window], table))
     regions = _regions(frame, labels, window, relief.step)
-    return Scene(tuple(sorted(regions, key=nearness)), up)
+    return SegmentedFrame(tuple(sorted(regions, key=nearness)), up)
 
 
 def _things(

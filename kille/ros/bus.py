@@ -15,7 +15,7 @@ from xmlrpc.client import ServerProxy, Transport
 
 from kille.bus import BusError, Facts, Message, Publisher, Subscription, Topic
 from kille.bus.interface import SerialReceiver, TopicKinds
-from kille.ros.conversion import Form, form_of
+from kille.ros.conversion import Ros1Form, form_of
 from kille.ros.modules import ros
 
 M = TypeVar("M", bound=Message)
@@ -149,7 +149,7 @@ class _Listening(Generic[M]):
     """A subscription, until it is closed."""
 
     def __init__(self, topic: Topic[M], rospy: Any, take: Callable[[M], None]) -> None:
-        self._form: Form = form_of(topic.kind)
+        self._form: Ros1Form = form_of(topic.kind)
         self._name, self._kind = topic.name, topic.kind
         self._rospy, self._open = rospy, True
         self._take = SerialReceiver(topic, take)

@@ -25,7 +25,7 @@ _FRAME = "kille_camera"
 _SECOND = 1_000_000_000
 
 
-class Form(NamedTuple):
+class Ros1Form(NamedTuple):
     """The form that messages of a kind have in ROS: its class, the way there and back.
 
     `of` raises BusError for what cannot be read.
@@ -36,24 +36,24 @@ class Form(NamedTuple):
     of: Callable[[Any], Any]
 
 
-def form_of(kind: type[Any]) -> Form:
+def form_of(kind: type[Any]) -> Ros1Form:
     """The form of a kind of messages; BusError where ROS is absent."""
     std, sensor = ros("std_msgs.msg"), ros("sensor_msgs.msg")
     if kind is Text:
-        return Form(
+        return Ros1Form(
             std.String, lambda it: std.String(it.text), lambda it: Text(it.data)
         )
     if kind is Facts:
-        return Form(
+        return Ros1Form(
             std.String,
             lambda it: std.String(format_facts(it.facts)),
             lambda it: Facts(parse_facts(it.data)),
         )
     if kind is Image:
-        return Form(sensor.Image, _to_image, _of_image)
+        return Ros1Form(sensor.Image, _to_image, _of_image)
     if kind is Camera:
-        return Form(sensor.CameraInfo, _to_camera, _of_camera)
-    return Form(std.UInt8MultiArray, _to_array, lambda it: unpack(bytes(it.data)))
+        return Ros1Form(sensor.CameraInfo, _to_camera, _of_camera)
+    return Ros1Form(std.UInt8MultiArray, _to_array, lambda it: unpack(bytes(it.data)))
 
 
 def _to_image(image: Image) -> Any:

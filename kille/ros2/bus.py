@@ -22,7 +22,7 @@ from kille.bus import (
     Topic,
 )
 from kille.bus.interface import SerialReceiver, TopicKinds
-from kille.ros2.conversion import Form, form_of
+from kille.ros2.conversion import Ros2Form, form_of
 from kille.ros2.types import module, sample_type
 
 M = TypeVar("M", bound=Message)
@@ -109,11 +109,11 @@ class DdsBus:
             self._opened.pop().close()
         self._ended.set()
 
-    def _form(self, topic: Topic[Any]) -> Form:
+    def _form(self, topic: Topic[Any]) -> Ros2Form:
         self._kinds.settle(self.full_name(topic.name), topic.kind)
         return form_of(topic.kind)
 
-    def _topic(self, topic: Topic[Any], form: Form) -> Any:
+    def _topic(self, topic: Topic[Any], form: Ros2Form) -> Any:
         """The topic as DDS names those of ROS 2; there is one of a name."""
         key = self.full_name(topic.name), form.name
         if key not in self._topics:
@@ -126,7 +126,7 @@ class DdsBus:
 class _Sending(Generic[M]):
     """A publisher, until it is closed."""
 
-    def __init__(self, writer: Any, form: Form) -> None:
+    def __init__(self, writer: Any, form: Ros2Form) -> None:
         self._writer, self._form, self._open = writer, form, True
 
     @property
@@ -151,7 +151,7 @@ class _Listening(Generic[M]):
     """A subscription: a thread that takes what comes."""
 
     def __init__(
-        self, reader: Any, topic: Topic[M], form: Form, take: Callable[[M], None]
+        self, reader: Any, topic: Topic[M], form: Ros2Form, take: Callable[[M], None]
     ) -> None:
         self._reader, self._topic, self._form = reader, topic, form
         self._take = SerialReceiver(topic, take)

@@ -20,7 +20,7 @@ _SECOND = 1_000_000_000
 _IDENTITY = np.eye(3).ravel()
 
 
-class Form(NamedTuple):
+class Ros2Form(NamedTuple):
     """The form of a kind: the name of its type, from messages to bytes, and back.
 
     `of` raises BusError for what cannot be read.
@@ -31,10 +31,10 @@ class Form(NamedTuple):
     of: Callable[[bytes], Any]
 
 
-def form_of(kind: type[Any]) -> Form:
+def form_of(kind: type[Any]) -> Ros2Form:
     """The form of a kind of messages."""
     name, to, of = _FORMS[kind]
-    return Form(
+    return Ros2Form(
         name, lambda it: to_bytes(to(it)), lambda data: of(of_bytes(data, name))
     )
 

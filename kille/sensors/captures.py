@@ -88,7 +88,7 @@ def read_sequence(description: Path) -> tuple[Shot, ...]:
     """The captures of one scene in order of time; SensorError if it is broken."""
     content = _load(description)
     geometry = _geometry(description, content)
-    frames = _need(description, content, "frames", dict)
+    frames = _required_entry(description, content, "frames", dict)
     names = sorted(frames)
     times = _times(description, content, names)
     shots = (_shot(description, name, geometry, frames[name]) for name in names)
@@ -175,8 +175,8 @@ def _distinct_names(things: Mapping[int, str]) -> dict[int, str]:
 
 
 def _geometry(description: Path, content: Mapping[str, Any]) -> Geometry:
-    lens = _need(description, content, "intrinsics", dict)
-    units = _need(description, content, "depth_units_per_metre", (int, float))
+    lens = _required_entry(description, content, "intrinsics", dict)
+    units = _required_entry(description, content, "depth_units_per_metre", (int, float))
     try:
         units = float(units)
         pinhole = Intrinsics(*(float(lens[key]) for key in ("fx", "fy", "cx", "cy")))
@@ -207,7 +207,7 @@ def _load(description: Path) -> Mapping[str, Any]:
     return content
 
 
-def _need(
+def _required_entry(
     description: Path,
     content: Mapping[str, Any],
     key: str,

@@ -33,13 +33,13 @@ def is_picture(path: Path) -> bool:
 
 def read_colour(path: Path) -> Colour:
     """The picture as (H, W, 3) RGB, read-only; SensorError if it does not open."""
-    return _freeze(_decode(path, cv2.IMREAD_COLOR_RGB))
+    return freeze(_decode(path, cv2.IMREAD_COLOR_RGB))
 
 
-def fitted(colour: Colour, largest: tuple[int, int]) -> Colour:
+def shrink_to_fit(colour: Colour, largest: tuple[int, int]) -> Colour:
     """The picture, made smaller where it is wider or higher than this; read-only.
 
-    >>> fitted(np.zeros((600, 400, 3), np.uint8), (640, 480)).shape
+    >>> shrink_to_fit(np.zeros((600, 400, 3), np.uint8), (640, 480)).shape
     (480, 320, 3)
     """
     height, width = colour.shape[:2]
@@ -48,7 +48,7 @@ def fitted(colour: Colour, largest: tuple[int, int]) -> Colour:
         return colour
     size = (max(1, round(width * factor)), max(1, round(height * factor)))
     smaller = cv2.resize(colour, size, interpolation=cv2.INTER_AREA)
-    return _freeze(smaller.astype(np.uint8, copy=False))
+    return freeze(smaller.astype(np.uint8, copy=False))
 
 
 def read_depth(path: Path, units_per_metre: float) -> Depth:
@@ -72,7 +72,7 @@ def clean_depth(metres: Depth) -> Depth:
     array([0.5, nan, nan, nan], dtype=float32)
     """
     there = (metres > 0) & (metres < np.inf)
-    return _freeze(np.where(there, metres, np.float32(np.nan)))
+    return freeze(np.where(there, metres, np.float32(np.nan)))
 
 
 def read_labels(path: Path) -> NDArray[Any]:
@@ -82,7 +82,7 @@ def read_labels(path: Path) -> NDArray[Any]:
         raise SensorError(
             f"{path}: a label picture has one channel, this one has {_channels(labels)}"
         )
-    return _freeze(labels)
+    return freeze(labels)
 
 
 def _decode(path: Path, flags: int) -> NDArray[Any]:
@@ -176,7 +176,8 @@ def _channels(picture: NDArray[Any]) -> str:
     return "1 channel" if count == 1 else f"{count} channels"
 
 
-def _freeze(array: NDArray[Any]) -> NDArray[Any]:
+def freeze(array: NDArray[Any]) -> NDArray[Any]:
+    """The same array, which can no longer be written to."""
     array.setflags(write=False)
     return array
 

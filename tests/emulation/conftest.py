@@ -12,7 +12,7 @@ import pytest
 import usb.backend.libusb1 as pyusb
 
 from kille.sensors.kinect import libusb, sensor
-from kille.sensors.kinect.transport import Bus
+from kille.sensors.kinect.transport import TransportBus
 from kille.sensors.kinect.usb import UsbBus
 from kinect_emulator.building import compiler, library
 from kinect_emulator.host import Host
@@ -27,7 +27,7 @@ SPEED = 3.0
 class Wire(NamedTuple):
     """A bus as the driver sees it, and the hand that plugs Kinects in and out."""
 
-    bus: Bus
+    bus: TransportBus
     plug: Callable[[Kinect], None]
     unplug: Callable[[Kinect], None]
 

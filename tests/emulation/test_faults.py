@@ -11,9 +11,9 @@ import pytest
 
 from kille.sensors.kinect import sensor as sensors
 from kille.sensors.kinect.bayer import colour_of
-from kille.sensors.kinect.capture import Capture
+from kille.sensors.kinect.capture import KinectCapture
 from kille.sensors.kinect.sensor import KinectSensor
-from kille.sensors.kinect.transport import Bus, Connection, Plugged
+from kille.sensors.kinect.transport import Connection, PluggedDevice, TransportBus
 from kille.sensors.sensor import SensorError
 from kinect_emulator.descriptors import (
     FOR_WINDOWS,
@@ -30,7 +30,7 @@ from kinect_emulator.pictures import Show, patterns
 SHOW = patterns(3)
 
 
-def shown(capture: Capture, show: Show = SHOW) -> bool:
+def shown(capture: KinectCapture, show: Show = SHOW) -> bool:
     """Whether both pictures are views as they were shown, to the last bit."""
     depth = any(np.array_equal(capture.depth, view.depth) for view in show.views)
     colours = (colour_of(mosaic(view.colour)) for view in show.views)
@@ -195,15 +195,15 @@ def test_a_silent_camera_is_a_line(wired: Callable, silent: set[int]) -> None:
 class Watched:
     """A bus, and how often somebody looked what is on it."""
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: TransportBus) -> None:
         self._bus = bus
         self.looks = 0
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         self.looks += 1
         return self._bus.devices()
 
-    def open(self, device: Plugged, alternate: int) -> Connection:
+    def open(self, device: PluggedDevice, alternate: int) -> Connection:
         return self._bus.open(device, alternate)
 
 

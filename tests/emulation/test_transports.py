@@ -18,7 +18,7 @@ from kille.sensors.kinect.transport import (
     Connection,
     DeviceBusyError,
     DeviceGoneError,
-    Plugged,
+    PluggedDevice,
     StalledError,
 )
 from kinect_emulator.descriptors import (
@@ -66,7 +66,7 @@ class Packets:
             assert self._came.wait_for(reached, TOO_LONG)
 
 
-def camera(devices: tuple[Plugged, ...]) -> Plugged:
+def camera(devices: tuple[PluggedDevice, ...]) -> PluggedDevice:
     """The first camera."""
     return next(it for it in devices if it.product in CAMERAS)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from importlib import import_module
+from pkgutil import resolve_name
 
 import pytest
 
@@ -22,6 +22,13 @@ RENAMED = [
     ("kille.dialogue.reference", "fitting", "fitting_readings"),
     ("kille.dialogue.strategies", "expected", "expected_value"),
     ("kille.dialogue.tutoring", "heard", "hear_sentences"),
+    ("kille.memory.Memory", "reading", "open_to_read"),
+    ("kille.memory.MemoryReader", "told", "lesson_without_sight"),
+    ("kille.perception.colours", "packed", "pack_palette"),
+    ("kille.perception.colours", "unpacked", "unpack_palette"),
+    ("kille.perception.cues", "measured", "measure_cues"),
+    ("kille.perception.segment", "Scene", "SegmentedFrame"),
+    ("kille.perception.segment", "plainly", "segment_by_contact"),
     ("kille.nodes.dialogue", "Talking", "DialogueNode"),
     ("kille.nodes.perception", "Seeing", "PerceptionNode"),
     ("kille.nodes.remote_sensor", "Eyes", "RemoteSensor"),
@@ -29,8 +36,8 @@ RENAMED = [
 ]
 
 
-@pytest.mark.parametrize(("module", "former", "now"), RENAMED)
-def test_a_former_name_works_and_warns(module: str, former: str, now: str) -> None:
-    place = import_module(module)
+@pytest.mark.parametrize(("place", "former", "now"), RENAMED)
+def test_a_former_name_works_and_warns(place: str, former: str, now: str) -> None:
+    owner = resolve_name(place)
     with pytest.warns(DeprecationWarning, match=rf"{former} is now .*{now}"):
-        assert getattr(place, former) is getattr(place, now)
+        assert getattr(owner, former) is getattr(owner, now)

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from kille.lab.measures.statistics import auroc
 from kille.perception import evidence
-from kille.perception.cues import CUES, Cue, measured, with_embedding
+from kille.perception.cues import CUES, Cue, measure_cues, with_embedding
 from kille.perception.evidence import SIZE, Weighing, unlike_in_size
 from kille.perception.features import features_of
 from kille.perception.index import Index, View, rooted
@@ -147,7 +147,7 @@ def elsewhere(
 def view(frame: Frame, region: Region, word: str, cues: Mapping[str, Cue]) -> View:
     """What a lesson about the region keeps; its key is made when it is taught."""
     descriptors = features_of(frame, region).descriptors
-    return View("", word, descriptors, measured(frame, region, cues))
+    return View("", word, descriptors, measure_cues(frame, region, cues))
 
 
 def widths(groups: Iterable[Sequence[View]], cues: Iterable[str]) -> dict[str, float]:

@@ -58,7 +58,7 @@ from kille.perception.surfaces.relief import (
 )
 from kille.scene import Frame
 from kille.sensors.synthetic import obj
-from tools.fitting.piles import pile, screened, tidy
+from tools.fitting.piles import hide_middle, pile, tidy
 from ttr.safety.unforeseen_errors import run_guarded
 
 HEAPS, SCREENS, TIDY = range(700), range(200), range(200)
@@ -209,7 +209,7 @@ def main(data: Path) -> None:
     meshes = _meshes(data)
     first = fit_first(
         _examples(pile(seed, meshes) for seed in HEAPS),
-        _examples(screened(seed) for seed in SCREENS),
+        _examples(hide_middle(seed) for seed in SCREENS),
         _examples(tidy(seed, meshes) for seed in TIDY),
     )
     add_second(data, first)
@@ -220,7 +220,7 @@ def add_second(data: Path, first: Merger) -> None:
     meshes = _meshes(data)
     frames = chain(
         (pile(seed, meshes) for seed in MORE_HEAPS),
-        (screened(seed) for seed in MORE_SCREENS),
+        (hide_middle(seed) for seed in MORE_SCREENS),
         (tidy(seed, meshes) for seed in MORE_TIDY),
     )
     rounds = first, fit_second(_examples(frames, (first,)))

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from kille.scene import Depth, Frame
 from kille.sensors.synthetic import catalogue, obj
-from kille.sensors.synthetic.camera import Camera
+from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import infrared_shadow, lost_edges
-from kille.sensors.synthetic.model import Model
-from kille.sensors.synthetic.render import Body, Pose, render_scene
+from kille.sensors.synthetic.model import ToyModel
+from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.specimens import specimen
 from tools.modelling.shapes import (
     Grid,
@@ -34,7 +34,7 @@ from tools.modelling.shapes import (
     move,
     rotation,
 )
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
 Chance = np.random.Generator
 
@@ -52,7 +52,7 @@ _STEP = 0.0028  # 1/m: of an 11-bit disparity
 def pile(seed: int, meshes: Sequence[Path] = ()) -> Frame:
     """A frame of a heap of things, always the same for a seed; outlines by number."""
     chance = np.random.default_rng([77, seed])
-    camera = Camera(chance.uniform(0.75, 1.35), chance.uniform(22, 58))
+    camera = SimulatedCamera(chance.uniform(0.75, 1.35), chance.uniform(22, 58))
     heap = _Heap(chance, meshes)
     if chance.random() < 0.3:
         heap.put_before_wider(chance.normal(-0.2, 0.04))
@@ -65,10 +65,10 @@ def pile(seed: int, meshes: Sequence[Path] = ()) -> Frame:
     return _capture_heap(camera, heap)
 
 
-def screened(seed: int) -> Frame:
+def hide_middle(seed: int) -> Frame:
     """A frame of wide things of which narrow ones hide the middle; else as `pile`."""
     chance = np.random.default_rng([78, seed])
-    camera = Camera(chance.uniform(0.75, 1.35), chance.uniform(22, 50))
+    camera = SimulatedCamera(chance.uniform(0.75, 1.35), chance.uniform(22, 50))
     heap = _Heap(chance, ())
     for right in (-0.22, 0.22):
         heap.put_screened(right + chance.normal(0, 0.03))
@@ -78,14 +78,14 @@ def screened(seed: int) -> Frame:
 def tidy(seed: int, meshes: Sequence[Path] = ()) -> Frame:
     """A frame of a few things of many parts that stand apart; else as `pile`."""
     chance = np.random.default_rng([79, seed])
-    camera = Camera(chance.uniform(0.75, 1.35), chance.uniform(22, 58))
+    camera = SimulatedCamera(chance.uniform(0.75, 1.35), chance.uniform(22, 58))
     heap = _Heap(chance, meshes)
     for right in np.linspace(-0.36, 0.36, 4) + chance.uniform(-0.03, 0.03, 4):
         heap.put_down(a_manifold(chance, meshes), float(right))
     return _capture_heap(camera, heap)
 
 
-def _capture_heap(camera: Camera, heap: _Heap) -> Frame:
+def _capture_heap(camera: SimulatedCamera, heap: _Heap) -> Frame:
     image = render_scene(camera, {str(i): body for i, body in enumerate(heap.bodies)})
     outlines = {k: mask for k, mask in image.outlines.items() if mask.sum() > _SEEN}
     depth = _measure(image.depth, camera, heap.chance)
@@ -98,7 +98,7 @@ class _Heap:
 
     chance: Chance
     meshes: Sequence[Path]
-    bodies: list[Body] = field(default_factory=list)
+    bodies: list[PosedToy] = field(default_factory=list)
     tops: NDArray[np.float64] = field(
         default_factory=lambda: np.zeros((_CELLS, _CELLS))
     )
@@ -135,7 +135,7 @@ class _Heap:
         aside = right + self.chance.normal(0, 0.02)
         self._put(thin, Pose(aside, away - gap, self.chance.uniform(-90, 90)))
 
-    def put_down(self, model: Model, right: float) -> None:
+    def put_down(self, model: ToyModel, right: float) -> None:
         """A thing on the table itself."""
         away, turn = self.chance.uniform(-0.2, 0.25), self.chance.uniform(0, 360)
         self._put(model, Pose(right, away, turn))
@@ -157,13 +157,13 @@ class _Heap:
         aside = right + self.chance.normal(0, 0.02)
         self._put(thin, Pose(aside, away - gap, self.chance.uniform(-45, 45)))
 
-    def _put(self, model: Model, pose: Pose) -> None:
+    def _put(self, model: ToyModel, pose: Pose) -> None:
         ground = self._ground(model, pose)
         top = float(model.vertices[:, 2].max())
         self.tops[ground] = np.maximum(self.tops[ground], top)
-        self.bodies.append(Body(model, pose))
+        self.bodies.append(PosedToy(model, pose))
 
-    def _ground(self, model: Model, pose: Pose) -> NDArray[np.bool_]:
+    def _ground(self, model: ToyModel, pose: Pose) -> NDArray[np.bool_]:
         """The cells that a thing in this pose is above."""
         corners = pose.move_points(model.footprint) / _CELL + _CELLS / 2
         cells = np.zeros((_CELLS, _CELLS), np.uint8)
@@ -171,45 +171,43 @@ class _Heap:
         return cells > 0
 
 
-def a_thing(chance: Chance, meshes: Sequence[Path]) -> Model:
+def a_thing(chance: Chance, meshes: Sequence[Path]) -> ToyModel:
     """Any thing; without meshes there are more specimens of the ten."""
     kind = chance.random()
     if kind < 0.33:
         return a_box(chance)
     if kind < 0.45:
-        return _fallen(a_tin(chance), chance, 0.15)
+        return _drop(a_tin(chance), chance, 0.15)
     if kind < 0.55:
         bowl = a_bowl(chance)
         return turn_model(bowl, (1, 0, 0), 180) if chance.random() < 0.15 else bowl
     if kind < 0.65:
         return a_toy(chance)
     if kind < 0.83 and meshes:
-        return _scanned(chance, meshes)
+        return _scan(chance, meshes)
     return _specimen(chance)
 
 
-def a_manifold(chance: Chance, meshes: Sequence[Path]) -> Model:
+def a_manifold(chance: Chance, meshes: Sequence[Path]) -> ToyModel:
     """A thing that may have many parts: a toy, a scanned one, or one of the ten."""
     kind = chance.random()
     if kind < 0.2:
         return a_toy(chance)
     if kind < 0.4 and meshes:
-        return _scanned(chance, meshes)
+        return _scan(chance, meshes)
     return _specimen(chance)
 
 
-def _scanned(chance: Chance, meshes: Sequence[Path]) -> Model:
-    return _fallen(
-        obj.load_scan(meshes[int(chance.integers(len(meshes)))]), chance, 0.35
-    )
+def _scan(chance: Chance, meshes: Sequence[Path]) -> ToyModel:
+    return _drop(obj.load_scan(meshes[int(chance.integers(len(meshes)))]), chance, 0.35)
 
 
-def _specimen(chance: Chance) -> Model:
-    name = catalogue.NAMES[int(chance.integers(len(catalogue.NAMES)))]
+def _specimen(chance: Chance) -> ToyModel:
+    name = catalogue.TOY_NAMES[int(chance.integers(len(catalogue.TOY_NAMES)))]
     return specimen(name, int(chance.integers(_SPECIMENS)))
 
 
-def a_box(chance: Chance) -> Model:
+def a_box(chance: Chance) -> ToyModel:
     """A book, an upright pack, a lying one, or a small box."""
     low, high = _BOXES[int(chance.integers(len(_BOXES)))]
     faces = box(*chance.uniform(low, high))
@@ -224,7 +222,7 @@ _BOXES = (
 )
 
 
-def a_tin(chance: Chance) -> Model:
+def a_tin(chance: Chance) -> ToyModel:
     """A cylinder, every third one open at the top."""
     r = chance.uniform(0.02, 0.1)
     h = chance.uniform(0.05, 0.25) if r < 0.05 else chance.uniform(0.04, 0.14)
@@ -237,12 +235,12 @@ def a_tin(chance: Chance) -> Model:
     return _of(wall, hollow, rim, move(disc(inner), z=floor))
 
 
-def _tin(radius: float, height: float) -> Model:
+def _tin(radius: float, height: float) -> ToyModel:
     wall = lathe([(radius, height), (radius, 0)])
     return _of(wall, move(disc(radius), z=height))
 
 
-def a_bowl(chance: Chance) -> Model:
+def a_bowl(chance: Chance) -> ToyModel:
     """A bowl or a deep plate."""
     r = chance.uniform(0.05, 0.13)
     h, foot = r * chance.uniform(0.3, 1.1), r * chance.uniform(0.35, 0.8)
@@ -254,7 +252,7 @@ def a_bowl(chance: Chance) -> Model:
     return _of(outer, hollow, rim, move(disc(0.9 * foot), z=0.006))
 
 
-def a_toy(chance: Chance) -> Model:
+def a_toy(chance: Chance) -> ToyModel:
     """A round body with round limbs."""
     body = chance.uniform(0.025, 0.07, 3)
     limbs = []
@@ -267,7 +265,9 @@ def a_toy(chance: Chance) -> Model:
     return _of(ellipsoid(body), *limbs)
 
 
-def turn_model(model: Model, axis: tuple[float, float, float], degrees: float) -> Model:
+def turn_model(
+    model: ToyModel, axis: tuple[float, float, float], degrees: float
+) -> ToyModel:
     """The model turned about an axis and set down on z = 0."""
     turn = rotation(axis, degrees).astype(np.float32).T
     vertices = model.vertices @ turn
@@ -277,13 +277,13 @@ def turn_model(model: Model, axis: tuple[float, float, float], degrees: float) -
     return replace(model, vertices=standing, normals=model.normals @ turn)
 
 
-def lift_model(model: Model, height: float) -> Model:
+def lift_model(model: ToyModel, height: float) -> ToyModel:
     """The model so much higher."""
     up = np.array([0, 0, height], np.float32)
     return replace(model, vertices=model.vertices + up)
 
 
-def _fallen(model: Model, chance: Chance, share: float) -> Model:
+def _drop(model: ToyModel, chance: Chance, share: float) -> ToyModel:
     return (
         turn_model(model, _level_axis(chance), 90) if chance.random() < share else model
     )
@@ -294,11 +294,11 @@ def _level_axis(chance: Chance) -> tuple[float, float, float]:
     return float(np.cos(angle)), float(np.sin(angle)), 0.0
 
 
-def _of(*sheets: Grid) -> Model:
-    return assemble([Part(sheet, _PLAIN) for sheet in sheets])
+def _of(*sheets: Grid) -> ToyModel:
+    return assemble([Sheet(sheet, _PLAIN) for sheet in sheets])
 
 
-def _measure(depth: Depth, camera: Camera, chance: Chance) -> Depth:
+def _measure(depth: Depth, camera: SimulatedCamera, chance: Chance) -> Depth:
     """The depth as matching windows of dots gives it.
 
     Its noise is mostly alike in neighbouring pixels, its steps are of the inverse

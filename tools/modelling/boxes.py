@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import box, move
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
 _NAVY: draw.RGB = (22, 40, 84)
 _ORANGE: draw.RGB = (238, 112, 34)
 _CREAM: draw.RGB = (240, 230, 204)
 
 
-def book() -> Model:
+def book() -> ToyModel:
     """A hardback of 15 x 22 x 3 cm that lies on its back, its spine to the left."""
     boards = {
         "top": _cover(),
@@ -26,10 +26,10 @@ def book() -> Model:
         "back": _pages(300, 60),
     }
     faces = box(0.15, 0.22, 0.03)
-    return assemble([Part(faces[side], boards[side]) for side in boards])
+    return assemble([Sheet(faces[side], boards[side]) for side in boards])
 
 
-def shoe_box() -> Model:
+def shoe_box() -> ToyModel:
     """A shoe-box of 30 x 19 x 11 cm with a lid that overhangs and a brand all over."""
     card = draw.blank(20, 20, (214, 186, 140))
     body = {
@@ -51,8 +51,8 @@ def shoe_box() -> Model:
         side: move(sheet, z=0.075) for side, sheet in box(0.306, 0.196, 0.035).items()
     }
     return assemble(
-        [Part(faces[side], body[side]) for side in body]
-        + [Part(over[side], lid[side]) for side in lid]
+        [Sheet(faces[side], body[side]) for side in body]
+        + [Sheet(over[side], lid[side]) for side in lid]
     )
 
 

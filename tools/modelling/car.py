@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import Grid, box, curve, disc, lathe, move, quad, turn
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
 _CAR: draw.RGB = (214, 30, 34)
 _GLASS: draw.RGB = (58, 84, 112)
@@ -17,13 +17,13 @@ _REAR, _FRONT, _FLOOR = -0.100, 0.100, 0.013
 _PER_METRE = 3000
 
 
-def car() -> Model:
+def car() -> ToyModel:
     """A toy rally car of 20 cm seen from its side, the bonnet to the right."""
-    tilted = [Part(turn(p.points, (0, 0, 1), 24), p.picture) for p in _car_parts()]
+    tilted = [Sheet(turn(p.points, (0, 0, 1), 24), p.picture) for p in _car_parts()]
     return assemble(tilted)
 
 
-def _car_parts() -> list[Part]:
+def _car_parts() -> list[Sheet]:
     body = _body()
     wheels = [
         part
@@ -58,7 +58,7 @@ def _half_width(x: Grid, z: Grid) -> Grid:
     return 0.042 - ends - 0.40 * np.maximum(z - 0.043, 0)
 
 
-def _body() -> list[Part]:
+def _body() -> list[Sheet]:
     """Two flanks, the deck from boot to bonnet, and the two ends."""
     x, top = _roof_line().T
     share = np.linspace(0, 1, 9)[:, None]
@@ -71,7 +71,7 @@ def _body() -> list[Part]:
     deck = np.stack(
         [np.broadcast_to(x, crown.shape), across * _half_width(x, top), crown], axis=2
     )
-    skin = _fitted(_flank(), top)
+    skin = _fit(_flank(), top)
     front_y = float(_half_width(x[-1:], top[-1:])[0])
     rear_y = float(_half_width(x[:1], top[:1])[0])
     nose = quad(
@@ -83,15 +83,15 @@ def _body() -> list[Part]:
         (_REAR, rear_y, top[0]), (_REAR, -rear_y, top[0]), (_REAR, rear_y, _FLOOR)
     )
     return [
-        Part(near, skin),
-        Part(far, skin[:, ::-1]),
-        Part(deck, _deck()),
-        Part(nose, _nose()),
-        Part(tail, _tail()),
+        Sheet(near, skin),
+        Sheet(far, skin[:, ::-1]),
+        Sheet(deck, _deck()),
+        Sheet(nose, _nose()),
+        Sheet(tail, _tail()),
     ]
 
 
-def _fitted(side: Colour, top: Grid) -> Colour:
+def _fit(side: Colour, top: Grid) -> Colour:
     """The drawing of the flank stretched so that it lies straight on the bent sheet."""
     columns = np.linspace(0, side.shape[1] - 1, side.shape[1], dtype=np.float32)
     roof = np.interp(columns, np.linspace(0, side.shape[1] - 1, len(top)), top)
@@ -188,14 +188,14 @@ def _tail() -> Colour:
     return tail
 
 
-def _wheel(x: float, away: float) -> list[Part]:
+def _wheel(x: float, away: float) -> list[Sheet]:
     """A tyre with its hub, on the side that a turn of `away` degrees brings it to."""
     hub = move(turn(disc(0.0195, 20), (1, 0, 0), 90), x, -0.0445, 0.0195)
     tread = turn(lathe([(0.0195, 0.0), (0.0195, -0.016)], 20), (1, 0, 0), 90)
     tread = move(tread, x, -0.0445, 0.0195)
     return [
-        Part(turn(hub, (0, 0, 1), away), _hub()),
-        Part(turn(tread, (0, 0, 1), away), draw.blank(40, 8, draw.BLACK)),
+        Sheet(turn(hub, (0, 0, 1), away), _hub()),
+        Sheet(turn(tread, (0, 0, 1), away), draw.blank(40, 8, draw.BLACK)),
     ]
 
 
@@ -211,7 +211,7 @@ def _hub() -> Colour:
     return hub
 
 
-def _spoiler() -> list[Part]:
+def _spoiler() -> list[Sheet]:
     """A wing on two struts over the boot."""
     black = draw.blank(20, 8, draw.BLACK)
     wing = [
@@ -222,4 +222,4 @@ def _spoiler() -> list[Part]:
         for y in (-0.026, 0.026)
         for sheet in box(0.010, 0.003, 0.021).values()
     ]
-    return [Part(sheet, black) for sheet in (*wing, *struts)]
+    return [Sheet(sheet, black) for sheet in (*wing, *struts)]

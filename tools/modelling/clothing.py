@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import (
     Grid,
@@ -16,7 +16,7 @@ from tools.modelling.shapes import (
     move,
     turn,
 )
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
 _BLUE: draw.RGB = (30, 62, 142)
 _RED: draw.RGB = (204, 40, 44)
@@ -26,30 +26,30 @@ _RUBBER: draw.RGB = (250, 250, 246)
 _LENGTH = 0.28
 
 
-def cap() -> Model:
+def cap() -> ToyModel:
     """A baseball cap of six panels, its visor pointing to the front left."""
     profile = curve(
         [(0.0, 0.118), (0.035, 0.113), (0.068, 0.092), (0.085, 0.055), (0.089, 0.0)], 14
     )
     crown = lathe(profile, 40) * [1.0, 1.1, 1.0]
     parts = [
-        Part(crown, _crown()),
-        Part(
+        Sheet(crown, _crown()),
+        Sheet(
             move(ellipsoid((0.008, 0.008, 0.005), 12), z=0.118), draw.blank(8, 8, _RED)
         ),
-        Part(_visor(), _brim()),
-        Part(inside_out(move(_visor(), z=-0.002)), draw.blank(20, 20, (90, 30, 34))),
+        Sheet(_visor(), _brim()),
+        Sheet(inside_out(move(_visor(), z=-0.002)), draw.blank(20, 20, (90, 30, 34))),
     ]
-    return assemble([Part(turn(p.points, (0, 0, 1), -38), p.picture) for p in parts])
+    return assemble([Sheet(turn(p.points, (0, 0, 1), -38), p.picture) for p in parts])
 
 
-def shoe() -> Model:
+def shoe() -> ToyModel:
     """A running shoe of 28 cm seen from its side, the toe to the right."""
     return assemble(
         [
-            Part(_upper(), _upper_picture()),
-            Part(_sole(), _sole_picture()),
-            Part(_welt(), draw.blank(20, 8, _RUBBER)),
+            Sheet(_upper(), _upper_picture()),
+            Sheet(_sole(), _sole_picture()),
+            Sheet(_welt(), draw.blank(20, 8, _RUBBER)),
         ]
     )
 

@@ -28,13 +28,21 @@ def blank(width: int, height: int, colour: RGB) -> Colour:
 
 def polygon(picture: Colour, corners: ArrayLike, colour: RGB) -> None:
     """A filled polygon with smooth edges."""
-    cv2.fillPoly(picture, [_fixed(corners)], colour, cv2.LINE_AA, _SUBPIXEL_BITS)
+    cv2.fillPoly(
+        picture, [_to_fixed_point(corners)], colour, cv2.LINE_AA, _SUBPIXEL_BITS
+    )
 
 
 def line(picture: Colour, places: ArrayLike, colour: RGB, width: int = 1) -> None:
     """An open line through the places."""
     cv2.polylines(
-        picture, [_fixed(places)], False, colour, width, cv2.LINE_AA, _SUBPIXEL_BITS
+        picture,
+        [_to_fixed_point(places)],
+        False,
+        colour,
+        width,
+        cv2.LINE_AA,
+        _SUBPIXEL_BITS,
     )
 
 
@@ -171,7 +179,7 @@ def blend_down(picture: Colour, top: RGB, bottom: RGB) -> None:
     )
 
 
-def _fixed(places: ArrayLike) -> NDArray[np.int32]:
+def _to_fixed_point(places: ArrayLike) -> NDArray[np.int32]:
     """Places in the fixed-point form that OpenCV draws smoothly."""
     scaled = np.asarray(places, np.float64) * 2**_SUBPIXEL_BITS
     fixed: NDArray[np.int32] = np.round(scaled).astype(np.int32).reshape(-1, 1, 2)

@@ -6,15 +6,15 @@ import cv2
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import curve, ellipsoid, lathe, move, tube, turn
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
 _WOOD: draw.RGB = (92, 62, 36)
 
 
-def apple() -> Model:
+def apple() -> ToyModel:
     """A red apple of 8 cm with yellow streaks, a stalk, a leaf and a fruit label."""
     outline = [
         (0.000, 0.058),
@@ -31,14 +31,14 @@ def apple() -> Model:
     leaf = turn(ellipsoid((0.017, 0.009, 0.0015), 12), (0, 1, 0), -20)
     return assemble(
         [
-            Part(lathe(curve(outline, 20), 30), _apple_skin()),
-            Part(tube(stalk, 0.0018, 6), draw.blank(8, 8, _WOOD)),
-            Part(move(leaf, 0.020, 0, 0.079), _leaf()),
+            Sheet(lathe(curve(outline, 20), 30), _apple_skin()),
+            Sheet(tube(stalk, 0.0018, 6), draw.blank(8, 8, _WOOD)),
+            Sheet(move(leaf, 0.020, 0, 0.079), _leaf()),
         ]
     )
 
 
-def banana() -> Model:
+def banana() -> ToyModel:
     """A ripe banana of 19 cm, lying, with brown flecks, ridges and dark ends."""
     spine = curve(
         [
@@ -58,7 +58,7 @@ def banana() -> Model:
     sheet = tube(spine, girth, 20)
     angle = np.linspace(-np.pi, np.pi, 21)[:, None, None]
     ridged = spine + (sheet - spine) * (1 + 0.07 * np.cos(5 * angle))
-    return assemble([Part(ridged, _banana_skin())])
+    return assemble([Sheet(ridged, _banana_skin())])
 
 
 def _apple_skin() -> Colour:
@@ -70,7 +70,7 @@ def _apple_skin() -> Colour:
         lean = x + rng.normal(0, 8)
         colour = (int(rng.integers(196, 226)), int(rng.integers(60, 140)), 58)
         draw.line(skin, [(x, 30), (lean, 30 + length)], colour, int(rng.integers(1, 4)))
-    skin[:] = skin // 2 + _softened(skin) // 2
+    skin[:] = skin // 2 + _soften(skin) // 2
     draw.oval(skin, (260, 0), (400, 38), (172, 160, 62))
     draw.speckles(skin, 330, (1.2, 3.0), [(240, 208, 150), (250, 226, 180)], rng)
     draw.speckles(skin, 14, (3, 6), [(110, 30, 24), (128, 60, 30)], rng)
@@ -81,7 +81,7 @@ def _apple_skin() -> Colour:
     return skin
 
 
-def _softened(picture: Colour) -> Colour:
+def _soften(picture: Colour) -> Colour:
     """The picture with each pixel the mean of a neighbourhood along the height."""
     return cv2.blur(picture, (1, 13)).astype(np.uint8)
 

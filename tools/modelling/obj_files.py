@@ -7,13 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from kille.sensors.synthetic.obj import texel_places
 
 _MOST_DIGITS = 17  # of a float64
 
 
-def obj_text(model: Model, material: str) -> str:
+def obj_text(model: ToyModel, material: str) -> str:
     """The OBJ file of a model: `v`, `vt` and `vn` of each vertex, then the faces."""
     lines = [
         f"mtllib {material}",
@@ -37,7 +37,7 @@ def _digits(numbers: NDArray[np.float32]) -> list[list[str]]:
     return [[str(number) for number in row] for row in numbers]
 
 
-def _texels(model: Model) -> list[list[str]]:
+def _texels(model: ToyModel) -> list[list[str]]:
     """Decimals from 0 to 1, as short as gives the places in the texture back.
 
     A few numbers of texels are given back by no decimals, save for an error of 1e-13.

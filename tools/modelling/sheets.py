@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from kille.scene import Colour
 from kille.sensors.synthetic.model import (
     TEXELS_PER_METRE,
-    Model,
+    ToyModel,
     set_down,
     smooth_normals,
 )
@@ -20,14 +20,14 @@ from tools.modelling.shapes import Grid
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class Sheet:
     """A sheet of points (rows, columns, 3) in metres with a picture printed on it."""
 
     points: Grid
     picture: Colour
 
 
-def assemble(parts: Sequence[Part]) -> Model:
+def assemble(parts: Sequence[Sheet]) -> ToyModel:
     """The parts as one model, set down on z = 0 around the origin."""
     pictures = [_print_at_size(part) for part in parts]
     texture, tops = _stack(pictures)
@@ -37,7 +37,7 @@ def assemble(parts: Sequence[Part]) -> Model:
     ]
     sizes = [len(vertices) for vertices, _, _, _ in sheets]
     firsts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
-    return Model(
+    return ToyModel(
         vertices=set_down(np.concatenate([sheet[0] for sheet in sheets])),
         normals=np.concatenate([sheet[1] for sheet in sheets]),
         uv=np.concatenate([sheet[2] for sheet in sheets]),
@@ -48,7 +48,7 @@ def assemble(parts: Sequence[Part]) -> Model:
     )
 
 
-def _print_at_size(part: Part) -> Colour:
+def _print_at_size(part: Sheet) -> Colour:
     """The picture at the number of texels that the sheet's size asks for."""
     steps_right = np.linalg.norm(np.diff(part.points, axis=1), axis=2).sum(axis=1)
     steps_down = np.linalg.norm(np.diff(part.points, axis=0), axis=2).sum(axis=0)

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import Grid, ellipsoid, move, turn
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
 _FUR: draw.RGB = (164, 108, 58)
 _PALE_FUR: draw.RGB = (222, 184, 130)
@@ -17,38 +17,38 @@ _NOSE: draw.RGB = (38, 26, 24)
 _SATIN: draw.RGB = (196, 30, 48)
 
 
-def teddy_bear() -> Model:
+def teddy_bear() -> ToyModel:
     """A teddy bear of 26 cm that sits and looks at the viewer."""
     rng = np.random.default_rng(61)
     brown, pale = _fur(_FUR, rng), _fur(_PALE_FUR, rng)
     dark = draw.blank(12, 12, _NOSE)
     parts = [
-        Part(_ball((0.064, 0.055, 0.086), (0, 0, 0.086)), _belly(brown, pale)),
-        Part(_ball((0.060, 0.052, 0.054), (0, -0.010, 0.196)), brown),
-        Part(_ball((0.028, 0.022, 0.021), (0, -0.055, 0.183)), _muzzle(pale)),
-        Part(_ball((0.010, 0.007, 0.007), (0, -0.076, 0.192)), dark),
+        Sheet(_ball((0.064, 0.055, 0.086), (0, 0, 0.086)), _belly(brown, pale)),
+        Sheet(_ball((0.060, 0.052, 0.054), (0, -0.010, 0.196)), brown),
+        Sheet(_ball((0.028, 0.022, 0.021), (0, -0.055, 0.183)), _muzzle(pale)),
+        Sheet(_ball((0.010, 0.007, 0.007), (0, -0.076, 0.192)), dark),
     ]
     for side in (-1, 1):
         arm = turn(ellipsoid((0.023, 0.025, 0.055), 16), (0, 1, 0), -side * 32)
         arm = turn(arm, (1, 0, 0), -18)
         leg = turn(ellipsoid((0.030, 0.060, 0.029), 16), (0, 0, 1), side * 14)
         parts += [
-            Part(_ball((0.008, 0.005, 0.008), (side * 0.023, -0.056, 0.209)), _eye()),
-            Part(
+            Sheet(_ball((0.008, 0.005, 0.008), (side * 0.023, -0.056, 0.209)), _eye()),
+            Sheet(
                 _ball((0.023, 0.013, 0.023), (side * 0.047, -0.004, 0.240)),
                 _ear(brown, pale),
             ),
-            Part(move(arm, side * 0.074, -0.024, 0.112), brown),
-            Part(move(leg, side * 0.054, -0.066, 0.031), brown),
-            Part(
+            Sheet(move(arm, side * 0.074, -0.024, 0.112), brown),
+            Sheet(move(leg, side * 0.054, -0.066, 0.031), brown),
+            Sheet(
                 _ball((0.031, 0.017, 0.038), (side * 0.068, -0.117, 0.040)),
                 _paw(brown, pale),
             ),
-            Part(
+            Sheet(
                 _ball((0.022, 0.008, 0.015), (side * 0.022, -0.056, 0.150)), _ribbon()
             ),
         ]
-    parts.append(Part(_ball((0.008, 0.010, 0.009), (0, -0.058, 0.150)), _ribbon()))
+    parts.append(Sheet(_ball((0.008, 0.010, 0.009), (0, -0.058, 0.150)), _ribbon()))
     return assemble(parts)
 
 

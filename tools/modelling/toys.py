@@ -14,7 +14,7 @@ import cv2
 
 from kille.scene import Colour
 from kille.sensors import synthetic
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from tools.modelling.boxes import book, shoe_box
 from tools.modelling.car import car
 from tools.modelling.clothing import cap, shoe
@@ -27,7 +27,7 @@ from ttr.safety.unforeseen_errors import run_guarded
 
 SHIPPED = Path(synthetic.__file__).parent
 
-MAKERS: Mapping[str, Callable[[], Model]] = {
+MAKERS: Mapping[str, Callable[[], ToyModel]] = {
     "apple": apple,
     "banana": banana,
     "teddy_bear": teddy_bear,

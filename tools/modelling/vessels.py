@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import (
     Grid,
@@ -16,7 +16,7 @@ from tools.modelling.shapes import (
     move,
     tube,
 )
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
 _GLAZE: draw.RGB = (238, 236, 228)
 _BLUE: draw.RGB = (32, 66, 150)
@@ -25,7 +25,7 @@ _PAINT: draw.RGB = (206, 38, 58)
 _DRIPS = (292, 338, 366, 620, 700, 905, 60)
 
 
-def cup() -> Model:
+def cup() -> ToyModel:
     """A mug of 10.5 cm with a folk pattern, a handle to the right and coffee in it."""
     wall = [
         (0.0455, 0.105),
@@ -50,16 +50,16 @@ def cup() -> Model:
     coffee = move(disc(0.041), z=0.088)
     return assemble(
         [
-            Part(lathe(curve(wall, 12), 40), _folk_pattern()),
-            Part(lathe(lip, 40), draw.blank(40, 4, _BLUE)),
-            Part(inside_out(lathe(inner, 40)), draw.blank(40, 10, _GLAZE)),
-            Part(coffee, _coffee()),
-            Part(tube(handle, 0.0062, 10), draw.blank(20, 20, _BLUE)),
+            Sheet(lathe(curve(wall, 12), 40), _folk_pattern()),
+            Sheet(lathe(lip, 40), draw.blank(40, 4, _BLUE)),
+            Sheet(inside_out(lathe(inner, 40)), draw.blank(40, 10, _GLAZE)),
+            Sheet(coffee, _coffee()),
+            Sheet(tube(handle, 0.0062, 10), draw.blank(20, 20, _BLUE)),
         ]
     )
 
 
-def can_of_paint() -> Model:
+def can_of_paint() -> ToyModel:
     """A litre can of 12.5 cm with lid, rims, label, drips of red paint and a handle."""
     shell = [
         (0.050, 0.125),
@@ -73,13 +73,13 @@ def can_of_paint() -> Model:
     steel = draw.blank(80, 20, _STEEL)
     return assemble(
         [
-            Part(move(disc(0.043), z=0.1226), _lid()),
-            Part(lathe(groove, 40), steel),
-            Part(lathe(shell, 40), _rim()),
-            Part(lathe([(0.053, 0.116), (0.053, 0.006)], 40), _label()),
-            Part(lathe(foot, 40), steel),
-            Part(tube(_bail(), 0.0022, 6), draw.blank(8, 8, (84, 86, 92))),
-            *[Part(ear, steel) for ear in _ears()],
+            Sheet(move(disc(0.043), z=0.1226), _lid()),
+            Sheet(lathe(groove, 40), steel),
+            Sheet(lathe(shell, 40), _rim()),
+            Sheet(lathe([(0.053, 0.116), (0.053, 0.006)], 40), _label()),
+            Sheet(lathe(foot, 40), steel),
+            Sheet(tube(_bail(), 0.0022, 6), draw.blank(8, 8, (84, 86, 92))),
+            *[Sheet(ear, steel) for ear in _ears()],
         ]
     )
 

@@ -26,7 +26,7 @@ THING, LOOK, FRONT, OTHER = ("x",), ("look",), ("frame",), ("landmark", "x")
 
 
 @dataclass(frozen=True)
-class Part:
+class PhraseParts:
     """What a phrase says: of its thing, of the thing and its landmark, of the talk.
 
     `qualities` are those of the predicates that are adjectives.
@@ -37,7 +37,7 @@ class Part:
     qualities: frozenset[Pred]
     relations: tuple[PType, ...]
     choices: tuple[Pred, ...]
-    landmark: Part | None
+    landmark: PhraseParts | None
 
     def said_of(self, x: str, look: str) -> Iterator[Claim]:
         """What it says of the thing alone, if that is x."""
@@ -49,10 +49,10 @@ class Part:
         return _ground(self.relations, places)
 
 
-def put_together(*parts: Part) -> Part:
+def put_together(*parts: PhraseParts) -> PhraseParts:
     """What phrases say together: the parts of the merge of their types."""
     beside = [part.landmark for part in parts if part.landmark is not None]
-    return Part(
+    return PhraseParts(
         thing=next((it.thing for it in parts if it.thing is not None), None),
         claims=_all(part.claims for part in parts),
         qualities=frozenset().union(*(part.qualities for part in parts)),
@@ -67,13 +67,15 @@ def _all(several: Iterable[tuple[_Some, ...]]) -> tuple[_Some, ...]:
 
 
 @lru_cache(1024)
-def take_apart(phrase: RecordType, choosing: frozenset[Pred] = frozenset()) -> Part:
+def take_apart(
+    phrase: RecordType, choosing: frozenset[Pred] = frozenset()
+) -> PhraseParts:
     """The parts of a phrase; what the predicates for choosing say is kept apart."""
     landmark = phrase.get("landmark")
     said = [T for _, field in phrase.fields for T in _ptypes(field)]
     plain = [T for T in said if T.pred not in choosing]
     x = phrase["x"]
-    return Part(
+    return PhraseParts(
         thing=str(x.value) if isinstance(x, Singleton) else None,
         claims=tuple(T for T in plain if not _mentions(T, OTHER)),
         qualities=frozenset(T.pred for T in _ptypes(phrase.get("a"))),

@@ -14,7 +14,7 @@ from kille.dialogue.meanings import (
     merge_of,
     packaged_types,
 )
-from kille.dialogue.reference.parts import Part, put_together, take_apart
+from kille.dialogue.reference.parts import PhraseParts, put_together, take_apart
 from kille.dialogue.reference.resolving import PhraseJudge
 from ttr import Model, Record, RecordType, rectype
 
@@ -43,7 +43,9 @@ def ranking(
     return tuple(shares)
 
 
-def said_by(words: Sequence[Record], *, types: DialogueTypes | None = None) -> Part:
+def said_by(
+    words: Sequence[Record], *, types: DialogueTypes | None = None
+) -> PhraseParts:
     """The parts of a phrase of these words, without putting its type together first."""
     types = types or packaged_types()
     at = next((i for i, it in enumerate(words) if it.kind == "relation"), None)

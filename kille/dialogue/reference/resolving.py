@@ -15,7 +15,7 @@ from kille.dialogue.meanings import (
     set_at,
     set_to,
 )
-from kille.dialogue.reference.parts import Claim, Part, take_apart
+from kille.dialogue.reference.parts import Claim, PhraseParts, take_apart
 from kille.dialogue.reference.perspectives import front_of
 from kille.dialogue.reference.salience import (
     choose,
@@ -31,7 +31,7 @@ PARTS = ("target", "landmark")
 """The labels of the noun phrases in a content."""
 
 
-class Fit(NamedTuple):
+class PhraseFit(NamedTuple):
     """How well a thing fits a phrase: all that is said, and the weakest of it.
 
     `firm` is the weakest of what is not vague, as adjectives are. `things` is the thing
@@ -50,7 +50,7 @@ class Reading:
 
     s: Record
     open: RecordType
-    fits: tuple[tuple[str, Fit], ...]
+    fits: tuple[tuple[str, PhraseFit], ...]
     types: DialogueTypes | None = None
 
     @cached_property
@@ -83,7 +83,7 @@ class Reading:
         return in_view(s, content, types=types)
 
 
-_Found = TypeVar("_Found", Fit, Reading)
+_Found = TypeVar("_Found", PhraseFit, Reading)
 
 
 def phrases(content: RecordType) -> tuple[str, ...]:
@@ -190,7 +190,7 @@ def fitting_readings(s: Record, readings: Iterable[Reading]) -> list[Reading]:
     return _worth_thinking_of(s, readings)
 
 
-def fits_well(s: Record, fits: Mapping[str, Fit]) -> list[str]:
+def fits_well(s: Record, fits: Mapping[str, PhraseFit]) -> list[str]:
     """The things that fit a phrase so well that they are worth thinking of."""
     return [fit.things[0] for fit in _worth_thinking_of(s, fits.values())]
 
@@ -258,19 +258,19 @@ class PhraseJudge:
 
     def fits(
         self, phrase: RecordType, among: Sequence[str] | None = None
-    ) -> dict[str, Fit]:
+    ) -> dict[str, PhraseFit]:
         """How well each thing in view, or each of these, fits a phrase."""
         return self.fits_part(
             take_apart(phrase, self._types.derive(choosing_predicates)), among
         )
 
     def fits_part(
-        self, part: Part, among: Sequence[str] | None = None
-    ) -> dict[str, Fit]:
+        self, part: PhraseParts, among: Sequence[str] | None = None
+    ) -> dict[str, PhraseFit]:
         """How well each thing in view, or each of these, fits a phrase taken apart."""
         return self._fits(part, self._s.view.things if among is None else among)
 
-    def _fits(self, part: Part, among: Sequence[str]) -> dict[str, Fit]:
+    def _fits(self, part: PhraseParts, among: Sequence[str]) -> dict[str, PhraseFit]:
         things = among if part.thing is None else [part.thing]
         found = {x: fit for x in things if (fit := self._alone(part, x)).p > 0.0}
         if part.landmark is not None:
@@ -281,22 +281,22 @@ class PhraseJudge:
             found = {x: found[x] for x in left}
         return found
 
-    def _alone(self, part: Part, x: str) -> Fit:
+    def _alone(self, part: PhraseParts, x: str) -> PhraseFit:
         claims = part.said_of(x, self._s.view.look)
         judged = [(P, self.degree(P, *args)) for P, args in claims]
         degrees = [p for _, p in judged]
         firm = [p for P, p in judged if P not in part.qualities]
         weakest = min(degrees, default=1.0)
-        return Fit(prod(degrees), weakest, min(firm, default=1.0), (x,))
+        return PhraseFit(prod(degrees), weakest, min(firm, default=1.0), (x,))
 
     def _beside(
-        self, part: Part, landmark: Part, found: dict[str, Fit]
-    ) -> Iterator[tuple[str, Fit]]:
+        self, part: PhraseParts, landmark: PhraseParts, found: dict[str, PhraseFit]
+    ) -> Iterator[tuple[str, PhraseFit]]:
         """Each thing with the landmark that fits it best."""
         beside = self._fits(landmark, self._s.view.things)
         nearby = sorted(beside.values(), key=lambda fit: -fit.p)
         for x, alone in found.items():
-            best: Fit | None = None
+            best: PhraseFit | None = None
             for other in nearby:
                 if best is not None and alone.p * other.p <= best.p:
                     break  # no relation is more than certain
@@ -306,12 +306,12 @@ class PhraseJudge:
             if best is not None and best.p > 0.0:
                 yield x, best
 
-    def _both(self, part: Part, alone: Fit, other: Fit) -> Fit:
+    def _both(self, part: PhraseParts, alone: PhraseFit, other: PhraseFit) -> PhraseFit:
         (x,), (y, *_) = alone.things, other.things
         s = self._s
         claims = part.said_of_both(x, y, s.view.look, front_of(s, y))
         degrees = [self.degree(P, *args) for P, args in claims]
-        return Fit(
+        return PhraseFit(
             alone.p * other.p * prod(degrees),
             min((alone.weakest, other.weakest, *degrees)),
             min((alone.firm, other.firm, *degrees)),

@@ -37,7 +37,7 @@ def memory() -> Iterator[Finding]:
         yield _to_be_made(path)
         return
     try:
-        with Memory.reading(path) as opened:
+        with Memory.open_to_read(path) as opened:
             words = len(opened.words())
     except MemoryFileError as error:
         yield failed_part("memory", True, error)

@@ -10,7 +10,7 @@ from kille.interfaces.doctor.finding import Finding, failed_part
 if TYPE_CHECKING:
     from kille.sensors.kinect.devices import Kinect
     from kille.sensors.kinect.driver import Driver, Streams
-    from kille.sensors.kinect.transport import Bus
+    from kille.sensors.kinect.transport import TransportBus
 
 _PATIENCE = 5.0
 """Seconds to wait for the first picture."""
@@ -27,16 +27,16 @@ def kinect() -> Iterator[Finding]:
         yield _failed_kinect("Kinect", error)
 
 
-def plugged_in(bus: Bus | Driver) -> Iterator[Finding]:
+def plugged_in(bus: TransportBus | Driver) -> Iterator[Finding]:
     """One finding for each Kinect on the bus, or why there is none."""
-    from kille.sensors.kinect.devices import chosen, kinects
+    from kille.sensors.kinect.devices import choose_kinect, kinects
     from kille.sensors.kinect.driver import driver_of
     from kille.sensors.sensor import SensorError
 
     driver = driver_of(bus)
     try:
         devices = driver.devices()
-        chosen(devices, None)
+        choose_kinect(devices, None)
         for each in kinects(devices):
             yield _try_kinect(driver, each)
     except SensorError as error:
@@ -70,13 +70,13 @@ def _try_kinect(driver: Driver, found: Kinect) -> Finding:
 def _head(streams: Streams) -> str:
     """A remark on its motor; empty if the motor answers."""
     from kille.sensors.kinect.commands import BadReplyError
-    from kille.sensors.kinect.devices import Model
+    from kille.sensors.kinect.devices import KinectModel
     from kille.sensors.kinect.motor import Tilt
     from kille.sensors.kinect.transport import TransportError
     from kille.sensors.kinect.troubles import trouble
     from kille.sensors.sensor import SensorError
 
-    if streams.kinect.model is not Model.XBOX_1414:
+    if streams.kinect.model is not KinectModel.XBOX_1414:
         return " (its head is turned by hand)"
     try:
         Tilt.from_reply(streams.motor_state())

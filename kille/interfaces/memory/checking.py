@@ -11,10 +11,10 @@ from pathlib import Path
 from kille.interfaces.memory.moving import list_amounts
 from kille.interfaces.terminal import FAILED, FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
-from kille.memory.checking import Health, check
+from kille.memory.checking import MemoryCheck, check
 from kille.memory.salvaging import Salvage, salvage
 
-Report = Callable[[Path, Health, Path | None, Salvage | None], None]
+Report = Callable[[Path, MemoryCheck, Path | None, Salvage | None], None]
 """Reports what is wrong with a file, and what was saved to where."""
 
 
@@ -33,7 +33,7 @@ def check_memory(given: Path | None, target: Path | None, report: Report) -> int
     return FAILED if health.faults or (saved and saved.losses) else FINE
 
 
-def _health(path: Path, *, may_be_lost: bool) -> Health:
+def _health(path: Path, *, may_be_lost: bool) -> MemoryCheck:
     """The health of a file, also of one that is no memory any more."""
     try:
         return check(path)
@@ -41,11 +41,11 @@ def _health(path: Path, *, may_be_lost: bool) -> Health:
         if not may_be_lost or not path.is_file():
             raise
         fault = str(error).removeprefix(f"{path} ").partition(":")[0]
-        return Health((f"it {fault}",), (), None)
+        return MemoryCheck((f"it {fault}",), (), None)
 
 
 def as_json(
-    path: Path, health: Health, target: Path | None, saved: Salvage | None
+    path: Path, health: MemoryCheck, target: Path | None, saved: Salvage | None
 ) -> None:
     """Print what is wrong and what was saved, for machines."""
     facts: dict[str, object] = {
@@ -62,7 +62,7 @@ def as_json(
 
 
 def as_text(
-    path: Path, health: Health, target: Path | None, saved: Salvage | None
+    path: Path, health: MemoryCheck, target: Path | None, saved: Salvage | None
 ) -> None:
     """Print what is wrong and what was saved, for people."""
     _print(f"{path} {_in_brief(health)}")
@@ -79,7 +79,7 @@ def as_text(
         _print(f"{way} makes a new memory of what can be read.")
 
 
-def _in_brief(health: Health) -> str:
+def _in_brief(health: MemoryCheck) -> str:
     if health.amount is not None:
         return f"is sound: {list_amounts(asdict(health.amount))}"
     return f"has {len(health.faults)} fault{'s' * (len(health.faults) != 1)}:"

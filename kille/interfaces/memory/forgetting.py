@@ -42,7 +42,7 @@ def forget(given: Path | None, chosen: Choice, may: Consent, report: Report) -> 
     path = memory_path(given)
     try:
         # A memory that is not there is complained of, not made.
-        with Memory.reading(path) as memory:
+        with Memory.open_to_read(path) as memory:
             lessons = chosen(memory)
         with Memory.open(path) as memory:
             if not may(lessons):

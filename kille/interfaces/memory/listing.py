@@ -33,7 +33,7 @@ def list_words(given: Path | None, report: Report) -> int:
     """Print the words of the memory; returns the exit code."""
     path = memory_path(given)
     try:
-        with Memory.reading(path) as memory:
+        with Memory.open_to_read(path) as memory:
             entries = _entries(memory.lessons())
     except MemoryFileError as error:
         return complain(error)

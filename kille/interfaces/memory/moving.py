@@ -20,7 +20,7 @@ def export_memory(given: Path | None, target: Path, report: Report) -> int:
     """Write the memory as a zip or a folder; returns the exit code."""
     path = memory_path(given)
     try:
-        with Memory.reading(path) as memory:
+        with Memory.open_to_read(path) as memory:
             amount = export(memory, target)
     except (MemoryFileError, PackageError) as error:
         return complain(error)

@@ -63,7 +63,7 @@ def show(given: Path | None, named: str, out: Path | None, report: Report) -> in
     """
     path = memory_path(given)
     try:
-        with Memory.reading(path) as memory, memory.at_one_moment():
+        with Memory.open_to_read(path) as memory, memory.at_one_moment():
             keys = [lesson.key for lesson in lessons_named(memory, named)]
             report(_write_lesson(memory.lesson(key), out) for key in keys)
     except (MemoryFileError, NoSuchLessonError, _Unwritable) as error:

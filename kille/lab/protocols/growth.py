@@ -29,7 +29,7 @@ from kille.lab.theories.candidates import Methods
 from kille.memory import Memory, Scan, Sighting, Turn
 from kille.perception.thumbnails import evidence_of
 from kille.scene import Features, Percept
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 SIZES = (10, 30, 100, 300, 1_000, 3_000, 10_000)
 """The numbers of views at which learners are asked."""
@@ -94,7 +94,7 @@ def _step(steps: Steps, name: str, views: int) -> None:
 def _seen(seed: int) -> list[Percept]:
     """Each of the ten things, seen once: features and traits are taken only here."""
     table = OnTable(seed)
-    looks = [table.shown(name, scans=1) for name in NAMES]
+    looks = [table.shown(name, scans=1) for name in TOY_NAMES]
     for percept in looks:
         _ = percept.traits
     return looks
@@ -145,7 +145,7 @@ def _course(
             lessons = []
             for number in range(learned, size):
                 place = number % len(seen)
-                x, word = _varied(seen[place], chance), NAMES[place]
+                x, word = _varied(seen[place], chance), TOY_NAMES[place]
                 teach = partial(learner.learn_one, x, word, key=number)
                 lessons.append(_seconds(teach))
             learned = size

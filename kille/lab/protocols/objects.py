@@ -33,7 +33,7 @@ from kille.lab.results import Cell, Figure, Progress, Result, Table, silent
 from kille.lab.scenes.lessons import Lesson
 from kille.lab.scenes.shown_things import LOOKING, OnTable, cut_out, each_shown
 from kille.lab.theories.candidates import Make, Methods
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 ROUNDS = 4
 TURNED = 45.0
@@ -74,7 +74,7 @@ def paper(
     *,
     seed: int,
     progress: Progress = silent,
-    things: Sequence[str] = NAMES,
+    things: Sequence[str] = TOY_NAMES,
     rounds: int = ROUNDS,
     meshes: str = "",
 ) -> Result:

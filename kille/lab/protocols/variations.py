@@ -24,7 +24,7 @@ from kille.lab.results import Cell, Figure, Progress, Result, Table, silent
 from kille.lab.scenes.lessons import Lesson
 from kille.lab.scenes.shown_things import LOOKING, OnTable, each_shown
 from kille.lab.theories.candidates import Make, Methods
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 ANGLES = tuple(range(0, 181, 15))
 
@@ -40,7 +40,7 @@ def rotation(
     *,
     seed: int,
     progress: Progress = silent,
-    things: Sequence[str] = NAMES,
+    things: Sequence[str] = TOY_NAMES,
     meshes: str = "",
 ) -> Result:
     """Each thing is taught once, and asked for turned by ever more, up to its back."""
@@ -124,7 +124,7 @@ def _curve(by_angle: Mapping[int, Sequence[Answer]]) -> dict[str, list[float]]:
 
 def specimens(methods: Methods, *, seed: int, progress: Progress = silent) -> Result:
     """Two of each kind are taught, and others of the kind are asked for."""
-    count = (len(_TAUGHT) + len(_ASKED)) * len(NAMES)
+    count = (len(_TAUGHT) + len(_ASKED)) * len(TOY_NAMES)
     steps = Steps(progress, count, 0, LOOKING)
     lessons = _of_each_kind(_TAUGHT, seed, steps, "lessons")
     questions = _of_each_kind(_ASKED, seed, steps, "new things")
@@ -162,5 +162,5 @@ def _of_each_kind(
     return [
         lesson
         for table in tables
-        for lesson in each_shown(table, NAMES, steps, doing, scans=_FEW)
+        for lesson in each_shown(table, TOY_NAMES, steps, doing, scans=_FEW)
     ]

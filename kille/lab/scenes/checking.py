@@ -78,14 +78,17 @@ def _keeping(named: Named) -> str:
 def _unrendered(named: Named) -> Iterator[Wrong]:
     """What cannot be rendered, of the things that a scene names, and how."""
     from kille.sensors.synthetic import open_synthetic
-    from kille.sensors.synthetic.catalogue import NAMES
+    from kille.sensors.synthetic.catalogue import TOY_NAMES
 
     set_ = filled(named.settings, SETTINGS["rendered"])
     things = [("kinds", name) for name in set_["kinds"]]
     things += [(key, set_[key]) for key in ("target", "landmark")]
     for key, name in things:
-        if name not in NAMES:
-            yield (key,), f"there is no {name} to be rendered: {unknown(name, NAMES)}"
+        if name not in TOY_NAMES:
+            yield (
+                (key,),
+                f"there is no {name} to be rendered: {unknown(name, TOY_NAMES)}",
+            )
     try:
         open_synthetic(f"synthetic:empty?faults={quote(set_['faults'])}").close()
     except SensorError as error:

@@ -18,7 +18,7 @@ from kille.lab.scenes.lessons import Lesson
 from kille.perception.look import look
 from kille.scene import Frame, Percept
 from kille.sensors.captures import description_of
-from kille.sensors.pictures import fitted, is_picture, read_colour
+from kille.sensors.pictures import is_picture, read_colour, shrink_to_fit
 from kille.sensors.recordings.names import natural_order
 from kille.sensors.sensor import SensorError
 
@@ -73,7 +73,7 @@ class Gallery:
     def percept(self, path: Path) -> Percept:
         """What is seen of a picture in one scan: the one thing that it shows."""
         if path not in self.seen:
-            colour = fitted(read_colour(path), _LARGEST)
+            colour = shrink_to_fit(read_colour(path), _LARGEST)
             still = Still(Frame(colour, None, None, 0.0, {}))
             found = look(still, scans=1).percepts
             everything = np.ones(colour.shape[:2], bool)

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from kille.lab.results import ExperimentError
-from kille.perception.relations.bounding_boxes import Bounds, hold
+from kille.perception.relations.bounding_boxes import Bounds, containment
 from kille.scene import Configuration, Direction
 from ttr.safety.inputs import parse_json, read_text
 from ttr.safety.limits import TABLE
@@ -159,7 +159,7 @@ def _in_room(row: Mapping[str, str], scene: Mapping[str, Any]) -> Configuration 
     turned = np.array([-1, -1, 1]) if viewed else np.ones(3)
     target, landmark = (_bounds(things[it], turned) for it in names)
     others = [second] if second else [it for it in things if it not in names]
-    held = hold(target, landmark)
+    held = containment(target, landmark)
     return Configuration(
         offset=_direction(target.middle - landmark.middle),
         viewed=_ray(scene, landmark, turned) if viewed else None,

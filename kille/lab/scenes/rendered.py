@@ -15,7 +15,7 @@ from kille.lab.scenes.places import MIDDLE, rounded, side
 from kille.lab.scenes.theatre import Staged, Stand, Theatre, laid
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
 from kille.sensors.sensor import SensorError
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 _RINGS = (0.24, 0.30)  # metres: nearer the target would stand in the landmark
 _POINTS = 8
@@ -104,7 +104,7 @@ def _fits(source: str, stands: tuple[Stand, ...]) -> bool:
 def rendered(set_: Mapping[str, Any], chance: Random) -> Rendered:
     """A table on which the ten things of the paper can be put."""
     target, landmark = set_["target"], set_["landmark"]
-    wanted = dict.fromkeys((*(set_["kinds"] or NAMES), target, landmark))
+    wanted = dict.fromkeys((*(set_["kinds"] or TOY_NAMES), target, landmark))
     faults = quote(set_["faults"], safe=",")
     source = f"synthetic:empty?seed={chance.randrange(10**6)}&faults={faults}"
     things = tuple(Thing(name, "", front=_FRONTS.get(name, "")) for name in wanted)

@@ -23,7 +23,7 @@ from kille.perception.look import Sighting, look
 from kille.perception.segment import overlap
 from kille.scene import Frame, Look
 from kille.sensors.captures import Shot, description_of, read_sequence
-from kille.sensors.pictures import fitted, read_colour
+from kille.sensors.pictures import read_colour, shrink_to_fit
 from kille.sensors.sensor import At
 from kille.sensors.synthetic import Synthetic, open_synthetic
 
@@ -150,7 +150,7 @@ def _of_frame(view: Capture | Staged) -> Look:
 @lru_cache(PICTURES)
 def _of_picture(path: Path) -> Look:
     """The look at a picture, all of which is meant where nothing is made out."""
-    colour = fitted(read_colour(path), _LARGEST)
+    colour = shrink_to_fit(read_colour(path), _LARGEST)
     still = Still(Frame(colour, None, None, 0.0, {}))
     seen = look(still, scans=1)
     if seen.percepts:

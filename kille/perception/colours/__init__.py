@@ -13,12 +13,17 @@ from kille.perception.colours.palette import (
     Palette,
     colours_in,
     colours_of,
-    packed,
+    pack_palette,
     plain,
-    unpacked,
+    unpack_palette,
 )
 from kille.perception.colours.space import Lab, lab_of, rgb_of
 from kille.perception.colours.words import BASIC, ColourWords, xkcd
+from ttr.aliases import former_names
+
+__getattr__ = former_names(
+    __name__, {"packed": "pack_palette", "unpacked": "unpack_palette"}
+)
 
 __all__ = [
     "BASIC",
@@ -31,9 +36,9 @@ __all__ = [
     "colours_in",
     "colours_of",
     "lab_of",
-    "packed",
+    "pack_palette",
     "plain",
     "rgb_of",
-    "unpacked",
+    "unpack_palette",
     "xkcd",
 ]

@@ -58,7 +58,7 @@ class Palette:
         object.__setattr__(self, "lab", colours[order])
 
 
-def packed(palette: Palette) -> Vector:
+def pack_palette(palette: Palette) -> Vector:
     """Pack the palette into 16 numbers: four times a share and its L, a, b.
 
     Of a palette of more than four colours the commonest are kept.
@@ -69,10 +69,10 @@ def packed(palette: Palette) -> Vector:
     return rows.ravel()
 
 
-def unpacked(vector: Vector) -> Palette:
+def unpack_palette(vector: Vector) -> Palette:
     """Unpack a packed palette; ValueError if the vector is none.
 
-    >>> unpacked(packed(plain([48, 66, 48]))).lab.tolist()
+    >>> unpack_palette(pack_palette(plain([48, 66, 48]))).lab.tolist()
     [[48.0, 66.0, 48.0]]
     """
     if vector.shape != (4 * _PACKED,):

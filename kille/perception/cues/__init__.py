@@ -26,6 +26,9 @@ from kille.perception.cues import (
 from kille.perception.cues.embedding import MissingExtraError
 from kille.perception.cues.patch import Patch
 from kille.scene import Frame, Region, Traits, Vector
+from ttr.aliases import former_names
+
+__getattr__ = former_names(__name__, {"measured": "measure_cues"})
 
 __all__ = [
     "CUES",
@@ -33,7 +36,7 @@ __all__ = [
     "Cue",
     "MissingExtraError",
     "Patch",
-    "measured",
+    "measure_cues",
     "with_embedding",
 ]
 
@@ -82,7 +85,9 @@ def with_embedding() -> Mapping[str, Cue]:
     return MappingProxyType({**CUES, EMBEDDING.name: EMBEDDING})
 
 
-def measured(frame: Frame, region: Region, cues: Mapping[str, Cue] = CUES) -> Traits:
+def measure_cues(
+    frame: Frame, region: Region, cues: Mapping[str, Cue] = CUES
+) -> Traits:
     """Measure the cues of the region: a vector for each cue that applies."""
     patch = Patch(frame, region)
     found = {name: cue.measure(patch) for name, cue in cues.items()}

@@ -41,7 +41,7 @@ class Bounds:
 
 
 @dataclass(frozen=True)
-class Hold:
+class Containment:
     """How a landmark holds a target; each number is in [0, 1]."""
 
     contact: float
@@ -49,7 +49,7 @@ class Hold:
     containment: float
 
 
-def hold(target: Bounds, landmark: Bounds) -> Hold:
+def containment(target: Bounds, landmark: Bounds) -> Containment:
     """How far the landmark touches, supports and contains the target.
 
     contact: 1 where the boxes meet, 0 from a gap of 15 % of the smaller size on.
@@ -59,8 +59,8 @@ def hold(target: Bounds, landmark: Bounds) -> Hold:
 
     >>> box = Bounds(np.zeros(3), np.ones(3))
     >>> on_it = Bounds(np.array([0.0, 0.0, 1.0]), np.array([0.5, 1.0, 1.5]))
-    >>> hold(on_it, box)
-    Hold(contact=1.0, support=1.0, containment=0.0)
+    >>> containment(on_it, box)
+    Containment(contact=1.0, support=1.0, containment=0.0)
     """
     shared = np.minimum(target.high, landmark.high) - np.maximum(
         target.low, landmark.low
@@ -72,7 +72,7 @@ def hold(target: Bounds, landmark: Bounds) -> Hold:
     foot = float(target.low[2])
     off = abs(foot - float(landmark.high[2]))
     contained = float(shares.prod())
-    return Hold(
+    return Containment(
         contact=max(0.0, 1 - apart / slack),
         support=max(over * max(0.0, 1 - off / slack), contained),
         containment=contained,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.geometry import offset, points_in, table_axes
-from kille.perception.relations.bounding_boxes import Bounds, bounds_of, hold
+from kille.perception.relations.bounding_boxes import Bounds, bounds_of, containment
 from kille.scene import Configuration, Direction, Frame, Point, Region
 
 _STRAYS = 0.02
@@ -83,7 +83,7 @@ def _between(
     box, base = target.box, landmark.box
     if box is None or base is None:
         return found
-    held = hold(box, base)
+    held = containment(box, base)
     return replace(
         found,
         target_size=max(box.size, _BARE),

@@ -45,7 +45,7 @@ def degrees_at(odds: ArrayLike) -> Vector:
     return degrees
 
 
-class Fit(NamedTuple):
+class TemplateFit(NamedTuple):
     """How well each template fits the judgements (log evidence), and its line."""
 
     score: Vector
@@ -88,7 +88,7 @@ class Judgements:
         )
 
     @cached_property
-    def fit(self) -> Fit:
+    def fit(self) -> TemplateFit:
         """The evidence and the line of each template, averaged over the noise
         levels."""
         noise = _NOISE**2
@@ -110,7 +110,7 @@ class Judgements:
         top = scores.max(axis=0)
         shares = np.exp(scores - top)
         total = shares.sum(axis=0)
-        return Fit(
+        return TemplateFit(
             top + np.log(total),
             (shares * shift).sum(axis=0) / total,
             np.maximum((shares * slope).sum(axis=0) / total, 0),

@@ -25,7 +25,7 @@ _FARTHEST = 1e4  # sizes: what is farther is that far
 _BETWEEN = 0.35  # of their distance: how far off the line a thing is between two others
 
 
-class Measures(NamedTuple):
+class ConfigurationMeasures(NamedTuple):
     """Measurements of n configurations, each (n,), NaN where unknown."""
 
     bearing: Array
@@ -59,10 +59,14 @@ class Measures(NamedTuple):
     """The share of the target within the landmark."""
 
 
-def measure_configurations(configurations: Sequence[Configuration]) -> Measures:
+def measure_configurations(
+    configurations: Sequence[Configuration],
+) -> ConfigurationMeasures:
     """Measure several configurations at once."""
     rows = np.array([_row(it) for it in configurations], np.float32)
-    return Measures(*rows.reshape(-1, len(Measures._fields)).T)
+    return ConfigurationMeasures(
+        *rows.reshape(-1, len(ConfigurationMeasures._fields)).T
+    )
 
 
 def size_of(configuration: Configuration) -> float:

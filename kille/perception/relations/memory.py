@@ -42,7 +42,7 @@ _DOUBT = 0.35  # of the logarithm of the distance
 
 
 @dataclass(frozen=True)
-class Lesson:
+class SpatialLesson:
     """A word said of a configuration, or judged to fit it to a degree."""
 
     x: Configuration
@@ -56,7 +56,7 @@ class Lesson:
 
 
 @dataclass(frozen=True, eq=False)
-class Meaning:
+class SpatialMeaning:
     """What a word means: how likely each template is, (h,), and the mean line from
     the log odds of the templates to those of the word."""
 
@@ -66,7 +66,7 @@ class Meaning:
 
 
 @dataclass(frozen=True, eq=False)
-class Evidence:
+class TemplateEvidence:
     """What the lessons of one word say of each template: how well what was said of it
     fits, how much of what was said it covers, (h,), and what was judged."""
 
@@ -80,7 +80,7 @@ class Evidence:
         """The number of lessons."""
         return self.times_said + self.judged.count
 
-    def plus(self, lesson: Lesson) -> Evidence:
+    def plus(self, lesson: SpatialLesson) -> TemplateEvidence:
         """Add one lesson."""
         degrees = space().degrees([lesson.x])[0].astype(np.float64)
         if lesson.degree is not None:
@@ -92,7 +92,7 @@ class Evidence:
             times_said=self.times_said + 1,
         )
 
-    def meaning(self, elsewhere: Vector, count: int) -> Meaning:
+    def meaning(self, elsewhere: Vector, count: int) -> SpatialMeaning:
         """What the word means; `elsewhere` is what templates cover of so many places
         where other words were said."""
         breadth = space().breadth
@@ -102,7 +102,9 @@ class Evidence:
         scores = space().log_prior + fit + judged.score
         likely = np.exp(scores - scores.max())
         likely /= likely.sum()
-        return Meaning(likely, float(likely @ judged.shift), likely * judged.slope)
+        return SpatialMeaning(
+            likely, float(likely @ judged.shift), likely * judged.slope
+        )
 
 
 def template_odds(seen: Sequence[Configuration]) -> Vector:
@@ -110,9 +112,9 @@ def template_odds(seen: Sequence[Configuration]) -> Vector:
     return log_odds(space().degrees(seen))
 
 
-def _no_evidence() -> Evidence:
+def _no_evidence() -> TemplateEvidence:
     none = np.zeros(len(space().breadth))
-    return Evidence(none, none, Judgements.none(len(none)))
+    return TemplateEvidence(none, none, Judgements.none(len(none)))
 
 
 def _fit_of_said(degrees: Vector) -> Vector:
@@ -127,8 +129,8 @@ class RelationMemory:
     """A learner of spatial words from configurations."""
 
     def __init__(self) -> None:
-        self._heard: dict[Key, Lesson] = {}
-        self._evidence: dict[str, Evidence] = {}
+        self._heard: dict[Key, SpatialLesson] = {}
+        self._evidence: dict[str, TemplateEvidence] = {}
         self._believed: _Beliefs | None = None
 
     def copy(self) -> RelationMemory:
@@ -151,7 +153,7 @@ class RelationMemory:
         self, x: Configuration, label: str, *, key: Key | None = None
     ) -> None:
         """Learn that the word was said of x; ValueError if the key is taken."""
-        self._learn(Lesson(x, label, None), key)
+        self._learn(SpatialLesson(x, label, None), key)
 
     def judge_one(
         self, x: Configuration, label: str, degree: float, *, key: Key | None = None
@@ -162,9 +164,9 @@ class RelationMemory:
         """
         if not 0 <= degree <= 1:
             raise ValueError(f"a degree is in [0, 1], and {degree} is not")
-        self._learn(Lesson(x, label, degree), key)
+        self._learn(SpatialLesson(x, label, degree), key)
 
-    def _learn(self, lesson: Lesson, key: Key | None) -> None:
+    def _learn(self, lesson: SpatialLesson, key: Key | None) -> None:
         if key in self._heard:
             raise ValueError(f"the key {key!r} was learned before; forget it first")
         old = self._evidence.get(lesson.label) or _no_evidence()
@@ -295,7 +297,7 @@ class _Beliefs:
     distance heard of, in metres; and the lines of all meanings: slopes (h, w) and
     shifts (w,)."""
 
-    meanings: tuple[Meaning, ...]
+    meanings: tuple[SpatialMeaning, ...]
     usual: Vector
     farthest: float
     slopes: Vector

@@ -24,7 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kille.perception.relations.measures import Array, Measures
+from kille.perception.relations.measures import Array, ConfigurationMeasures
 
 _FUZZ = 0.1  # sizes: nearer to the vertical than this no direction is told on the table
 _TOUCHING = -0.3  # the logarithm of the distance, in sizes, of things that touch
@@ -40,7 +40,7 @@ class Family:
 
     name: str
     prior: NDArray[np.float64]
-    degrees: Callable[[Measures], Array]
+    degrees: Callable[[ConfigurationMeasures], Array]
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,9 @@ def _cone_grid() -> tuple[list[Array], NDArray[np.float64]]:
     return [k, s, c0, a], prior
 
 
-def _cones(cosines: Callable[[Measures], Array]) -> Callable[[Measures], Array]:
+def _cones(
+    cosines: Callable[[ConfigurationMeasures], Array],
+) -> Callable[[ConfigurationMeasures], Array]:
     """Templates around each of m directions, from their cosines (n, m).
 
     Each is made so high that it is 1 in the middle of its cone.
@@ -107,7 +109,7 @@ def _cones(cosines: Callable[[Measures], Array]) -> Callable[[Measures], Array]:
 
     highest = _sigmoid(inside(1.0))
 
-    def degrees(of: Measures) -> Array:
+    def degrees(of: ConfigurationMeasures) -> Array:
         c = cosines(of)
         off = inside(c[:, :, None]) - a * of.gap[:, None, None]
         return (_sigmoid(off) / highest).reshape(len(c), -1)
@@ -121,7 +123,7 @@ def _cone_prior(of_directions: ArrayLike, share: float) -> NDArray[np.float64]:
     return share * np.outer(weights / weights.sum(), prior).ravel()
 
 
-def _levels(of: Measures) -> tuple[Array, Array]:
+def _levels(of: ConfigurationMeasures) -> tuple[Array, Array]:
     """How much of a direction is seen on the table, (n,), without and with regard to
     height.
     """
@@ -130,13 +132,13 @@ def _levels(of: Measures) -> tuple[Array, Array]:
     return told, steep
 
 
-def _both_levels(cosines: Array, of: Measures) -> Array:
+def _both_levels(cosines: Array, of: ConfigurationMeasures) -> Array:
     """The cosines (n, m) with and without regard to height, (n, 2 m)."""
     told, steep = _levels(of)
     return np.concatenate([cosines * told[:, None], cosines * steep[:, None]], axis=1)
 
 
-def _viewers(of: Measures, directions: Array) -> Array:
+def _viewers(of: ConfigurationMeasures, directions: Array) -> Array:
     """The mean cosine on the table and against the viewer's ray, (n, m)."""
     on_table = np.cos(of.bearing[:, None] - directions)
     against_ray = np.cos((of.bearing - of.turn)[:, None] - directions)
@@ -149,7 +151,7 @@ def _viewer_family(share: float) -> Family:
     directions = np.radians(np.arange(0, 360, 15)).astype(np.float32)
     weights = [20 if i % 6 == 0 else 2 if i % 3 == 0 else 1 for i in range(24)]
 
-    def cosines(of: Measures) -> Array:
+    def cosines(of: ConfigurationMeasures) -> Array:
         return _both_levels(_viewers(of, directions), of)
 
     return Family("viewed", _cone_prior(weights * 2, share), _cones(cosines))
@@ -160,7 +162,7 @@ def _heading_family(share: float) -> Family:
     directions = np.radians(np.arange(0, 360, 45)).astype(np.float32)
     weights = [4, 1] * 4
 
-    def cosines(of: Measures) -> Array:
+    def cosines(of: ConfigurationMeasures) -> Array:
         return _both_levels(np.cos((of.bearing - of.heading)[:, None] - directions), of)
 
     return Family("headed", _cone_prior(weights * 2, share), _cones(cosines))
@@ -170,7 +172,7 @@ def _flanking_family(share: float) -> Family:
     """Either of two opposite sides."""
     directions = np.radians([0.0, 90.0]).astype(np.float32)
 
-    def cosines(of: Measures) -> Array:
+    def cosines(of: ConfigurationMeasures) -> Array:
         return _both_levels(np.abs(_viewers(of, directions)), of)
 
     return Family("flanking", _cone_prior([1] * 4, share), _cones(cosines))
@@ -179,7 +181,7 @@ def _flanking_family(share: float) -> Family:
 def _vertical_family(share: float) -> Family:
     """Above or below, within a wide or a narrow cone."""
 
-    def cosines(of: Measures) -> Array:
+    def cosines(of: ConfigurationMeasures) -> Array:
         wide = of.rise / np.sqrt(of.across**2 + of.rise**2 + _FUZZ**2)
         narrow = of.rise / np.sqrt(4 * of.across**2 + of.rise**2 + _FUZZ**2)
         return np.stack([wide, narrow, -wide, -narrow], axis=1)
@@ -195,7 +197,7 @@ def _near_family(share: float) -> Family:
     (k, b, e, f), prior = _grid(STEEPNESS, REACH, CROWDED, PARTED)
     highest = _sigmoid(k * (b - _TOUCHING))
 
-    def degrees(of: Measures) -> Array:
+    def degrees(of: ConfigurationMeasures) -> Array:
         off = (
             k * (b - of.apart[:, None])
             - e * of.crowding[:, None]
@@ -212,7 +214,7 @@ def _beside_family(share: float) -> Family:
     (k, b), prior = _grid(STEEPNESS, REACH)
     highest = _sigmoid(k * (b - _TOUCHING))
 
-    def degrees(of: Measures) -> Array:
+    def degrees(of: ConfigurationMeasures) -> Array:
         _, steep = _levels(of)
         level = _sigmoid(8 * (steep - 0.7))
         near = np.minimum(_sigmoid(k * (b - of.apart[:, None])) / highest, 1)
@@ -226,7 +228,7 @@ def _far_family(share: float) -> Family:
     """Far away."""
     (k, b), prior = _grid(STEEPNESS, REACH)
 
-    def degrees(of: Measures) -> Array:
+    def degrees(of: ConfigurationMeasures) -> Array:
         return _sigmoid(k * (of.apart[:, None] - b))
 
     return Family("far", share * prior, degrees)
@@ -236,7 +238,7 @@ def _between_family(share: float) -> Family:
     """On the line from the landmark to another thing."""
     (k, c0), prior = _grid(SHARPNESS, BORDER)
 
-    def degrees(of: Measures) -> Array:
+    def degrees(of: ConfigurationMeasures) -> Array:
         return _sigmoid(2 * k * (of.flanked[:, None] - c0))
 
     return Family("between", share * prior, degrees)
@@ -248,7 +250,7 @@ def _functional_family(share: float) -> Family:
         _axis([6, 12], 8, 6), _axis([0.05, 0.2, 0.4, 0.6, 0.8], 0.4, 0.3)
     )
 
-    def degrees(of: Measures) -> Array:
+    def degrees(of: ConfigurationMeasures) -> Array:
         contact, support, containment = of.contact, of.support, of.containment
         held = np.stack(
             [

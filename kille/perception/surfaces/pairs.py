@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.geometry import Array
-from kille.perception.surfaces.patch_measures import Indices, Measures, Vectors
+from kille.perception.surfaces.patch_measures import Indices, PatchMeasures, Vectors
 from kille.perception.surfaces.patches import CONCAVE, Surface
 from kille.perception.surfaces.relief import Labels, Relief, jump_of
 
@@ -91,7 +91,7 @@ class Pairs:
 
 
 def pairs_of(
-    labels: Labels, relief: Relief, surface: Surface, patches: Measures
+    labels: Labels, relief: Relief, surface: Surface, patches: PatchMeasures
 ) -> Pairs:
     """The pairs of patches that may belong to one thing.
 
@@ -189,7 +189,7 @@ def _steps(
 
 
 def _of_edges(
-    edges: dict[str, Vectors], patches: Measures, one: Indices, other: Indices
+    edges: dict[str, Vectors], patches: PatchMeasures, one: Indices, other: Indices
 ) -> dict[str, Vectors]:
     pixels, read, smooth = (
         np.maximum(edges[name], 1) for name in ("pixels", "read", "smooth")
@@ -209,7 +209,7 @@ def _of_edges(
 
 
 def _of_directions(
-    patches: Measures, one: Indices, other: Indices
+    patches: PatchMeasures, one: Indices, other: Indices
 ) -> dict[str, Vectors]:
     normal, normal2 = patches.normal[:, one], patches.normal[:, other]
     between = patches.middle[:, other] - patches.middle[:, one]
@@ -222,7 +222,9 @@ def _of_directions(
     }
 
 
-def _of_surfaces(patches: Measures, one: Indices, other: Indices) -> dict[str, Vectors]:
+def _of_surfaces(
+    patches: PatchMeasures, one: Indices, other: Indices
+) -> dict[str, Vectors]:
     planes = patches.fits.coefficients(3)
     first, second = patches.fits.of(one), patches.fits.of(other)
     union = first.union(second)
@@ -250,7 +252,9 @@ def _alike(height: Vectors, height2: Vectors) -> Vectors:
     return alike
 
 
-def _of_heights(patches: Measures, one: Indices, other: Indices) -> dict[str, Vectors]:
+def _of_heights(
+    patches: PatchMeasures, one: Indices, other: Indices
+) -> dict[str, Vectors]:
     foot, foot2 = patches.low[2, one], patches.low[2, other]
     top, top2 = patches.high[2, one], patches.high[2, other]
     low = np.maximum(patches.low[:2, one], patches.low[:2, other])
@@ -268,7 +272,9 @@ def _of_heights(patches: Measures, one: Indices, other: Indices) -> dict[str, Ve
     }
 
 
-def _of_sizes(patches: Measures, one: Indices, other: Indices) -> dict[str, Vectors]:
+def _of_sizes(
+    patches: PatchMeasures, one: Indices, other: Indices
+) -> dict[str, Vectors]:
     small = np.minimum(patches.area[one], patches.area[other])
     large = np.maximum(patches.area[one], patches.area[other])
     low = np.minimum(patches.low[:, one], patches.low[:, other])
@@ -287,7 +293,9 @@ def _of_sizes(patches: Measures, one: Indices, other: Indices) -> dict[str, Vect
     }
 
 
-def _of_heaps(patches: Measures, one: Indices, other: Indices) -> dict[str, Vectors]:
+def _of_heaps(
+    patches: PatchMeasures, one: Indices, other: Indices
+) -> dict[str, Vectors]:
     number = int(patches.heap.max()) + 1
     low, high = np.full((3, number), np.inf), np.full((3, number), -np.inf)
     hull = np.ones(number)
@@ -312,14 +320,14 @@ def _of_heaps(patches: Measures, one: Indices, other: Indices) -> dict[str, Vect
     }
 
 
-def _hull(patches: Measures, one: int, other: int) -> float:
+def _hull(patches: PatchMeasures, one: int, other: int) -> float:
     """The area in pixels of the convex hull around two patches."""
     corners = np.concatenate([patches.hulls[one], patches.hulls[other]])
     return cv2.contourArea(cv2.convexHull(corners)) + 1
 
 
 def _on_the_line(
-    labels: Labels, depth: Array, patches: Measures, one: Indices, other: Indices
+    labels: Labels, depth: Array, patches: PatchMeasures, one: Indices, other: Indices
 ) -> tuple[Vectors, Vectors]:
     """The shares (m,) of the line between two patches that are hidden and open.
 

@@ -61,7 +61,7 @@ class Fits:
 
 
 @dataclass(frozen=True, eq=False)
-class Measures:
+class PatchMeasures:
     """Patches 1 … k as arrays of k, in order of their labels.
 
     pixels: how many; depth: its mean; area in m² facing the camera; middle, normal
@@ -86,7 +86,7 @@ class Measures:
 
 def measure_patches(
     labels: Labels, relief: Relief, surface: Surface, table: Plane | None
-) -> Measures:
+) -> PatchMeasures:
     """Measure all patches in labels (h, w), which are numbered from 1.
 
     Every patch must have readings. A heap is what hangs together in the picture, but
@@ -109,7 +109,7 @@ def measure_patches(
     depth = groups.sums(z)[0] / groups.sizes
     pixels = groups.split(np.stack([columns, rows], axis=1).astype(np.int32))
     pixel_area = relief.step**2 / (relief.lens.fx * relief.lens.fy)
-    return Measures(
+    return PatchMeasures(
         pixels=groups.sizes.astype(np.float64),
         depth=depth,
         area=groups.sizes * depth**2 * pixel_area,

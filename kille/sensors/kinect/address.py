@@ -20,7 +20,7 @@ _OPTIONS = ("tilt", "light", "picture")
 
 
 @dataclass(frozen=True)
-class Address:
+class KinectAddress:
     """Which Kinect, and how it is to be set; None leaves a thing as it is."""
 
     serial: str | None = None
@@ -29,7 +29,7 @@ class Address:
     picture: str = "colour"
 
 
-def parse_address(name: str) -> Address:
+def parse_address(name: str) -> KinectAddress:
     """The address that a name gives; SensorError for what is not known.
 
     >>> parse_address("kinect:A0033?tilt=-10").tilt
@@ -43,7 +43,7 @@ def parse_address(name: str) -> Address:
         if [name for name, _ in given].count(option) > 1:
             raise SensorError(f"option '{option}' is given twice: give it once")
     tilt, light = options.get("tilt"), options.get("light")
-    return Address(
+    return KinectAddress(
         serial or None,
         None if tilt is None else _degrees(tilt),
         None

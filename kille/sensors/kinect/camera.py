@@ -8,15 +8,15 @@ from dataclasses import replace
 
 from kille.sensors.kinect import commands
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.clock import Clock, Misses
+from kille.sensors.kinect.clock import DeviceClock, MissedMicroframes
 from kille.sensors.kinect.commands import BadReplyError
-from kille.sensors.kinect.packets import Assembler, Counts, RawFrame
+from kille.sensors.kinect.packets import Assembler, RawFrame, StreamCounts
 from kille.sensors.kinect.streams import COLOUR, DEPTH_11, Mode, Script
 from kille.sensors.kinect.transport import (
     Batch,
     Connection,
+    IsochronousStream,
     StalledError,
-    Stream,
     TransportError,
 )
 
@@ -30,7 +30,7 @@ it is given more time then.
 _PAUSE = 0.001
 
 
-class Camera:
+class KinectCamera:
     """The camera behind a connection.
 
     Every method but `close` may raise a TransportError, or BadReplyError if the camera
@@ -64,9 +64,9 @@ class Camera:
         reply = self._ask(commands.READ_REGISTER, (number,))
         return commands.register_value(reply, number)
 
-    def start(self, mode: Mode, take: Callable[[RawFrame], None]) -> Feed:
+    def start(self, mode: Mode, take: Callable[[RawFrame], None]) -> FrameStream:
         """Start a stream; its whole frames are given to `take`, from another thread."""
-        feed = Feed(mode, take)
+        feed = FrameStream(mode, take)
         feed.stream = self._connection.stream(
             mode.endpoint, mode.packet_size, feed.receive
         )
@@ -77,7 +77,7 @@ class Camera:
             raise
         return feed
 
-    def stop(self, feed: Feed) -> None:
+    def stop(self, feed: FrameStream) -> None:
         """Switch the stream off and wait for its end."""
         try:
             self._set(feed.mode.stop)
@@ -131,22 +131,22 @@ class Camera:
             time.sleep(_PAUSE)
 
 
-class Feed:
+class FrameStream:
     """A stream that is put together into frames."""
 
     def __init__(self, mode: Mode, take: Callable[[RawFrame], None]) -> None:
         self.mode = mode
-        self.stream: Stream | None = None
+        self.stream: IsochronousStream | None = None
         self.failures = 0
         self.failure: Exception | None = None
         self._take = take
         self._assembler = Assembler(mode)
-        self._clock = Clock()
-        self._misses = Misses()
+        self._clock = DeviceClock()
+        self._misses = MissedMicroframes()
         self._ended: TransportError | None = None
 
     @property
-    def counts(self) -> Counts:
+    def counts(self) -> StreamCounts:
         """What came so far."""
         return replace(self._assembler.counts, missed=self._misses.count)
 
@@ -158,7 +158,7 @@ class Feed:
     def receive(self, batch: Batch) -> None:
         """Take packets. Whatever fails in taking frames is counted and kept."""
         frames = self._assembler.feed(batch)
-        self._misses.read(len(batch.lengths))
+        self._misses.count_read(len(batch.lengths))
         self._misses.reach(self._assembler.began)
         for frame in frames:
             taken = self._clock.at(frame.ticks, frame.time)

@@ -20,7 +20,7 @@ COLOUR_CAMERA = Intrinsics(fx=525.0, fy=525.0, cx=319.5, cy=239.5)
 
 
 @dataclass(frozen=True, eq=False)
-class Capture:
+class KinectCapture:
     """Colour and raw depth that belong together.
 
     `time` in seconds; `colour` (480, 640, 3) RGB; `depth` (480, 640) of 11 bits, 2047
@@ -45,12 +45,12 @@ class RawSource(Protocol):
         """What turns raw depth into metres on the colour picture."""
         ...
 
-    def capture(self) -> Capture:
+    def capture(self) -> KinectCapture:
         """The next capture."""
         ...
 
 
-def frame_of(capture: Capture, calibration: Calibration) -> Frame:
+def frame_of(capture: KinectCapture, calibration: Calibration) -> Frame:
     """The frame of a capture: its depth on the colour picture, in metres."""
     # What is too far has no depth, though some of it would wrap around to one.
     seen = register_depth(capture.depth, calibration, beyond(calibration))

@@ -17,14 +17,14 @@ LATEST = 0.5
 """Seconds that no frame is under way; a clock that says so is not believed."""
 
 
-class Clock:
+class DeviceClock:
     """The host's seconds for one stream's ticks, without the delays of single frames.
 
     A frame arrives some time after it was taken, now more and now less. The device's
     clock runs evenly, but from a beginning of its own: it is set by the frame, among
     the latest, that was delayed the least.
 
-    >>> clock = Clock()
+    >>> clock = DeviceClock()
     >>> [round(clock.at(n * 2_000_000, n / 30 + late), 3)
     ...  for n, late in enumerate((0.002, 0.001, 0.050))]
     [0.002, 0.034, 0.068]
@@ -45,16 +45,16 @@ class Clock:
         return max(seconds + min(self._offsets), arrived - LATEST)
 
 
-class Misses:
+class MissedMicroframes:
     """Counts the microframes that passed by the device's clock, but were not read.
 
     USB asks the device 8000 times a second, as long as somebody reads what comes; what
     is sent while nobody does is lost. Reading may be ahead or behind by what is read at
     once, which is no miss.
 
-    >>> misses = Misses()
+    >>> misses = MissedMicroframes()
     >>> for second in range(4):
-    ...     misses.read(8_000 if second < 3 else 4_000)
+    ...     misses.count_read(8_000 if second < 3 else 4_000)
     ...     misses.reach(second * TICKS_A_SECOND)
     >>> misses.count
     3488
@@ -66,7 +66,7 @@ class Misses:
         self._behind = 0
         self._reached: int | None = None
 
-    def read(self, microframes: int) -> None:
+    def count_read(self, microframes: int) -> None:
         """So many were read, with packets in them or not."""
         self._read += microframes
 

@@ -10,16 +10,16 @@ import numpy as np
 from kille.scene import Colour
 from kille.sensors.kinect.bayer import colour_of
 from kille.sensors.kinect.calibration import IDENTITY, Calibration
-from kille.sensors.kinect.capture import Capture
+from kille.sensors.kinect.capture import KinectCapture
 from kille.sensors.kinect.packets import RawFrame
 from kille.sensors.kinect.pairing import Pair
 from kille.sensors.kinect.streams import INFRARED, Mode
 from kille.sensors.kinect.unpacking import unpack_10, unpack_11
 
 
-def capture_of(pair: Pair, colour: Mode) -> Capture:
+def capture_of(pair: Pair, colour: Mode) -> KinectCapture:
     """The capture of a pair, whose picture came through a stream of that mode."""
-    return Capture(
+    return KinectCapture(
         pair.depth.time,
         _picture(pair.colour, colour),
         unpack_11(pair.depth.data),

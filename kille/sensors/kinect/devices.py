@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import Enum
 from itertools import takewhile
 
-from kille.sensors.kinect.transport import Plugged
+from kille.sensors.kinect.transport import PluggedDevice
 from kille.sensors.sensor import SensorError
 
 MICROSOFT = 0x045E
@@ -25,7 +25,7 @@ SECOND = (0x02D9, 0x02C4)
 _RELEASE_OF_1414 = 0x010B
 
 
-class Model(Enum):
+class KinectModel(Enum):
     """The kinds of Kinect v1, by the number on their label."""
 
     XBOX_1414 = "1414"
@@ -35,20 +35,20 @@ class Model(Enum):
     @property
     def alternate(self) -> int:
         """The setting of the camera's interface in which it streams."""
-        return 1 if self is Model.WINDOWS else 0
+        return 1 if self is KinectModel.WINDOWS else 0
 
 
 @dataclass(frozen=True)
 class Kinect:
     """What belongs to one Kinect; the motor only where it can be driven."""
 
-    model: Model
+    model: KinectModel
     serial: str
-    camera: Plugged
-    motor: Plugged | None
+    camera: PluggedDevice
+    motor: PluggedDevice | None
 
 
-def kinects(devices: Iterable[Plugged]) -> tuple[Kinect, ...]:
+def kinects(devices: Iterable[PluggedDevice]) -> tuple[Kinect, ...]:
     """All Kinects with a camera, in the order of their places."""
     parts = [it for it in devices if it.vendor == MICROSOFT]
     cameras = [it for it in parts if it.product in (CAMERA, WINDOWS_CAMERA)]
@@ -58,7 +58,7 @@ def kinects(devices: Iterable[Plugged]) -> tuple[Kinect, ...]:
     )
 
 
-def chosen(devices: Sequence[Plugged], serial: str | None) -> Kinect:
+def choose_kinect(devices: Sequence[PluggedDevice], serial: str | None) -> Kinect:
     """The Kinect of that serial number, or the first; SensorError if there is none."""
     found = kinects(devices)
     if not found:
@@ -73,7 +73,7 @@ def chosen(devices: Sequence[Plugged], serial: str | None) -> Kinect:
     raise SensorError(f"no Kinect has the serial number {serial}; plugged in: {known}")
 
 
-def again(devices: Sequence[Plugged], before: Kinect) -> Kinect:
+def again(devices: Sequence[PluggedDevice], before: Kinect) -> Kinect:
     """The Kinect that was opened before; SensorError if it is not plugged in now.
 
     It is known by its serial number. If that could not be read, then or now, the one
@@ -101,7 +101,8 @@ def again(devices: Sequence[Plugged], before: Kinect) -> Kinect:
 def kinect_name(kinect: Kinect) -> str:
     """A Kinect by its serial number, or by its place on the bus if it tells none.
 
-    >>> kinect_name(Kinect(Model.XBOX_1414, "", Plugged(0, 0, 0, "", (1, 2, 3)), None))
+    >>> DEVICE = PluggedDevice(0, 0, 0, "", (1, 2, 3))
+    >>> kinect_name(Kinect(KinectModel.XBOX_1414, "", DEVICE, None))
     'Kinect without a serial number at USB 1-2.3'
     """
     if kinect.serial:
@@ -111,7 +112,7 @@ def kinect_name(kinect: Kinect) -> str:
     return f"Kinect without a serial number at USB {at}"
 
 
-def _around(camera: Plugged, parts: Sequence[Plugged]) -> Kinect:
+def _around(camera: PluggedDevice, parts: Sequence[PluggedDevice]) -> Kinect:
     """The camera with the parts that belong to it and to no other camera.
 
     Parts of a Kinect hang on one hub, and the camera may hang on a hub below it. So a
@@ -127,24 +128,28 @@ def _around(camera: Plugged, parts: Sequence[Plugged]) -> Kinect:
         model,
         own or (audio.serial if audio else ""),
         camera,
-        motor if model is Model.XBOX_1414 else None,
+        motor if model is KinectModel.XBOX_1414 else None,
     )
 
 
-def _same_hub(part: Plugged, camera: Plugged) -> bool:
+def _same_hub(part: PluggedDevice, camera: PluggedDevice) -> bool:
     """Whether the hub on which a part hangs is on the way to the camera."""
     hub = part.place[:-1]
     return camera.place[: len(hub)] == hub
 
 
-def _nearest(device: Plugged, others: Sequence[Plugged]) -> Plugged | None:
+def _nearest(
+    device: PluggedDevice, others: Sequence[PluggedDevice]
+) -> PluggedDevice | None:
     """The one with which the way from the computer is shared the longest."""
     return max(
         others, key=lambda it: _shared_length(it.place, device.place), default=None
     )
 
 
-def _only_nearest(device: Plugged, others: Sequence[Plugged]) -> Plugged | None:
+def _only_nearest(
+    device: PluggedDevice, others: Sequence[PluggedDevice]
+) -> PluggedDevice | None:
     """The nearest one, unless another is as near."""
     if device in others:
         return device
@@ -162,15 +167,15 @@ def _shared_length(one: tuple[int, ...], other: tuple[int, ...]) -> int:
     return sum(1 for _ in takewhile(lambda step: step[0] == step[1], steps))
 
 
-def _model(camera: Plugged) -> Model:
+def _model(camera: PluggedDevice) -> KinectModel:
     if camera.product == WINDOWS_CAMERA:
-        return Model.WINDOWS
+        return KinectModel.WINDOWS
     if camera.release == _RELEASE_OF_1414:
-        return Model.XBOX_1414
-    return Model.XBOX_1473
+        return KinectModel.XBOX_1414
+    return KinectModel.XBOX_1473
 
 
-def _why_none(devices: Sequence[Plugged]) -> str:
+def _why_none(devices: Sequence[PluggedDevice]) -> str:
     products = {it.product for it in devices if it.vendor == MICROSOFT}
     if products & {MOTOR, *AUDIO}:
         return (

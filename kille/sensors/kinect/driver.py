@@ -7,12 +7,12 @@ from typing import Protocol, runtime_checkable
 
 from kille.scene import Frame
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.capture import Capture
+from kille.sensors.kinect.capture import KinectCapture
 from kille.sensors.kinect.devices import Kinect
-from kille.sensors.kinect.packets import Counts
-from kille.sensors.kinect.session import Session
+from kille.sensors.kinect.packets import StreamCounts
+from kille.sensors.kinect.session import StreamSession
 from kille.sensors.kinect.streams import Mode
-from kille.sensors.kinect.transport import Bus, Plugged
+from kille.sensors.kinect.transport import PluggedDevice, TransportBus
 
 
 class Streams(Protocol):
@@ -32,7 +32,7 @@ class Streams(Protocol):
         ...
 
     @property
-    def counts(self) -> Mapping[str, Counts]:
+    def counts(self) -> Mapping[str, StreamCounts]:
         """What came through each stream."""
         ...
 
@@ -40,7 +40,7 @@ class Streams(Protocol):
         """The next frame; TransportError if none comes in that time."""
         ...
 
-    def capture(self, seconds: float) -> Capture:
+    def capture(self, seconds: float) -> KinectCapture:
         """The next capture, with the tilt if the motor tells it; else as `frame`."""
         ...
 
@@ -61,7 +61,7 @@ class Streams(Protocol):
 class Driver(Protocol):
     """Finds Kinects and starts their streams, one Kinect at a time."""
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         """All of Microsoft's devices that are plugged in now, ordered by place."""
         ...
 
@@ -81,21 +81,21 @@ class LocalDriver:
     others compute in Python, packets are lost.
     """
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: TransportBus) -> None:
         self._bus = bus
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         """All of Microsoft's devices that are plugged in now, ordered by place."""
         return self._bus.devices()
 
-    def start(self, kinect: Kinect, colour: Mode) -> Session:
+    def start(self, kinect: Kinect, colour: Mode) -> StreamSession:
         """Open that Kinect and start depth and the other stream."""
-        return Session(self._bus, kinect, colour)
+        return StreamSession(self._bus, kinect, colour)
 
     def close(self) -> None:
         """Nothing is left to be freed."""
 
 
-def driver_of(bus: Bus | Driver) -> Driver:
+def driver_of(bus: TransportBus | Driver) -> Driver:
     """The driver itself, or one that runs the streams of a bus in this process."""
     return bus if isinstance(bus, Driver) else LocalDriver(bus)

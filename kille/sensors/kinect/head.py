@@ -7,9 +7,14 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TypeVar
 
-from kille.sensors.kinect.devices import Kinect, Model, kinects
+from kille.sensors.kinect.devices import Kinect, KinectModel, kinects
 from kille.sensors.kinect.motor import GET_STATE, STATE_LENGTH
-from kille.sensors.kinect.transport import Bus, Connection, Plugged, TransportError
+from kille.sensors.kinect.transport import (
+    Connection,
+    PluggedDevice,
+    TransportBus,
+    TransportError,
+)
 from kille.sensors.kinect.troubles import no_motor
 from kille.sensors.sensor import SensorError
 
@@ -19,14 +24,14 @@ _RARELY = 1.0
 Result = TypeVar("Result")
 
 
-class Head:
+class KinectMotor:
     """The motor of one Kinect.
 
     It is a USB device of its own, which may leave the bus and come back while the
     camera streams. A motor that came back is asked again for what was asked last.
     """
 
-    def __init__(self, bus: Bus, kinect: Kinect) -> None:
+    def __init__(self, bus: TransportBus, kinect: Kinect) -> None:
         self._bus = bus
         self._kinect = kinect
         self._device = kinect.motor
@@ -99,9 +104,9 @@ class Head:
             self._undone.discard(request)
         return do(self._motor)
 
-    def _find_motor(self) -> Plugged:
+    def _find_motor(self) -> PluggedDevice:
         """The motor of this Kinect as it is plugged in now; SensorError without one."""
-        if self._kinect.model is Model.XBOX_1414:
+        if self._kinect.model is KinectModel.XBOX_1414:
             for kinect in kinects(self._bus.devices()):
                 if kinect.camera.place == self._kinect.camera.place and kinect.motor:
                     return kinect.motor

@@ -43,7 +43,7 @@ class RawFrame(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Counts:
+class StreamCounts:
     """What came through a stream since it was started.
 
     `packets` that were not empty; `lost` those that the numbers tell to be missing;
@@ -60,14 +60,14 @@ class Counts:
     broken: int = 0
     missed: int = 0
 
-    def __sub__(self, earlier: Counts) -> Counts:
+    def __sub__(self, earlier: StreamCounts) -> StreamCounts:
         """What came since then.
 
-        >>> Counts(packets=9, lost=1) - Counts(packets=4)
-        Counts(packets=5, lost=1, strange=0, frames=0, broken=0, missed=0)
+        >>> StreamCounts(packets=9, lost=1) - StreamCounts(packets=4)
+        StreamCounts(packets=5, lost=1, strange=0, frames=0, broken=0, missed=0)
         """
         names = self.__dataclass_fields__
-        return Counts(*(getattr(self, it) - getattr(earlier, it) for it in names))
+        return StreamCounts(*(getattr(self, it) - getattr(earlier, it) for it in names))
 
 
 class Assembler:
@@ -87,12 +87,12 @@ class Assembler:
         self._had = 0
         self._next_number: int | None = None
         self._began: int | None = None
-        self._tally = dict.fromkeys(Counts.__dataclass_fields__, 0)
+        self._tally = dict.fromkeys(StreamCounts.__dataclass_fields__, 0)
 
     @property
-    def counts(self) -> Counts:
+    def counts(self) -> StreamCounts:
         """What came so far."""
-        return Counts(**self._tally)
+        return StreamCounts(**self._tally)
 
     @property
     def began(self) -> int | None:

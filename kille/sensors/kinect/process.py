@@ -27,15 +27,15 @@ import numpy as np
 
 from kille.scene import Colour, Frame
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture
+from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture
 from kille.sensors.kinect.channel import Channel
 from kille.sensors.kinect.devices import Kinect
 from kille.sensors.kinect.motor import Tilt
-from kille.sensors.kinect.packets import Counts
+from kille.sensors.kinect.packets import StreamCounts
 from kille.sensors.kinect.streams import Mode
 from kille.sensors.kinect.transport import (
     DeviceGoneError,
-    Plugged,
+    PluggedDevice,
     StalledError,
     TransportError,
 )
@@ -71,7 +71,7 @@ def can_be_used() -> bool:
     return os.name == "posix" and bool(sys.executable)
 
 
-class Answer(NamedTuple):
+class RequestResult(NamedTuple):
     """What came of a request: its value, or the error that was raised.
 
     `remarks` are lines for the log of whoever asked.
@@ -82,7 +82,7 @@ class Answer(NamedTuple):
     remarks: tuple[str, ...]
 
 
-class InMemory(NamedTuple):
+class SharedPictures(NamedTuple):
     """What was seen; the picture, and behind it the depth, lie in the shared memory."""
 
     time: float
@@ -106,9 +106,9 @@ class ProcessDriver:
         self._memory: mmap.mmap | None = None
         self._starts = 0
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         """All of Microsoft's devices that are plugged in now, ordered by place."""
-        found: tuple[Plugged, ...] = self.ask("devices")
+        found: tuple[PluggedDevice, ...] = self.ask("devices")
         return found
 
     def start(self, kinect: Kinect, colour: Mode) -> RemoteStreams:
@@ -209,7 +209,7 @@ class ProcessDriver:
     def _answer(self, limit: float) -> Any:
         assert self._channel is not None
         with self._whole():
-            answer: Answer = self._channel.receive(limit)
+            answer: RequestResult = self._channel.receive(limit)
         for remark in answer.remarks:
             _log.warning("%s", remark)
         if answer.error is not None:
@@ -272,9 +272,9 @@ class RemoteStreams:
         self._start = start
 
     @property
-    def counts(self) -> Mapping[str, Counts]:
+    def counts(self) -> Mapping[str, StreamCounts]:
         """What came through each stream."""
-        counts: Mapping[str, Counts] = self._ask("counts")
+        counts: Mapping[str, StreamCounts] = self._ask("counts")
         return counts
 
     def frame(self, seconds: float) -> Frame:
@@ -283,12 +283,12 @@ class RemoteStreams:
         metres = np.frombuffer(depth, np.float32).reshape(480, 640)
         return Frame(colour, metres, COLOUR_CAMERA, seen.time, {})
 
-    def capture(self, seconds: float) -> Capture:
+    def capture(self, seconds: float) -> KinectCapture:
         """The next capture, with the tilt if the motor tells it; else as `frame`."""
         seen, colour, depth = self._look("capture", seconds)
         raw = np.frombuffer(depth, np.uint16).reshape(480, 640)
         ticks = seen.ticks_colour, seen.ticks_depth
-        return Capture(seen.time, colour, raw, *ticks, seen.tilt)
+        return KinectCapture(seen.time, colour, raw, *ticks, seen.tilt)
 
     def set_motor(self, request: int, value: int) -> None:
         """Ask the motor for a tilt or a light, now and whenever it comes back."""
@@ -304,12 +304,14 @@ class RemoteStreams:
         if self._driver.has(self._start):
             self._driver.stop()
 
-    def _look(self, what: str, seconds: float) -> tuple[InMemory, Colour, bytearray]:
+    def _look(
+        self, what: str, seconds: float
+    ) -> tuple[SharedPictures, Colour, bytearray]:
         """What is seen next, its picture, and the bytes of its depth."""
         deadline = time.monotonic() + seconds
         while True:
             with self._driver.lock:
-                seen: InMemory | None = self._ask(what, min(_SLICE, seconds))
+                seen: SharedPictures | None = self._ask(what, min(_SLICE, seconds))
                 if seen is not None:
                     picture = np.frombuffer(self._driver.memory(0, PICTURE), np.uint8)
                     end = ROOM if what == "frame" else PICTURE + 480 * 640 * 2

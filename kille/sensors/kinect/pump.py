@@ -41,21 +41,21 @@ _FAILURES = 64
 """Transfers that fail one after another before the stream is given up."""
 
 
-class Events:
+class UsbEventLoop:
     """Lets libusb call back, in a thread of its own, while there are streams."""
 
     def __init__(self, backend: Any) -> None:
         self._backend = backend
         self._lock = threading.Lock()
         self._users = 0
-        self._thread: _Serving | None = None
+        self._thread: _EventThread | None = None
 
     def enter(self) -> None:
         """There is one stream more."""
         with self._lock:
             self._users += 1
             if self._thread is None:
-                self._thread = _Serving(self._backend)
+                self._thread = _EventThread(self._backend)
                 self._thread.start()
 
     def leave(self) -> None:
@@ -69,7 +69,7 @@ class Events:
             thread.end()
 
 
-class _Serving(threading.Thread):
+class _EventThread(threading.Thread):
     """The thread in which libusb calls back, until it is told to end."""
 
     def __init__(self, backend: Any) -> None:
@@ -125,7 +125,7 @@ class IsoStream:
     def __init__(
         self,
         backend: Any,
-        events: Events,
+        events: UsbEventLoop,
         handle: Any,
         endpoint: int,
         packet_size: int,

@@ -12,10 +12,10 @@ from typing import TypeVar
 from kille.scene import Frame
 from kille.sensors.kinect.address import parse_address
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.capture import Capture
+from kille.sensors.kinect.capture import KinectCapture
 from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.developing import calibration_for
-from kille.sensors.kinect.devices import Kinect, again, chosen, kinect_name
+from kille.sensors.kinect.devices import Kinect, again, choose_kinect, kinect_name
 from kille.sensors.kinect.driver import Driver, Streams, driver_of
 from kille.sensors.kinect.motor import (
     SET_LIGHT,
@@ -25,12 +25,12 @@ from kille.sensors.kinect.motor import (
     light_value,
     tilt_value,
 )
-from kille.sensors.kinect.packets import Counts
+from kille.sensors.kinect.packets import StreamCounts
 from kille.sensors.kinect.streams import COLOUR, INFRARED
 from kille.sensors.kinect.transport import (
-    Bus,
     DeviceGoneError,
     InterruptedTransferError,
+    TransportBus,
     TransportError,
 )
 from kille.sensors.kinect.troubles import explain_error
@@ -60,7 +60,7 @@ class KinectSensor:
     SensorError if there is none, or it cannot be had: one line says what to do.
     """
 
-    def __init__(self, name: str, bus: Bus | Driver) -> None:
+    def __init__(self, name: str, bus: TransportBus | Driver) -> None:
         self._name = name
         self._driver = driver_of(bus)
         self._began = time.monotonic()
@@ -92,7 +92,7 @@ class KinectSensor:
         return calibration_for(self._calibration, self._colour)
 
     @property
-    def counts(self) -> Mapping[str, Counts]:
+    def counts(self) -> Mapping[str, StreamCounts]:
         """What came through each stream since it was last started."""
         try:
             return {} if self._streams is None else self._streams.counts
@@ -108,7 +108,7 @@ class KinectSensor:
         frame = self._look(lambda streams: streams.frame(_SILENCE))
         return replace(frame, time=frame.time - self._began)
 
-    def capture(self) -> Capture:
+    def capture(self) -> KinectCapture:
         """As `frame`, but the depth as it came; and how the Kinect stands."""
         capture = self._look(lambda streams: streams.capture(_SILENCE))
         return replace(capture, time=capture.time - self._began)
@@ -181,7 +181,7 @@ class KinectSensor:
             kinect = (
                 again(devices, before)
                 if before
-                else chosen(devices, self._address.serial)
+                else choose_kinect(devices, self._address.serial)
             )
             streams = self._driver.start(kinect, self._colour)
             try:

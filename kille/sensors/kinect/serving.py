@@ -17,16 +17,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.capture import Capture, frame_of
+from kille.sensors.kinect.capture import KinectCapture, frame_of
 from kille.sensors.kinect.channel import Channel
 from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.developing import calibration_for, capture_of
 from kille.sensors.kinect.devices import Kinect
-from kille.sensors.kinect.packets import Counts
-from kille.sensors.kinect.process import PICTURE, ROOM, Answer, InMemory
-from kille.sensors.kinect.session import Session
+from kille.sensors.kinect.packets import StreamCounts
+from kille.sensors.kinect.process import PICTURE, ROOM, RequestResult, SharedPictures
+from kille.sensors.kinect.session import StreamSession
 from kille.sensors.kinect.streams import COLOUR, INFRARED
-from kille.sensors.kinect.transport import Bus, DeviceGoneError, Plugged, TransportError
+from kille.sensors.kinect.transport import (
+    DeviceGoneError,
+    PluggedDevice,
+    TransportBus,
+    TransportError,
+)
 from kille.sensors.sensor import SensorError
 
 _LOOK_UP = 1.0
@@ -58,7 +63,7 @@ def _serve(channel: Channel, memory: mmap.mmap) -> None:
     kinects: _Kinects | None = None
     try:
         kinects, error = _start_kinects(memory)
-        channel.send(Answer(None, error, ()))
+        channel.send(RequestResult(None, error, ()))
         while kinects is not None:
             try:
                 what, given = channel.receive(_LOOK_UP)
@@ -67,7 +72,7 @@ def _serve(channel: Channel, memory: mmap.mmap) -> None:
                     return
                 continue
             value, error = _attempt(getattr(kinects, what), given)
-            channel.send(Answer(value, error, remarks.take_all()))
+            channel.send(RequestResult(value, error, remarks.take_all()))
     except (EOFError, OSError):
         return
     finally:
@@ -114,14 +119,14 @@ def _leave(sign: int, frame: FrameType | None) -> None:
 class _Kinects:
     """What may be asked: the methods are called by their names."""
 
-    def __init__(self, bus: Bus, memory: mmap.mmap) -> None:
+    def __init__(self, bus: TransportBus, memory: mmap.mmap) -> None:
         self._bus = bus
         self._memory = np.frombuffer(memory, np.uint8)
-        self._known: dict[object, Plugged] = {}
+        self._known: dict[object, PluggedDevice] = {}
         self._tokens = 0
-        self._session: Session | None = None
+        self._session: StreamSession | None = None
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         """What is plugged in; a number stands for what only this process has."""
         found = self._bus.devices()
         numbers = range(self._tokens, self._tokens + len(found))
@@ -140,14 +145,14 @@ class _Kinects:
         if camera is None:
             raise DeviceGoneError("the device is no longer plugged in")
         ours = replace(kinect, camera=camera, motor=motor)
-        self._session = Session(self._bus, ours, _MODES[colour])
+        self._session = StreamSession(self._bus, ours, _MODES[colour])
         return self._session.calibration
 
-    def counts(self) -> Mapping[str, Counts]:
+    def counts(self) -> Mapping[str, StreamCounts]:
         """What came through each stream."""
         return self._open_session().counts
 
-    def frame(self, seconds: float) -> InMemory | None:
+    def frame(self, seconds: float) -> SharedPictures | None:
         """Put the next frame into the memory, if one comes in that time."""
         streams = self._open_session()
         pair = streams.wait_for_pair(seconds)
@@ -157,7 +162,7 @@ class _Kinects:
         calibration = calibration_for(streams.calibration, streams.colour)
         return self._share(capture, frame_of(capture, calibration).depth)
 
-    def capture(self, seconds: float) -> InMemory | None:
+    def capture(self, seconds: float) -> SharedPictures | None:
         """Put the next capture into the memory, if one comes in that time."""
         streams = self._open_session()
         pair = streams.wait_for_pair(seconds)
@@ -185,16 +190,18 @@ class _Kinects:
         if session is not None:
             session.close()
 
-    def _share(self, capture: Capture, depth: NDArray[Any] | None) -> InMemory:
+    def _share(
+        self, capture: KinectCapture, depth: NDArray[Any] | None
+    ) -> SharedPictures:
         assert depth is not None
         data = depth.reshape(-1).view(np.uint8)
         self._memory[:PICTURE] = capture.colour.reshape(-1)
         self._memory[PICTURE : PICTURE + data.size] = data
-        return InMemory(
+        return SharedPictures(
             capture.time, capture.ticks_colour, capture.ticks_depth, capture.tilt
         )
 
-    def _open_session(self) -> Session:
+    def _open_session(self) -> StreamSession:
         if self._session is None:
             raise DeviceGoneError("its streams have ended")
         return self._session

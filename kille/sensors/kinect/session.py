@@ -10,17 +10,17 @@ from contextlib import ExitStack, suppress
 from dataclasses import replace
 
 from kille.scene import Frame
-from kille.sensors.kinect.camera import Camera, Feed
-from kille.sensors.kinect.capture import Capture, frame_of
+from kille.sensors.kinect.camera import FrameStream, KinectCamera
+from kille.sensors.kinect.capture import KinectCapture, frame_of
 from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.developing import calibration_for, capture_of
 from kille.sensors.kinect.devices import Kinect
-from kille.sensors.kinect.head import Head
+from kille.sensors.kinect.head import KinectMotor
 from kille.sensors.kinect.motor import Tilt
-from kille.sensors.kinect.packets import Counts, RawFrame
+from kille.sensors.kinect.packets import RawFrame, StreamCounts
 from kille.sensors.kinect.pairing import Pair, first_pair
 from kille.sensors.kinect.streams import DEPTH_11, Mode
-from kille.sensors.kinect.transport import Bus, TransportError
+from kille.sensors.kinect.transport import TransportBus, TransportError
 from kille.sensors.kinect.troubles import no_pictures
 from kille.sensors.sensor import SensorError
 
@@ -31,22 +31,22 @@ _LOOK_UP = 0.05
 """Seconds after which a wait looks whether a stream has ended."""
 
 
-class Session:
+class StreamSession:
     """Both streams of a Kinect; `colour` is the mode of the one beside depth.
 
     A TransportError or BadReplyError where the Kinect cannot be opened or started.
     """
 
-    def __init__(self, bus: Bus, kinect: Kinect, colour: Mode) -> None:
+    def __init__(self, bus: TransportBus, kinect: Kinect, colour: Mode) -> None:
         self.kinect = kinect
         self.colour = colour
         self._came = threading.Condition()
         self._colours: deque[RawFrame] = deque(maxlen=_KEPT)
         self._depths: deque[RawFrame] = deque(maxlen=_KEPT)
-        self._feeds: list[Feed] = []
-        self._counts_at_last_pair: Mapping[str, Counts] = {}
-        self._head = Head(bus, kinect)
-        self._camera = Camera(bus.open(kinect.camera, kinect.model.alternate))
+        self._feeds: list[FrameStream] = []
+        self._counts_at_last_pair: Mapping[str, StreamCounts] = {}
+        self._head = KinectMotor(bus, kinect)
+        self._camera = KinectCamera(bus.open(kinect.camera, kinect.model.alternate))
         try:
             self._camera.rest()
             self.calibration = self._camera.calibration()
@@ -57,7 +57,7 @@ class Session:
             raise
 
     @property
-    def counts(self) -> Mapping[str, Counts]:
+    def counts(self) -> Mapping[str, StreamCounts]:
         """What came through each stream."""
         return {feed.mode.name: feed.counts for feed in self._feeds}
 
@@ -66,7 +66,7 @@ class Session:
         calibration = calibration_for(self.calibration, self.colour)
         return frame_of(capture_of(self.pair(seconds), self.colour), calibration)
 
-    def capture(self, seconds: float) -> Capture:
+    def capture(self, seconds: float) -> KinectCapture:
         """The next capture, with the tilt if the motor tells it; else as `frame`."""
         capture = capture_of(self.pair(seconds), self.colour)
         return replace(capture, tilt=self.tilt_if_known())
@@ -109,7 +109,9 @@ class Session:
     def why_no_pair(self) -> TransportError:
         """Why no pair came since the last one, as far as the packets tell."""
         before = self._counts_at_last_pair
-        since = [it - before.get(name, Counts()) for name, it in self.counts.items()]
+        since = [
+            it - before.get(name, StreamCounts()) for name, it in self.counts.items()
+        ]
         failures = (feed.failure for feed in self._feeds)
         return TransportError(no_pictures(since, filter(None, failures)))
 

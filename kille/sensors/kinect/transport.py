@@ -30,7 +30,7 @@ class DeviceBusyError(TransportError):
     """Something else has the device: another program, if no more is known."""
 
 
-class Driven(DeviceBusyError):
+class KernelDriverError(DeviceBusyError):
     """A kernel driver has the device, and does not let go of it."""
 
 
@@ -47,7 +47,7 @@ class NoLibraryError(TransportError):
 
 
 @dataclass(frozen=True)
-class Plugged:
+class PluggedDevice:
     """One device on the bus, as its descriptors tell it.
 
     `release` is bcdDevice; `serial` is empty if it has none or may not be read; `place`
@@ -81,7 +81,7 @@ Receiver = Callable[[Batch], None]
 """What takes the batches: called from another thread, never from two at once."""
 
 
-class Stream(Protocol):
+class IsochronousStream(Protocol):
     """A running isochronous stream."""
 
     @property
@@ -105,7 +105,9 @@ class Connection(Protocol):
         """A vendor control transfer from the device (0xC0): `length` bytes or fewer."""
         ...
 
-    def stream(self, endpoint: int, packet_size: int, receive: Receiver) -> Stream:
+    def stream(
+        self, endpoint: int, packet_size: int, receive: Receiver
+    ) -> IsochronousStream:
         """Start to read an isochronous endpoint whose packets have at most that size.
 
         The rows of its batches are that wide, or wider.
@@ -117,14 +119,14 @@ class Connection(Protocol):
         ...
 
 
-class Bus(Protocol):
+class TransportBus(Protocol):
     """Where devices are found."""
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         """All of Microsoft's devices that are plugged in now, ordered by place."""
         ...
 
-    def open(self, device: Plugged, alternate: int) -> Connection:
+    def open(self, device: PluggedDevice, alternate: int) -> Connection:
         """The device with its interface 0 claimed and set to that alternate setting.
 
         Raises `DeviceGoneError`, `AccessDeniedError`, `DeviceBusyError` or another

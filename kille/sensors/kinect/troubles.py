@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from kille.sensors.kinect.commands import BadReplyError
-from kille.sensors.kinect.devices import Kinect, Model
-from kille.sensors.kinect.packets import Counts
+from kille.sensors.kinect.devices import Kinect, KinectModel
+from kille.sensors.kinect.packets import StreamCounts
 from kille.sensors.kinect.transport import (
     AccessDeniedError,
     DeviceBusyError,
     DeviceGoneError,
-    Driven,
+    KernelDriverError,
     NoLibraryError,
     StalledError,
 )
@@ -40,7 +40,7 @@ GET_LIBRARY = "pip install 'kille[usb]'"
 UNLOAD = f"sudo modprobe -r {KERNEL_DRIVER}"
 
 
-class Trouble(NamedTuple):
+class Diagnosis(NamedTuple):
     """What is the matter, and the command or the step that mends it, if any does."""
 
     state: str
@@ -56,32 +56,32 @@ def explain_error(name: str, error: Exception) -> str:
     return f"{name}: {'; '.join(filter(None, trouble(error)))}"
 
 
-def trouble(error: Exception) -> Trouble:
+def trouble(error: Exception) -> Diagnosis:
     """What an error of opening, asking or streaming means."""
     match error:
         case NoLibraryError():
-            return Trouble("there is no libusb to talk to it", GET_LIBRARY)
+            return Diagnosis("there is no libusb to talk to it", GET_LIBRARY)
         case AccessDeniedError():
-            return Trouble("there is no permission to open it", ALLOW)
-        case Driven() if driver_loaded():
-            return Trouble(f"the kernel's driver {KERNEL_DRIVER} has it", UNLOAD)
+            return Diagnosis("there is no permission to open it", ALLOW)
+        case KernelDriverError() if driver_loaded():
+            return Diagnosis(f"the kernel's driver {KERNEL_DRIVER} has it", UNLOAD)
         case DeviceBusyError():
-            return Trouble("another program has it", "close that program")
+            return Diagnosis("another program has it", "close that program")
         case DeviceGoneError():
-            return Trouble("it was unplugged", "plug it in again")
+            return Diagnosis("it was unplugged", "plug it in again")
         case StalledError():
-            return Trouble("it does not answer", "unplug it and plug it in again")
+            return Diagnosis("it does not answer", "unplug it and plug it in again")
         case BadReplyError():
             state = f"it answers nonsense ({error})"
-            return Trouble(state, "unplug it and plug it in again")
+            return Diagnosis(state, "unplug it and plug it in again")
         case _:
-            return Trouble(" ".join(str(error).split()))
+            return Diagnosis(" ".join(str(error).split()))
 
 
-def no_pictures(counts: Sequence[Counts], failures: Iterable[Exception]) -> str:
+def no_pictures(counts: Sequence[StreamCounts], failures: Iterable[Exception]) -> str:
     """Why no pair of pictures came in some time, by what came in it.
 
-    >>> no_pictures([Counts(packets=900), Counts()], ())
+    >>> no_pictures([StreamCounts(packets=900), StreamCounts()], ())
     'one of its two cameras sends nothing; unplug it and plug it in again'
     """
     for failure in failures:
@@ -119,7 +119,7 @@ def no_pictures(counts: Sequence[Counts], failures: Iterable[Exception]) -> str:
 
 def no_motor(kinect: Kinect) -> str:
     """Why its head cannot be turned nor its light set."""
-    if kinect.model is Model.XBOX_1414:
+    if kinect.model is KinectModel.XBOX_1414:
         return "its motor is not found; plug in the Kinect's own power supply"
     return (
         f"the motor and light of a Kinect {kinect.model.value} are behind its audio "

@@ -12,11 +12,11 @@ from typing import Any
 from usb.core import USBError
 
 from kille.sensors.kinect import libusb, pump
-from kille.sensors.kinect.pump import Events, IsoStream
+from kille.sensors.kinect.pump import IsoStream, UsbEventLoop
 from kille.sensors.kinect.transport import (
     DeviceGoneError,
-    Driven,
-    Plugged,
+    KernelDriverError,
+    PluggedDevice,
     Receiver,
     TransportError,
 )
@@ -40,16 +40,16 @@ class UsbBus:
 
     def __init__(self) -> None:
         self._backend = libusb.backend()
-        self._events = Events(self._backend)
+        self._events = UsbEventLoop(self._backend)
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         """All of Microsoft's devices that are plugged in, by place."""
         with _translate_errors():
             found = [self._describe(it) for it in self._backend.enumerate_devices()]
         microsofts = (it for it in found if it.vendor == MICROSOFT)
         return tuple(sorted(microsofts, key=lambda it: it.place))
 
-    def open(self, device: Plugged, alternate: int) -> UsbConnection:
+    def open(self, device: PluggedDevice, alternate: int) -> UsbConnection:
         """The device with its interface claimed, in that alternate setting."""
         with _translate_errors():
             handle = self._backend.open_device(device.key)
@@ -61,10 +61,10 @@ class UsbBus:
             raise
         return connection
 
-    def _describe(self, device: Any) -> Plugged:
+    def _describe(self, device: Any) -> PluggedDevice:
         told = self._backend.get_device_descriptor(device)
         microsofts = told.idVendor == MICROSOFT
-        return Plugged(
+        return PluggedDevice(
             told.idVendor,
             told.idProduct,
             told.bcdDevice,
@@ -98,7 +98,9 @@ class UsbBus:
 class UsbConnection:
     """One opened device."""
 
-    def __init__(self, backend: Any, events: Events, device: Any, handle: Any) -> None:
+    def __init__(
+        self, backend: Any, events: UsbEventLoop, device: Any, handle: Any
+    ) -> None:
         self._backend = backend
         self._events = events
         self._device = device
@@ -169,7 +171,7 @@ class UsbConnection:
         except USBError as error:
             problem = libusb.error_of(error.backend_error_code)
             if not isinstance(problem, DeviceGoneError):
-                problem = Driven(f"a kernel driver has it: {error}")
+                problem = KernelDriverError(f"a kernel driver has it: {error}")
             raise problem from error
 
     def _give_back(self) -> None:

@@ -20,17 +20,17 @@ from kille.sensors.recordings.images import (
     kind_of,
     lens_of,
 )
-from kille.sensors.recordings.names import meant, some
+from kille.sensors.recordings.names import first_names, suggest_name
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import pair_times
-from kille.sensors.recordings.reels import Moment, Reel
+from kille.sensors.recordings.reels import Moment, RecordedMoments
 from kille.sensors.sensor import SensorError
 
 IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 INFO = "sensor_msgs/msg/CameraInfo"
 
 
-def open_bag(name: str, path: Path, options: Options) -> Reel:
+def open_bag(name: str, path: Path, options: Options) -> RecordedMoments:
     """The recording in this bag; SensorError if it has no colour or cannot be read.
 
     Colour is paired with the depth that is nearest in time, at most 20 ms away; without
@@ -44,7 +44,7 @@ def open_bag(name: str, path: Path, options: Options) -> Reel:
         bag.reader.close()
         raise
     kind = "ROS 2 bag" if bag.reader.is2 else "ROS 1 bag"
-    return Reel(kind, moments, bag.remark, close=bag.reader.close)
+    return RecordedMoments(kind, moments, bag.remark, close=bag.reader.close)
 
 
 def _moments(bag: Bag, options: Options) -> list[Moment]:
@@ -53,14 +53,14 @@ def _moments(bag: Bag, options: Options) -> list[Moment]:
         for topic in bag.topics
         if bag.kind(topic) in IMAGES and (first := bag.first(topic)) is not None
     }
-    colour = _chosen(bag, "colour", kinds, options.colour)
+    colour = _choose_topic(bag, "colour", kinds, options.colour)
     if colour is None:
         raise SensorError(
             f"{bag.name}: has no colour: no topic holds images in colour; "
-            f"it has {some(list(bag.topics)) or 'no topic at all'}"
+            f"it has {first_names(list(bag.topics)) or 'no topic at all'}"
         )
     seen = bag.stamps(colour)
-    depth = _chosen(bag, "depth", kinds, options.depth)
+    depth = _choose_topic(bag, "depth", kinds, options.depth)
     if depth is None:
         return [Moment(it.time, partial(_colour_only, bag, colour, it)) for it in seen]
     lens = options.intrinsics or _lens(bag, colour, depth)
@@ -105,7 +105,7 @@ _SAYS_SO = {
 """What the names of the topics that are wanted usually have in them."""
 
 
-def _chosen(
+def _choose_topic(
     bag: Bag, kind: str, kinds: Mapping[str, str], named: str | None
 ) -> str | None:
     """The topic that was named, or the likeliest of its kind, or none."""
@@ -115,8 +115,9 @@ def _chosen(
         raise SensorError(f"{bag.name}: the topic {named} holds no images")
     if named is not None:
         raise SensorError(
-            f"{bag.name}: there is no topic {named}{meant(named, list(bag.topics))}; "
-            f"it has {some(list(bag.topics))}"
+            f"{bag.name}: there is no topic {named}"
+            f"{suggest_name(named, list(bag.topics))}; "
+            f"it has {first_names(list(bag.topics))}"
         )
     topics = [topic for topic, it in kinds.items() if it == kind]
     return min(topics, key=partial(_rank, bag, kind), default=None)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from kille.scene import Frame
 from kille.sensors.kinect.calibration import IDENTITY
-from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture
+from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture
 from kille.sensors.recordings.bagging import write_bag, write_mcap, write_ros2
 from kille.sensors.recordings.capture_folders import write_captures
 from kille.sensors.recordings.developing import develop_frame
@@ -40,10 +40,12 @@ def _of_frames(
 ) -> Callable[[Path, Recording, Iterable[Moment]], None]:
     """What writes a recording, made of what writes frames."""
 
-    def written(path: Path, recording: Recording, moments: Iterable[Moment]) -> None:
+    def write_recording(
+        path: Path, recording: Recording, moments: Iterable[Moment]
+    ) -> None:
         write(path, (replace(it.read(), time=it.time) for it in moments))
 
-    return written
+    return write_recording
 
 
 def _fakenect(path: Path, recording: Recording, moments: Iterable[Moment]) -> None:
@@ -55,7 +57,7 @@ def _fakenect(path: Path, recording: Recording, moments: Iterable[Moment]) -> No
             writer.write(_capture(recording.name, moment))
 
 
-def _capture(name: str, moment: Moment) -> Capture:
+def _capture(name: str, moment: Moment) -> KinectCapture:
     """The readings that were kept, or those that a Kinect would have had."""
     if moment.capture is not None:
         return replace(moment.capture(), time=moment.time)
@@ -90,18 +92,18 @@ def format_of(out: Path, named: str | None) -> Format:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class SizeEstimate:
     """What is to be written: frames, and the bytes they take at most."""
 
     frames: int
     bytes: int
 
 
-def estimate(recording: Recording, into: Format) -> Estimate:
+def estimate(recording: Recording, into: Format) -> SizeEstimate:
     """How much there is to write, as its first frame tells."""
     height, width = recording.rest[0].read().colour.shape[:2]
     frames = len(recording.rest)
-    return Estimate(frames, frames * height * width * into.pixel)
+    return SizeEstimate(frames, frames * height * width * into.pixel)
 
 
 def convert(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from kille.scene import Depth, Frame, Intrinsics
 from kille.sensors.kinect.calibration import IDENTITY, Calibration
-from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture, RawSource
+from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture, RawSource
 from kille.sensors.kinect.metric import FARTHEST, raw_of
 from kille.sensors.sensor import Sensor, SensorError
 
@@ -18,7 +18,7 @@ TICKS = 60_000_000
 """What a Kinect's clock counts in a second, in 32 bits."""
 
 
-class Raw:
+class RawFrameSource:
     """A sensor of which every frame is turned into what a Kinect would have read.
 
     Its depth lies in the colour picture already, as its calibration says, and is
@@ -51,7 +51,7 @@ class Raw:
         first, self._first = self._first, None
         return first or self._sensor.frame()
 
-    def capture(self) -> Capture:
+    def capture(self) -> KinectCapture:
         """The next frame as raw readings.
 
         SensorError if it has no depth, or another size than a Kinect's.
@@ -68,15 +68,15 @@ def raw_source(sensor: Sensor) -> RawSource:
 
     SensorError if it gives no depth, or frames of another size than a Kinect's.
     """
-    return sensor if isinstance(sensor, RawSource) else Raw(sensor)
+    return sensor if isinstance(sensor, RawSource) else RawFrameSource(sensor)
 
 
 def lens_of(source: RawSource) -> Intrinsics:
     """The colour camera's, as far as the source knows it."""
-    return source.lens if isinstance(source, Raw) else COLOUR_CAMERA
+    return source.lens if isinstance(source, RawFrameSource) else COLOUR_CAMERA
 
 
-def develop_frame(name: str, frame: Frame) -> Capture:
+def develop_frame(name: str, frame: Frame) -> KinectCapture:
     """The frame of that source as `IDENTITY` would have read it.
 
     SensorError if it has no depth, or another size than a Kinect's.
@@ -94,7 +94,7 @@ def develop_frame(name: str, frame: Frame) -> Capture:
         )
     ticks = round(frame.time * TICKS) & 0xFFFF_FFFF
     raw = raw_depth(frame.depth)
-    return Capture(frame.time, frame.colour, raw, ticks, ticks)
+    return KinectCapture(frame.time, frame.colour, raw, ticks, ticks)
 
 
 def raw_depth(depth: Depth) -> NDArray[np.uint16]:

@@ -24,12 +24,12 @@ from numpy.typing import NDArray
 
 from kille.scene import Colour, Frame, Intrinsics
 from kille.sensors.kinect.calibration import Calibration, CalibrationError
-from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture, frame_of
+from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture, frame_of
 from kille.sensors.kinect.motor import Tilt
 from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import pair_times
-from kille.sensors.recordings.reels import Moment, Reel, remark_on
+from kille.sensors.recordings.reels import Moment, RecordedMoments, remark_on
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file, parse_json, read_bytes, read_text
 from ttr.safety.limits import SETTINGS, TABLE, Limit
@@ -50,7 +50,7 @@ RAW = Limit(max(BYTES.values()) + _LONGEST_HEAD, "bytes")
 """A file of a recording."""
 
 
-class Event(NamedTuple):
+class IndexLine(NamedTuple):
     """A line of the index: what came, when, and the file that holds it."""
 
     kind: str
@@ -66,22 +66,22 @@ def is_fakenect(folder: Path) -> bool:
         return False
     with open_file(index) as file:
         first = file.readline(200).decode("utf-8", "replace")
-    return not first.strip() or event_of(first) is not None
+    return not first.strip() or parse_index_line(first) is not None
 
 
-def event_of(line: str) -> Event | None:
+def parse_index_line(line: str) -> IndexLine | None:
     """What a line of the index says, or None.
 
-    >>> event_of("d-1311.250000-4011.pgm")
-    Event(kind='d', time=1311.25, ticks=4011, file='d-1311.250000-4011.pgm')
+    >>> parse_index_line("d-1311.250000-4011.pgm")
+    IndexLine(kind='d', time=1311.25, ticks=4011, file='d-1311.250000-4011.pgm')
     """
     found = _NAME.fullmatch(line.strip())
     if found is None:
         return None
-    return Event(found[1], float(found[2]), int(found[3]), found[0])
+    return IndexLine(found[1], float(found[2]), int(found[3]), found[0])
 
 
-def open_fakenect(name: str, folder: Path, options: Options) -> Reel:
+def open_fakenect(name: str, folder: Path, options: Options) -> RecordedMoments:
     """The recording in this folder.
 
     Colour is paired with the depth that is nearest in time, at most 20 ms away. A
@@ -89,7 +89,7 @@ def open_fakenect(name: str, folder: Path, options: Options) -> Reel:
     can be played.
     """
     lines = read_text(folder / INDEX, TABLE, "replace").splitlines()
-    told = [(line, event_of(line)) for line in lines if line.strip()]
+    told = [(line, parse_index_line(line)) for line in lines if line.strip()]
     if not told:
         raise SensorError(f"{name}: the recording is empty: {INDEX} names no file")
     kept = [event for _, event in told if event and _is_whole(folder, event)]
@@ -103,7 +103,7 @@ def open_fakenect(name: str, folder: Path, options: Options) -> Reel:
     remark = remark_on(lost, len(told))
     if not depth:
         shown = [Moment(it.time, partial(_colour_only, folder, it)) for it in colour]
-        return Reel("fakenect", shown, remark)
+        return RecordedMoments("fakenect", shown, remark)
     pairs = pair_times([it.time for it in colour], [it.time for it in depth])
     tilts = _tilts(kept)
     moments = [
@@ -114,7 +114,7 @@ def open_fakenect(name: str, folder: Path, options: Options) -> Reel:
         raise SensorError(
             f"{name}: no colour picture has depth of the same time (within 20 ms)"
         )
-    return Reel("fakenect", moments, remark, device.calibration)
+    return RecordedMoments("fakenect", moments, remark, device.calibration)
 
 
 @dataclass(frozen=True)
@@ -130,9 +130,9 @@ class _Readings:
     """The files that make one capture."""
 
     folder: Path
-    colour: Event
-    depth: Event
-    tilt: Event | None
+    colour: IndexLine
+    depth: IndexLine
+    tilt: IndexLine | None
     device: _Device
 
     def moment(self) -> Moment:
@@ -144,9 +144,9 @@ class _Readings:
         frame = frame_of(self.capture(), self.device.calibration)
         return replace(frame, intrinsics=self.device.lens)
 
-    def capture(self) -> Capture:
+    def capture(self) -> KinectCapture:
         """The readings themselves; SensorError if a file is damaged."""
-        return Capture(
+        return KinectCapture(
             self.depth.time,
             _colour(self.folder, self.colour),
             _depth(self.folder, self.depth),
@@ -156,14 +156,14 @@ class _Readings:
         )
 
 
-def _in_time(events: Sequence[Event], kind: str) -> list[Event]:
+def _in_time(events: Sequence[IndexLine], kind: str) -> list[IndexLine]:
     return sorted((it for it in events if it.kind == kind), key=lambda it: it.time)
 
 
-def _tilts(events: Sequence[Event]) -> Mapping[Event, Event]:
+def _tilts(events: Sequence[IndexLine]) -> Mapping[IndexLine, IndexLine]:
     """What the accelerometer had last said before each depth picture."""
-    found: dict[Event, Event] = {}
-    last: Event | None = None
+    found: dict[IndexLine, IndexLine] = {}
+    last: IndexLine | None = None
     for event in events:
         if event.kind == "a":
             last = event
@@ -172,7 +172,7 @@ def _tilts(events: Sequence[Event]) -> Mapping[Event, Event]:
     return found
 
 
-def _is_whole(folder: Path, event: Event) -> bool:
+def _is_whole(folder: Path, event: IndexLine) -> bool:
     try:
         size = (folder / event.file).stat().st_size
     except OSError:
@@ -201,15 +201,15 @@ def _device(folder: Path, options: Options) -> _Device:
     return _Device(calibration, options.intrinsics or told)
 
 
-def _colour_only(folder: Path, event: Event) -> Frame:
+def _colour_only(folder: Path, event: IndexLine) -> Frame:
     return Frame(_colour(folder, event), None, None, event.time, {})
 
 
-def _colour(folder: Path, event: Event) -> Colour:
+def _colour(folder: Path, event: IndexLine) -> Colour:
     return np.frombuffer(_content(folder, event), np.uint8).reshape(HEIGHT, WIDTH, 3)
 
 
-def _depth(folder: Path, event: Event) -> NDArray[np.uint16]:
+def _depth(folder: Path, event: IndexLine) -> NDArray[np.uint16]:
     raw = np.frombuffer(_content(folder, event), "<u2").reshape(HEIGHT, WIDTH)
     if raw.max() > 2047:
         path = folder / event.file
@@ -219,11 +219,11 @@ def _depth(folder: Path, event: Event) -> NDArray[np.uint16]:
     return raw
 
 
-def _tilt(folder: Path, event: Event) -> Tilt:
+def _tilt(folder: Path, event: IndexLine) -> Tilt:
     return Tilt(*TILT.unpack(_content(folder, event)))
 
 
-def _content(folder: Path, event: Event) -> bytes:
+def _content(folder: Path, event: IndexLine) -> bytes:
     """What is behind the head; SensorError if the file cannot be read or misfits."""
     path = folder / event.file
     try:

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from kille.scene import Frame
 from kille.sensors.captures import RATE, Shot
-from kille.sensors.recordings.names import comparable_name, meant, some
+from kille.sensors.recordings.names import comparable_name, first_names, suggest_name
 from kille.sensors.sensor import At, Beside, SensorError
 
 _KEPT_FRAMES = 16
@@ -71,6 +71,7 @@ class Gallery:
         if comparable_name(name) in known:
             return known[comparable_name(name)]
         raise SensorError(
-            f"{self._name} has no {name}{meant(comparable_name(name), list(known))}; "
-            f"it has {some(list(self._shots))}"
+            f"{self._name} has no {name}"
+            f"{suggest_name(comparable_name(name), list(known))}; "
+            f"it has {first_names(list(self._shots))}"
         )

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Intrinsics
-from kille.sensors.pictures import clean_depth, decode_picture
+from kille.sensors.pictures import clean_depth, decode_picture, freeze
 from kille.sensors.recordings.lenses import lens_from
 
 
@@ -65,7 +65,7 @@ def colour_of(message: Any) -> Colour:
     """
     if is_compressed(message):
         content = np.asarray(message.data, np.uint8)
-        return _freeze(_decode(content, cv2.IMREAD_COLOR_RGB))
+        return freeze(_decode(content, cv2.IMREAD_COLOR_RGB))
     channels = _CHANNELS.get(message.encoding)
     if channels is None:
         raise OtherFormatError(
@@ -75,7 +75,7 @@ def colour_of(message: Any) -> Colour:
     rows = _rows(message, np.dtype(np.uint8), channels)
     picture = rows[..., 0] if channels == 1 else rows
     code = _TO_RGB.get(message.encoding)
-    return _freeze(np.array(picture) if code is None else cv2.cvtColor(picture, code))
+    return freeze(np.array(picture) if code is None else cv2.cvtColor(picture, code))
 
 
 def depth_of(message: Any) -> Depth:
@@ -138,8 +138,3 @@ def _decode(content: NDArray[np.uint8], flags: int) -> NDArray[Any]:
     if picture is None:
         raise OtherFormatError("a compressed picture does not open; it may be damaged")
     return picture
-
-
-def _freeze(array: NDArray[Any]) -> NDArray[Any]:
-    array.setflags(write=False)
-    return array

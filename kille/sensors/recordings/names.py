@@ -19,17 +19,17 @@ def natural_order(name: str) -> list[tuple[int, str]]:
     return [(int(part), "") if part.isdecimal() else (-1, part) for part in parts]
 
 
-def meant(name: str, known: Sequence[str]) -> str:
+def suggest_name(name: str, known: Sequence[str]) -> str:
     """A question after the known names that are near, or nothing.
 
-    >>> meant("kitchn", ["kitchen", "desk"])
+    >>> suggest_name("kitchn", ["kitchen", "desk"])
     ' (did you mean kitchen?)'
     """
     close = difflib.get_close_matches(name, known, n=3, cutoff=0.6)
     return f" (did you mean {' or '.join(close)}?)" if close else ""
 
 
-def some(names: Sequence[str]) -> str:
+def first_names(names: Sequence[str]) -> str:
     """The first twelve names, and how many more there are."""
     few = ", ".join(names[:12])
     return few if len(names) <= 12 else f"{few} and {len(names) - 12} more"

@@ -30,10 +30,10 @@ from kille.safety.archives import (
 )
 from kille.scene import Frame, Intrinsics
 from kille.sensors.captures import RATE
-from kille.sensors.pictures import clean_depth
+from kille.sensors.pictures import clean_depth, freeze
 from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
-from kille.sensors.recordings.reels import Moment, Reel
+from kille.sensors.recordings.reels import Moment, RecordedMoments
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file
 from ttr.safety.limits import ARRAYS, PICTURE
@@ -48,7 +48,7 @@ def is_npz(path: Path) -> bool:
     return head.startswith(b"PK\x03\x04") and b".npy" in head
 
 
-def open_npz(name: str, path: Path, options: Options) -> Reel:
+def open_npz(name: str, path: Path, options: Options) -> RecordedMoments:
     """The recording in this file; SensorError if an array is missing or misfits."""
     try:
         arrays = _arrays(path)
@@ -67,11 +67,11 @@ def open_npz(name: str, path: Path, options: Options) -> Reel:
         Moment(seconds, partial(read, number, seconds))
         for number, seconds in enumerate(times)
     ]
-    return Reel("npz", moments)
+    return RecordedMoments("npz", moments)
 
 
 def _colour_only(colour: NDArray[Any], number: int, seconds: float) -> Frame:
-    return Frame(_freeze(colour[number]), None, None, seconds, {})
+    return Frame(freeze(np.array(colour[number])), None, None, seconds, {})
 
 
 def _with_depth(
@@ -83,13 +83,7 @@ def _with_depth(
     seconds: float,
 ) -> Frame:
     metres = clean_depth(np.asarray(depth[number], np.float32) / np.float32(unit))
-    return Frame(_freeze(colour[number]), metres, lens, seconds, {})
-
-
-def _freeze(array: NDArray[Any]) -> NDArray[Any]:
-    copy = np.array(array)
-    copy.setflags(write=False)
-    return copy
+    return Frame(freeze(np.array(colour[number])), metres, lens, seconds, {})
 
 
 def _colour(name: str, arrays: Mapping[str, NDArray[Any]]) -> NDArray[Any]:

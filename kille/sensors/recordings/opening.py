@@ -19,11 +19,11 @@ from kille.sensors.recordings.bag_files import is_bag
 from kille.sensors.recordings.bags import open_bag
 from kille.sensors.recordings.fakenect import is_fakenect, open_fakenect
 from kille.sensors.recordings.galleries import Gallery
-from kille.sensors.recordings.names import meant, natural_order, some
+from kille.sensors.recordings.names import first_names, natural_order, suggest_name
 from kille.sensors.recordings.npz import is_npz, open_npz
 from kille.sensors.recordings.options import Options, split_options
 from kille.sensors.recordings.playing import RawRecording, Recording
-from kille.sensors.recordings.reels import Moment, Reel
+from kille.sensors.recordings.reels import Moment, RecordedMoments
 from kille.sensors.recordings.tum import is_tum, open_tum
 from kille.sensors.sensor import Sensor, SensorError
 
@@ -36,7 +36,7 @@ KNOWN = (
 _SUFFIXES = frozenset({".bag", ".mcap", ".db3", ".npz"})
 """What recordings are called that are files."""
 
-Opener = Callable[[str, Path, Options], Reel]
+Opener = Callable[[str, Path, Options], RecordedMoments]
 
 
 def open_recording(name: str) -> Sensor:
@@ -67,7 +67,7 @@ def _open(name: str, path: Path, options: Options) -> Sensor:
     if path.is_dir():
         return _timeless(name, options, _open_folder(name, path, options))
     if path.is_file() and (is_picture(path) or shows_picture(path)):
-        still = Reel("picture", [_moment(Shot(path.stem, path))])
+        still = RecordedMoments("picture", [_moment(Shot(path.stem, path))])
         return _play(name, still, options)
     if path.exists():
         _refuse_empty(name, path)
@@ -92,7 +92,7 @@ def _opener(path: Path) -> Opener | None:
     return next((opener for is_one, opener in kinds if is_one(path)), None)
 
 
-def _play(name: str, reel: Reel, options: Options) -> Recording:
+def _play(name: str, reel: RecordedMoments, options: Options) -> Recording:
     """The reel as a sensor; what is lost of it is told."""
     if reel.remark:
         logging.getLogger(__name__).warning("%s: %s", name, reel.remark)
@@ -126,14 +126,14 @@ def _open_scene(name: str, path: Path, options: Options) -> Sensor:
     shots = {shot.name: shot for shot in _captures(description)}
     if path.name not in shots:
         raise _not_there(name, path, list(shots))
-    return _play(name, Reel("capture", [_moment(shots[path.name])]), options)
+    return _play(name, RecordedMoments("capture", [_moment(shots[path.name])]), options)
 
 
 def _open_folder(name: str, folder: Path, options: Options) -> Sensor:
     description = description_of(folder)
     if description is not None and is_sequence(description):
         moments = [_moment(shot) for shot in read_sequence(description)]
-        return _play(name, Reel("captures", moments), options)
+        return _play(name, RecordedMoments("captures", moments), options)
     if description is not None:
         return Gallery(name, {it.name: [it] for it in read_scenes(description)})
     if any(folder.glob("*_color.png")) and any(folder.glob("*_depth.png")):
@@ -156,7 +156,7 @@ def _open_categories(name: str, folder: Path) -> Sensor:
     if scenes:
         raise SensorError(
             f"{name}: holds recordings, name one of them: "
-            + some([f"{name.rstrip('/')}/{scene}" for scene in scenes])
+            + first_names([f"{name.rstrip('/')}/{scene}" for scene in scenes])
         )
     categories: dict[str, list[Shot]] = {}
     for it in inner:
@@ -191,4 +191,6 @@ def _entries(folder: Path) -> list[Path]:
 
 
 def _not_there(name: str, path: Path, near: Sequence[str]) -> SensorError:
-    return SensorError(f"{name}: there is no such folder{meant(path.name, near)}")
+    return SensorError(
+        f"{name}: there is no such folder{suggest_name(path.name, near)}"
+    )

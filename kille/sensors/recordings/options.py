@@ -9,7 +9,7 @@ from pathlib import Path
 
 from kille.scene import Intrinsics
 from kille.sensors.recordings.lenses import lens_from
-from kille.sensors.recordings.names import meant
+from kille.sensors.recordings.names import suggest_name
 from kille.sensors.sensor import SensorError
 
 
@@ -67,7 +67,7 @@ def _expand_user(name: str) -> Path:
 def _option(name: str, text: str) -> tuple[str, str]:
     key, equals, value = text.partition("=")
     if key not in KNOWN:
-        near = meant(key, KNOWN) or f"; there are {', '.join(KNOWN)}"
+        near = suggest_name(key, KNOWN) or f"; there are {', '.join(KNOWN)}"
         raise SensorError(f"{name}: there is no option {key}{near}")
     if not equals or not value:
         raise SensorError(f"{name}: option {key} has no value: write {key}=...")

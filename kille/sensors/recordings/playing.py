@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Protocol
 
 from kille.scene import Frame
 from kille.sensors.recordings.options import Options
-from kille.sensors.recordings.reels import Moment, Reel
+from kille.sensors.recordings.reels import Moment, RecordedMoments
 from kille.sensors.sensor import SensorError
 
 if TYPE_CHECKING:
     from kille.sensors.kinect.calibration import Calibration
-    from kille.sensors.kinect.capture import Capture
+    from kille.sensors.kinect.capture import KinectCapture
 
 _KEPT_FRAMES = 16
 
@@ -26,7 +26,7 @@ class RecordingOverError(SensorError):
 
 
 @dataclass(frozen=True)
-class Clock:
+class PlaybackClock:
     """How time is told and spent: seconds since some moment, and waiting for some."""
 
     now: Callable[[], float] = time.monotonic
@@ -36,7 +36,7 @@ class Clock:
 class Pace(Protocol):
     """Which moment is to be given next, as a count over all laps."""
 
-    def next(self, reel: Reel, given: int) -> int:
+    def next(self, reel: RecordedMoments, given: int) -> int:
         """The number of the next one, not below `given`."""
         ...
 
@@ -45,10 +45,10 @@ class Pace(Protocol):
         ...
 
 
-class Asked:
+class OnDemandPace:
     """One moment after another, whenever the next is asked for."""
 
-    def next(self, reel: Reel, given: int) -> int:
+    def next(self, reel: RecordedMoments, given: int) -> int:
         """The one that was not given yet."""
         return given
 
@@ -56,10 +56,10 @@ class Asked:
         """Nothing is ever late."""
 
 
-class Timed:
+class RealTimePace:
     """As a camera gives them: waits for the next, leaves out what came meanwhile."""
 
-    def __init__(self, speed: float, clock: Clock) -> None:
+    def __init__(self, speed: float, clock: PlaybackClock) -> None:
         self._speed = speed
         self._clock = clock
         self._zero: float | None = None
@@ -68,7 +68,7 @@ class Timed:
         """The clock begins with the next frame."""
         self._zero = None
 
-    def next(self, reel: Reel, given: int) -> int:
+    def next(self, reel: RecordedMoments, given: int) -> int:
         """The newest moment that is due and was not given, or the first to come."""
         if self._zero is None:
             self._zero = self._clock.now() - due(reel, given) / self._speed
@@ -81,7 +81,7 @@ class Timed:
         return given
 
 
-def due(reel: Reel, number: int) -> float:
+def due(reel: RecordedMoments, number: int) -> float:
     """When the moment of this number, counted over all laps, is to be seen.
 
     In seconds since the first frame, at the speed at which it was taken.
@@ -90,7 +90,7 @@ def due(reel: Reel, number: int) -> float:
     return laps * reel.lap + reel.times[index]
 
 
-def latest(reel: Reel, elapsed: float) -> int:
+def latest(reel: RecordedMoments, elapsed: float) -> int:
     """The last moment that is due after so many seconds, counted over all laps."""
     laps, rest = divmod(elapsed, reel.lap)
     return int(laps) * len(reel.times) + bisect_right(reel.times, rest) - 1
@@ -105,14 +105,18 @@ class Recording:
     """
 
     def __init__(
-        self, name: str, reel: Reel, options: Options, clock: Clock | None = None
+        self,
+        name: str,
+        reel: RecordedMoments,
+        options: Options,
+        clock: PlaybackClock | None = None,
     ) -> None:
         self._name = name
         self._reel = reel
         self._options = options
-        self._pace: Pace = Asked()
+        self._pace: Pace = OnDemandPace()
         if options.speed is not None:
-            self._pace = Timed(options.speed, clock or Clock())
+            self._pace = RealTimePace(options.speed, clock or PlaybackClock())
         self._read = lru_cache(maxsize=_KEPT_FRAMES)(_read)
         self._given = 0
         self._closed = False
@@ -125,7 +129,7 @@ class Recording:
         return self._name
 
     @property
-    def reel(self) -> Reel:
+    def reel(self) -> RecordedMoments:
         """What is played."""
         return self._reel
 
@@ -184,10 +188,10 @@ class RawRecording(Recording):
     def __init__(
         self,
         name: str,
-        reel: Reel,
+        reel: RecordedMoments,
         options: Options,
         calibration: Calibration,
-        clock: Clock | None = None,
+        clock: PlaybackClock | None = None,
     ) -> None:
         super().__init__(name, reel, options, clock)
         self._calibration = calibration
@@ -197,7 +201,7 @@ class RawRecording(Recording):
         """That of the Kinect whose readings these are."""
         return self._calibration
 
-    def capture(self) -> Capture:
+    def capture(self) -> KinectCapture:
         """The next moment's raw readings; they and frames are one stream."""
         number = self._next()
         moment = self._reel.moments[number % len(self._reel.moments)]

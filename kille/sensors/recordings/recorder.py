@@ -15,7 +15,7 @@ from pathlib import Path
 from queue import Queue
 from typing import Self
 
-from kille.sensors.kinect.capture import Capture, RawSource
+from kille.sensors.kinect.capture import KinectCapture, RawSource
 from kille.sensors.recordings.developing import lens_of
 from kille.sensors.recordings.playing import RecordingOverError
 from kille.sensors.recordings.replacing import empty, home, is_empty
@@ -36,7 +36,7 @@ _AGES = 1e12
 """Seconds."""
 
 
-class End(Enum):
+class RecordingEnd(Enum):
     """Why a recording ended."""
 
     ASKED = "as long as asked"
@@ -78,7 +78,7 @@ class Progress:
     frames: int = 0
     seconds: float = 0.0
     free: int = 0
-    end: End | None = None
+    end: RecordingEnd | None = None
 
     @property
     def bytes(self) -> int:
@@ -142,21 +142,21 @@ def record(
         raise FileExistsError(errno.EEXIST, "something is there already", str(folder))
     start = time.time() if began is None else began
     known = (source.calibration, lens_of(source), start)
-    behind = _Behind(partial(FakenectWriter, folder, *known))
+    behind = _BackgroundWriter(partial(FakenectWriter, folder, *known))
     progress = Progress()
     try:
         for progress in _capture_all(source, behind, limits, disk, folder):
             tell(progress)
     except RecordingOverError:
-        progress = replace(progress, end=End.OVER)
+        progress = replace(progress, end=RecordingEnd.OVER)
     except KeyboardInterrupt:
-        progress = replace(progress, end=End.STOPPED)
+        progress = replace(progress, end=RecordingEnd.STOPPED)
     finally:
         behind.close()
         if not behind.written:
             _take_back(folder, was_there)
     if isinstance(behind.error, OSError) and behind.error.errno in _FULL:
-        progress = replace(progress, end=End.FULL)
+        progress = replace(progress, end=RecordingEnd.FULL)
     elif behind.error is not None:
         raise behind.error
     return replace(progress, frames=behind.written, seconds=behind.seconds)
@@ -170,7 +170,11 @@ def _take_back(folder: Path, was_there: bool) -> None:
 
 
 def _capture_all(
-    source: RawSource, behind: _Behind, limits: Limits, disk: Disk, folder: Path
+    source: RawSource,
+    behind: _BackgroundWriter,
+    limits: Limits,
+    disk: Disk,
+    folder: Path,
 ) -> Iterator[Progress]:
     """Hands captures on to be written, and says how far it is after each."""
     progress, first = Progress(), 0.0
@@ -182,13 +186,13 @@ def _capture_all(
         frames, free = progress.frames + 1, disk.free(home(folder))
         progress = Progress(frames, capture.time - first, free)
         if limits.are_reached(progress):
-            progress = replace(progress, end=End.ASKED)
+            progress = replace(progress, end=RecordingEnd.ASKED)
         elif free < disk.reserve:
-            progress = replace(progress, end=End.FULL)
+            progress = replace(progress, end=RecordingEnd.FULL)
         yield progress
 
 
-class _Behind:
+class _BackgroundWriter:
     """A thread that writes and syncs, so that the sensor need not wait for the disk.
 
     `error` is why it could not go on; what comes after that is dropped. `seconds` are
@@ -198,14 +202,14 @@ class _Behind:
     def __init__(self, begun: Callable[[], FakenectWriter]) -> None:
         self.written, self.seconds = 0, 0.0
         self.error: Exception | None = None
-        self._waiting: Queue[Capture | None] = Queue(BACKLOG)
+        self._waiting: Queue[KinectCapture | None] = Queue(BACKLOG)
         # Who presses Ctrl-C once more, while the rest is written, need not wait for it.
         self._thread = threading.Thread(
             target=self._run, args=(begun,), name="recorder", daemon=True
         )
         self._thread.start()
 
-    def write(self, capture: Capture) -> None:
+    def write(self, capture: KinectCapture) -> None:
         """Have it written, as soon as there is room for it in the queue."""
         self._waiting.put(capture)
 
@@ -225,7 +229,7 @@ class _Behind:
             """Nobody is to wait for room in the queue."""
 
     def _write_all(
-        self, writer: FakenectWriter, captures: Iterator[Capture | None]
+        self, writer: FakenectWriter, captures: Iterator[KinectCapture | None]
     ) -> None:
         first, synced = math.nan, time.monotonic()
         for capture in captures:

@@ -12,7 +12,7 @@ from kille.sensors.captures import RATE
 
 if TYPE_CHECKING:
     from kille.sensors.kinect.calibration import Calibration
-    from kille.sensors.kinect.capture import Capture
+    from kille.sensors.kinect.capture import KinectCapture
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +25,7 @@ class Moment:
 
     time: float
     read: Callable[[], Frame]
-    capture: Callable[[], Capture] | None = None
+    capture: Callable[[], KinectCapture] | None = None
 
 
 def _close_nothing() -> None:
@@ -33,7 +33,7 @@ def _close_nothing() -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class Reel:
+class RecordedMoments:
     """The moments of a recording, of which there is at least one.
 
     `format` is its name for people. `remark` says in one line what of the recording is
@@ -54,7 +54,7 @@ class Reel:
         >>> from kille.scene import Frame
         >>> def never() -> Frame:
         ...     raise NotImplementedError
-        >>> reel = Reel("TUM", [Moment(7.5, never), Moment(8.0, never)])
+        >>> reel = RecordedMoments("TUM", [Moment(7.5, never), Moment(8.0, never)])
         >>> reel.times, reel.lap
         ((0.0, 0.5), 1.0)
         """

@@ -25,7 +25,7 @@ from kille.sensors.pictures import (
 from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import pair_times
-from kille.sensors.recordings.reels import Moment, Reel, remark_on
+from kille.sensors.recordings.reels import Moment, RecordedMoments, remark_on
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file, read_text
 from ttr.safety.limits import SETTINGS, TABLE
@@ -35,7 +35,7 @@ USUAL = Intrinsics(fx=525.0, fy=525.0, cx=319.5, cy=239.5)
 CALIBRATION = "calibration.txt"
 
 
-class Entry(NamedTuple):
+class ListedPicture(NamedTuple):
     """A line of a list: when the picture was taken, and where it is in the folder."""
 
     time: float
@@ -53,7 +53,7 @@ def is_tum(folder: Path) -> bool:
     return _number(first.split()[0]) is not None
 
 
-def open_tum(name: str, folder: Path, options: Options) -> Reel:
+def open_tum(name: str, folder: Path, options: Options) -> RecordedMoments:
     """The recording in this folder.
 
     Colour is paired with the depth that is nearest in time, at most 20 ms away; without
@@ -79,14 +79,14 @@ def open_tum(name: str, folder: Path, options: Options) -> Reel:
         kept = [it for it in depth if it.path not in gone]
         shots = _with_depth(name, folder, colour, kept, options)
     moments = [Moment(shot.time, shot.read) for shot in shots]
-    return Reel("TUM", moments, remark_on(lost, len(entries)))
+    return RecordedMoments("TUM", moments, remark_on(lost, len(entries)))
 
 
 def _with_depth(
     name: str,
     folder: Path,
-    colour: Sequence[Entry],
-    depth: Sequence[Entry],
+    colour: Sequence[ListedPicture],
+    depth: Sequence[ListedPicture],
     options: Options,
 ) -> list[Shot]:
     pairs = list(pair_times([it.time for it in colour], [it.time for it in depth]))
@@ -108,7 +108,7 @@ def _with_depth(
     ]
 
 
-def _read_list(path: Path) -> list[Entry]:
+def _read_list(path: Path) -> list[ListedPicture]:
     """The entries of a list in order of time; SensorError for a line that is none."""
     entries = []
     text = read_text(path, TABLE, "replace")
@@ -121,7 +121,7 @@ def _read_list(path: Path) -> list[Entry]:
             raise SensorError(
                 f"{path}, line {number}: expected `SECONDS PATH`, found {line[:40]!r}"
             )
-        entries.append(Entry(time, rest[0].strip()))
+        entries.append(ListedPicture(time, rest[0].strip()))
     return sorted(dict.fromkeys(entries))
 
 

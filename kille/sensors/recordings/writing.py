@@ -18,7 +18,7 @@ import numpy as np
 
 from kille.scene import Intrinsics
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture
+from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture
 from kille.sensors.kinect.motor import Tilt
 from kille.sensors.recordings.fakenect import BYTES, DEVICE, HEADS, INDEX, TILT
 from kille.sensors.recordings.reels import after
@@ -62,7 +62,7 @@ class FakenectWriter:
         else:
             self._index.close()
 
-    def write(self, capture: Capture) -> None:
+    def write(self, capture: KinectCapture) -> None:
         """Add a capture: its tilt, if it changed, then colour, then depth."""
         if self._first is None:
             self._first = capture.time

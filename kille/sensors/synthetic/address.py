@@ -13,7 +13,7 @@ from kille.sensors.synthetic.names import recognise_name
 
 
 @dataclass(frozen=True)
-class Address:
+class SceneAddress:
     """A scene, the seed of all chance, the faults in force, and a place of meshes.
 
     `specimen` says which of the things of each kind are shown, 0 the catalogue's own.
@@ -26,20 +26,20 @@ class Address:
     specimen: int = 0
 
 
-def parse_address(name: str) -> Address:
+def parse_address(name: str) -> SceneAddress:
     """The address that a name such as `synthetic:desk?seed=7` gives.
 
     Raises SensorError for a scene, option, fault or value that is not known.
 
     >>> parse_address("synthetic:empty?seed=7&faults=none")
-    Address(scene='empty', seed=7, faults=frozenset(), meshes=None, specimen=0)
+    SceneAddress(scene='empty', seed=7, faults=frozenset(), meshes=None, specimen=0)
     """
     source, _, query = name.strip().partition("?")
     kind, _, scene = source.partition(":")
     recognise_name("source", kind, ["synthetic"])
     options = dict(_option(text) for text in query.split("&") if text)
     meshes = options.get("meshes")
-    return Address(
+    return SceneAddress(
         scene=recognise_name("scene", scene or "desk", SCENES),
         seed=_number("seed", options.get("seed", "0")),
         faults=_faults(options.get("faults", "all")),

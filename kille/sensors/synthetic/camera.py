@@ -20,7 +20,7 @@ KINECT = Intrinsics(fx=525.0, fy=525.0, cx=319.5, cy=239.5)
 
 
 @dataclass(frozen=True)
-class Camera:
+class SimulatedCamera:
     """A pinhole camera that looks at the table's middle from a distance, downwards.
 
     `distance` in metres from the lens to the table's middle; `tilt` in degrees below

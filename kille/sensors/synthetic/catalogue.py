@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from kille.sensors.synthetic.obj import load_model
 
-NAMES = (
+TOY_NAMES = (
     "apple",
     "banana",
     "teddy bear",
@@ -35,12 +35,12 @@ ALSO_CALLED = {
 _TOYS = Path(__file__).with_name("toys")
 
 
-@lru_cache(maxsize=len(NAMES))
-def model(name: str) -> Model:
-    """The model of one of `NAMES`, read once. KeyError for another name.
+@lru_cache(maxsize=len(TOY_NAMES))
+def toy_model(name: str) -> ToyModel:
+    """The model of one of `TOY_NAMES`, read once. KeyError for another name.
 
     It was made by `python -m tools.modelling.toys`.
     """
-    if name not in NAMES:
+    if name not in TOY_NAMES:
         raise KeyError(name)
     return load_model(_TOYS / f"{name.replace(' ', '_')}.obj")

@@ -8,9 +8,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.sensors.synthetic.camera import HEIGHT, WIDTH, Camera
-from kille.sensors.synthetic.model import Model
-from kille.sensors.synthetic.render import Body, Pose, render_scene
+from kille.sensors.synthetic.camera import HEIGHT, WIDTH, SimulatedCamera
+from kille.sensors.synthetic.model import ToyModel
+from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.room import TABLE_END, TABLE_LEFT, TABLE_NEAR, TABLE_RIGHT
 
 SCENES: Mapping[str, Mapping[str, Pose]] = {
@@ -59,7 +59,7 @@ def jitter_pose(
 
 
 def poses_beside(
-    model: Model, relation: str, landmark: Body, rng: np.random.Generator
+    model: ToyModel, relation: str, landmark: PosedToy, rng: np.random.Generator
 ) -> Iterator[Pose]:
     """Poses in a relation to the landmark, ever freer, for the first that fits.
 
@@ -86,7 +86,9 @@ def poses_beside(
         )
 
 
-def objection(camera: Camera, name: str, bodies: Mapping[str, Body]) -> str | None:
+def objection(
+    camera: SimulatedCamera, name: str, bodies: Mapping[str, PosedToy]
+) -> str | None:
     """Why the named body cannot stand where it does among the others, or None.
 
     It must stand on the table, lie in the picture, not cut into another thing, and at
@@ -107,7 +109,7 @@ def objection(camera: Camera, name: str, bodies: Mapping[str, Body]) -> str | No
     return "it would be hidden" if hidden == name else f"it would hide the {hidden}"
 
 
-def _hull(body: Body) -> NDArray[np.float64]:
+def _hull(body: PosedToy) -> NDArray[np.float64]:
     """What the body covers of the table, as a convex polygon (k, 2)."""
     return body.pose.move_points(body.model.footprint)
 
@@ -117,7 +119,7 @@ def _on_table(hull: NDArray[np.float64]) -> bool:
     return bool(inside.all())
 
 
-def _in_picture(camera: Camera, body: Body) -> bool:
+def _in_picture(camera: SimulatedCamera, body: PosedToy) -> bool:
     pixels = camera.pixels(body.pose.move_points(body.model.vertices))
     size = np.array([WIDTH, HEIGHT])
     return bool(((pixels > _BORDER) & (pixels < size - _BORDER)).all())
@@ -144,7 +146,9 @@ def _gaps(hull: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.f
     return gaps
 
 
-def _hidden_thing(camera: Camera, bodies: Mapping[str, Body]) -> str | None:
+def _hidden_thing(
+    camera: SimulatedCamera, bodies: Mapping[str, PosedToy]
+) -> str | None:
     """A thing of which too little is seen among the others, if there is one."""
     if not any(_cross(camera, a, b) for a, b in combinations(bodies.values(), 2)):
         return None
@@ -158,7 +162,7 @@ def _hidden_thing(camera: Camera, bodies: Mapping[str, Body]) -> str | None:
     return None
 
 
-def _cross(camera: Camera, body: Body, other: Body) -> bool:
+def _cross(camera: SimulatedCamera, body: PosedToy, other: PosedToy) -> bool:
     """Whether the boxes around two bodies in the picture meet."""
     a = camera.pixels(body.pose.move_points(body.model.vertices))
     b = camera.pixels(other.pose.move_points(other.model.vertices))

@@ -19,7 +19,7 @@ Much finer textures would flicker from pixel to pixel, since rendering takes one
 
 
 @dataclass(frozen=True, eq=False)
-class Model:
+class ToyModel:
     """A thing that stands on z = 0 around the origin, its front towards -y.
 
     vertices, normals (n, 3) float32 in metres; uv (n, 2) float32 as (column, row) of

@@ -15,7 +15,7 @@ from kille.sensors.pictures import read_colour
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.model import (
     TEXELS_PER_METRE,
-    Model,
+    ToyModel,
     set_down,
     smooth_normals,
 )
@@ -45,7 +45,7 @@ def find_meshes(path: Path) -> dict[str, Path]:
 
 
 @lru_cache(maxsize=64)
-def load_scan(path: Path) -> Model:
+def load_scan(path: Path) -> ToyModel:
     """The scanned thing in an OBJ file, set down on z = 0 around the origin.
 
     The texture's v axis points up. Normals are computed from the triangles, and a
@@ -63,7 +63,7 @@ def load_scan(path: Path) -> Model:
     texels = uv[corners[1]]
     density = _texels_per_metre(vertices, texels * texture.shape[1::-1], triangles)
     picture = _shrink(texture, min(1.0, TEXELS_PER_METRE / max(density, 1.0)))
-    return Model(
+    return ToyModel(
         vertices=vertices,
         normals=smooth_normals(vertices, triangles),
         uv=texel_places(texels, picture),
@@ -72,7 +72,7 @@ def load_scan(path: Path) -> Model:
     )
 
 
-def load_model(path: Path) -> Model:
+def load_model(path: Path) -> ToyModel:
     """The model in an OBJ file with normals, all of it just as it stands there.
 
     Raises SensorError for a file that cannot be used.
@@ -84,7 +84,7 @@ def load_model(path: Path) -> Model:
     texture = _texture(path, lines)
     sizes = len(positions), len(uv), len(normals)
     corners, triangles = _corners(path, lines, *sizes)
-    return Model(
+    return ToyModel(
         vertices=positions[corners[0]].astype(np.float32),
         normals=normals[corners[2]].astype(np.float32),
         uv=texel_places(uv[corners[1]], texture),

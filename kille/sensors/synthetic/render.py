@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Mask
-from kille.sensors.synthetic.camera import FAR, HEIGHT, NEAR, WIDTH, Camera
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.camera import FAR, HEIGHT, NEAR, WIDTH, SimulatedCamera
+from kille.sensors.synthetic.model import ToyModel
 from kille.sensors.synthetic.room import Room, room
 
 _TO_LIGHT = np.array([-0.42, -0.50, 0.76]) / np.linalg.norm([-0.42, -0.50, 0.76])
@@ -62,15 +62,15 @@ class Pose:
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class PosedToy:
     """A model in its pose."""
 
-    model: Model
+    model: ToyModel
     pose: Pose
 
 
 @dataclass(frozen=True, eq=False)
-class Image:
+class RenderedScene:
     """A rendered scene: colour, exact depth in metres, and the mask of each thing.
 
     The arrays are read-only, since frames share them.
@@ -94,11 +94,13 @@ class _Triangles:
     indices: NDArray[np.int32]
 
 
-def render_scene(camera: Camera, bodies: Mapping[str, Body]) -> Image:
+def render_scene(
+    camera: SimulatedCamera, bodies: Mapping[str, PosedToy]
+) -> RenderedScene:
     """The room with the bodies in it; a thing that is wholly hidden has no outline."""
     empty = room(camera)
     if not bodies:
-        return Image(empty.colour, empty.depth, MappingProxyType({}))
+        return RenderedScene(empty.colour, empty.depth, MappingProxyType({}))
     triangles = _triangles(list(bodies.values()))
     channels, depth = _rasterize(camera, triangles, empty)
     colour = _with_shadows(camera, triangles, empty)
@@ -115,10 +117,10 @@ def render_scene(camera: Camera, bodies: Mapping[str, Body]) -> Image:
     soft.flags.writeable = depth.flags.writeable = False
     for mask in outlines.values():
         mask.flags.writeable = False
-    return Image(soft, depth, MappingProxyType(outlines))
+    return RenderedScene(soft, depth, MappingProxyType(outlines))
 
 
-def _triangles(bodies: Sequence[Body]) -> _Triangles:
+def _triangles(bodies: Sequence[PosedToy]) -> _Triangles:
     sizes = [len(body.model.vertices) for body in bodies]
     firsts = [0, *np.cumsum(sizes)[:-1].tolist()]
     numbers = np.repeat(np.arange(1, len(bodies) + 1), sizes)
@@ -148,7 +150,7 @@ def _light(normals: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _rasterize(
-    camera: Camera, triangles: _Triangles, empty: Room
+    camera: SimulatedCamera, triangles: _Triangles, empty: Room
 ) -> tuple[NDArray[np.float32], Depth]:
     """The three channels, zero where only the room is seen, and the depth."""
     channels, depth = cv2.triangleRasterize(
@@ -166,7 +168,7 @@ def _rasterize(
     return channels.astype(np.float32, copy=False), depth.astype(np.float32, copy=False)
 
 
-def _field_of_view(camera: Camera) -> float:
+def _field_of_view(camera: SimulatedCamera) -> float:
     """The vertical opening in radians, as OpenGL counts it."""
     return float(2 * np.arctan(HEIGHT / 2 / camera.intrinsics.fy))
 
@@ -194,7 +196,9 @@ def _paint(
     cv2.copyTo(lit, mask.view(np.uint8), colour)
 
 
-def _with_shadows(camera: Camera, triangles: _Triangles, empty: Room) -> Colour:
+def _with_shadows(
+    camera: SimulatedCamera, triangles: _Triangles, empty: Room
+) -> Colour:
     """The empty room's colour with the shadows that the things cast on the table.
 
     A shadow is the thing pressed flat on the table along the light, drawn at half the

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Mask
 from kille.sensors.pictures import read_colour
-from kille.sensors.synthetic.camera import HEIGHT, WIDTH, Camera
+from kille.sensors.synthetic.camera import HEIGHT, WIDTH, SimulatedCamera
 
 TABLE_LEFT, TABLE_RIGHT = -0.70, 0.70
 TABLE_NEAR, TABLE_END = -0.60, 0.50
@@ -32,7 +32,7 @@ class Room:
 
 
 @lru_cache(maxsize=4)
-def room(camera: Camera) -> Room:
+def room(camera: SimulatedCamera) -> Room:
     """The empty room, computed once for a camera.
 
     Every pixel's ray is met with the table, the wall and the floor; colour is the mean
@@ -56,7 +56,7 @@ def _grid(finer: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
 
 
 def _meet_rays(
-    camera: Camera, u: NDArray[np.float32], v: NDArray[np.float32]
+    camera: SimulatedCamera, u: NDArray[np.float32], v: NDArray[np.float32]
 ) -> tuple[Depth, Mask, NDArray[np.float32]]:
     """Depth, whether it is table, and the place (.., 3) that each pixel's ray meets."""
     lens = camera.intrinsics

@@ -13,13 +13,13 @@ from kille.scene import Frame, Point
 from kille.sensors.sensor import At, Beside, SensorError
 from kille.sensors.stage import RELATIONS
 from kille.sensors.synthetic import catalogue, obj
-from kille.sensors.synthetic.address import Address, parse_address
-from kille.sensors.synthetic.camera import Camera
+from kille.sensors.synthetic.address import SceneAddress, parse_address
+from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import degrade_colour, degrade_depth
 from kille.sensors.synthetic.layout import SCENES, jitter_pose, objection, poses_beside
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from kille.sensors.synthetic.names import recognise_name
-from kille.sensors.synthetic.render import Body, Image, Pose, render_scene
+from kille.sensors.synthetic.render import Pose, PosedToy, RenderedScene, render_scene
 from kille.sensors.synthetic.specimens import specimen
 
 FRAMES_PER_SECOND = 30.0
@@ -41,18 +41,18 @@ class Synthetic:
     changes is always the same. The frames of an unchanged scene differ by noise alone.
     """
 
-    def __init__(self, address: Address, name: str = "synthetic") -> None:
+    def __init__(self, address: SceneAddress, name: str = "synthetic") -> None:
         self._name = name
         self._address = address
         self._meshes = obj.find_meshes(address.meshes) if address.meshes else {}
-        self._camera = Camera()
+        self._camera = SimulatedCamera()
         self._frames = 0
         self._changes = 0
         self._closed = False
-        self._image: Image | None = None
+        self._image: RenderedScene | None = None
         rng = np.random.default_rng([address.seed, _POSES])
         self._bodies = {
-            thing: Body(self._model(thing), jitter_pose(pose, rng, 0.012, 6))
+            thing: PosedToy(self._model(thing), jitter_pose(pose, rng, 0.012, 6))
             for thing, pose in SCENES[address.scene].items()
         }
 
@@ -62,12 +62,12 @@ class Synthetic:
         return self._name
 
     @property
-    def camera(self) -> Camera:
+    def camera(self) -> SimulatedCamera:
         """The true pose of the camera over the table."""
         return self._camera
 
     @property
-    def bodies(self) -> Mapping[str, Body]:
+    def bodies(self) -> Mapping[str, PosedToy]:
         """What stands on the table now, in the true poses."""
         return MappingProxyType(self._bodies)
 
@@ -103,7 +103,7 @@ class Synthetic:
 
         A mesh that has the name of one of the ten is shown in its stead.
         """
-        return tuple(dict.fromkeys([*catalogue.NAMES, *self._meshes]))
+        return tuple(dict.fromkeys([*catalogue.TOY_NAMES, *self._meshes]))
 
     def show(self, name: str) -> None:
         """Show only this object, near the table's middle, in a new pose each time.
@@ -114,7 +114,7 @@ class Synthetic:
         thing = self._recognise(name)
         model = self._model(thing)
         pose = jitter_pose(Pose(0, 0), self._chance(thing), 0.05, 25)
-        self._change({thing: Body(model, pose)})
+        self._change({thing: PosedToy(model, pose)})
 
     def place(self, name: str, spot: At | Beside) -> None:
         """Put the object there and leave the others where they are.
@@ -145,7 +145,7 @@ class Synthetic:
         return self._camera.point(np.array([pose.right, pose.away, height / 2]))
 
     def _place_at(self, thing: str, pose: Pose) -> None:
-        after = self._bodies_with(thing, Body(self._model(thing), pose))
+        after = self._bodies_with(thing, PosedToy(self._model(thing), pose))
         if reason := objection(self._camera, thing, after):
             raise SensorError(
                 f"cannot place the {thing} at {pose.right:.2f} {pose.away:.2f}: "
@@ -163,7 +163,7 @@ class Synthetic:
         reason = None
         around = poses_beside(model, RELATIONS[phrase], self._bodies[landmark], rng)
         for pose in around:
-            after = self._bodies_with(thing, Body(model, pose))
+            after = self._bodies_with(thing, PosedToy(model, pose))
             reason = objection(self._camera, thing, after)
             if reason is None:
                 self._change(after)
@@ -173,11 +173,11 @@ class Synthetic:
             f"move the {landmark} or take something away"
         )
 
-    def _bodies_with(self, thing: str, body: Body) -> dict[str, Body]:
+    def _bodies_with(self, thing: str, body: PosedToy) -> dict[str, PosedToy]:
         others = {name: each for name, each in self._bodies.items() if name != thing}
         return {**others, thing: body}
 
-    def _change(self, bodies: dict[str, Body]) -> None:
+    def _change(self, bodies: dict[str, PosedToy]) -> None:
         self._bodies = bodies
         self._image = None
         self._changes += 1
@@ -188,7 +188,7 @@ class Synthetic:
         label = zlib.crc32(thing.encode())
         return np.random.default_rng([self._address.seed, _POSES, label, self._changes])
 
-    def _model(self, thing: str) -> Model:
+    def _model(self, thing: str) -> ToyModel:
         mesh = self._meshes.get(thing)
         if mesh is not None:
             return obj.load_scan(mesh)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from kille.scene import Colour
 from kille.sensors.synthetic import catalogue
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 
 _GROWN = {"apple": 15.0, "banana": 8.0, "teddy bear": 12.0}
 """By how many degrees the hue of what is not painted may be another."""
@@ -32,12 +32,12 @@ _FADED = 9.0  # texels (1 mm) by which the catalogue's print is blurred
 
 
 @lru_cache(maxsize=128)
-def specimen(name: str, number: int) -> Model:
+def specimen(name: str, number: int) -> ToyModel:
     """The specimen of that number of a thing in the catalogue; 0 is the catalogue's.
 
     The same number is always the same thing. KeyError for a name not in the catalogue.
     """
-    first = catalogue.model(name)
+    first = catalogue.toy_model(name)
     if number == 0:
         return first
     rng = np.random.default_rng([zlib.crc32(name.encode()), number])
@@ -47,7 +47,7 @@ def specimen(name: str, number: int) -> Model:
     return _stretch(replace(first, texture=_recolour(texture, tint, rng)), rng)
 
 
-def _stretch(model: Model, rng: np.random.Generator) -> Model:
+def _stretch(model: ToyModel, rng: np.random.Generator) -> ToyModel:
     factors = np.exp(rng.uniform(-_WHOLE, _WHOLE) + rng.uniform(-_EACH, _EACH, 3))
     # A normal stays upright on a stretched surface if it is stretched the other way.
     normals = model.normals / factors

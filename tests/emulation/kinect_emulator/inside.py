@@ -17,7 +17,7 @@ from kille.sensors.kinect.transport import (
     Batch,
     DeviceBusyError,
     DeviceGoneError,
-    Plugged,
+    PluggedDevice,
     Receiver,
     StalledError,
     TransportError,
@@ -64,14 +64,14 @@ class InsideBus:
         self.lock = threading.RLock()
         self.awaited: dict[int, InsideStream] = {}
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         """All of Microsoft's that is plugged in, by place."""
         with self.lock:
             present = list(self.host.devices.values())
         plugged = (_plugged(it) for it in present if it.part.vendor == MICROSOFT)
         return tuple(sorted(plugged, key=lambda it: it.place))
 
-    def open(self, device: Plugged, alternate: int) -> InsideConnection:
+    def open(self, device: PluggedDevice, alternate: int) -> InsideConnection:
         """The device with its interface claimed, in that alternate setting."""
         assert isinstance(device.key, int)
         with self.lock, _translated():
@@ -249,9 +249,9 @@ class InsideStream:
             return
 
 
-def _plugged(device: Device) -> Plugged:
+def _plugged(device: Device) -> PluggedDevice:
     part = device.part
-    return Plugged(
+    return PluggedDevice(
         part.vendor,
         part.product,
         part.release,

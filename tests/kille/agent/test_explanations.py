@@ -50,7 +50,7 @@ def test_a_reason_goes_back_to_its_lesson(robot: Agent, clock: Clock) -> None:
     assert '2 minutes ago ("This is a cup.")' in answer
     [reason] = move(robot).reasons
     [reminder] = reason.reminders
-    lesson = robot.memory.told(int(reminder.key))
+    lesson = robot.memory.lesson_without_sight(int(reminder.key))
     assert (reminder.text, reminder.turn) == (lesson.turn.text, str(lesson.turn.number))
     assert reminder.age == 120.0
     assert robot.memory.picture(int(reminder.key)) is not None

@@ -67,7 +67,7 @@ def test_an_odd_name_is_just_a_name(tmp_path: Path) -> None:
     assert [file.name for file in tmp_path.iterdir()] == [path.name]
 
 
-@pytest.mark.parametrize("opening", [Memory.open, Memory.reading])
+@pytest.mark.parametrize("opening", [Memory.open, Memory.open_to_read])
 @pytest.mark.parametrize(
     "content",
     [b"x", b"short", b"dear diary\n" * 400, b"\x89PNG\r\n\x1a\n" + bytes(5000)],
@@ -83,7 +83,7 @@ def test_another_file_is_refused_and_left_alone(
     assert len(list(tmp_path.iterdir())) == 1
 
 
-@pytest.mark.parametrize("opening", [Memory.open, Memory.reading])
+@pytest.mark.parametrize("opening", [Memory.open, Memory.open_to_read])
 def test_the_database_of_another_program_is_refused_and_left_alone(
     opening: Callable[[Path], object], tmp_path: Path
 ) -> None:
@@ -95,7 +95,7 @@ def test_the_database_of_another_program_is_refused_and_left_alone(
     assert path.read_bytes() == before
 
 
-@pytest.mark.parametrize("opening", [Memory.open, Memory.reading])
+@pytest.mark.parametrize("opening", [Memory.open, Memory.open_to_read])
 def test_a_folder_is_refused(opening: Callable[[Path], object], tmp_path: Path) -> None:
     assert "is a folder" in refusal(opening, tmp_path)
 
@@ -111,11 +111,11 @@ def test_a_folder_that_cannot_be_made_is_named() -> None:
 
 
 def test_reading_makes_no_file(path: Path) -> None:
-    assert "does not exist" in refusal(Memory.reading, path)
+    assert "does not exist" in refusal(Memory.open_to_read, path)
     assert not path.parent.exists()
 
 
-@pytest.mark.parametrize("opening", [Memory.open, Memory.reading])
+@pytest.mark.parametrize("opening", [Memory.open, Memory.open_to_read])
 @pytest.mark.parametrize("at", [0.3, 0.6, 0.9])
 def test_a_file_that_was_cut_is_damaged(
     opening: Callable[[Path], object],
@@ -129,7 +129,7 @@ def test_a_file_that_was_cut_is_damaged(
     assert "is damaged" in refusal(opening, path)
 
 
-@pytest.mark.parametrize("opening", [Memory.open, Memory.reading])
+@pytest.mark.parametrize("opening", [Memory.open, Memory.open_to_read])
 def test_a_file_with_pages_overwritten_is_damaged(
     opening: Callable[[Path], object],
     path: Path,
@@ -162,7 +162,7 @@ def test_a_lesson_that_is_none_any_more_is_damage(
     taught(path, said(1), seen)
     with closing(sqlite3.connect(path)) as connection:
         connection.executescript(harm)
-    with Memory.reading(path) as memory:
+    with Memory.open_to_read(path) as memory:
         assert "is damaged" in refusal(lambda _: memory.lesson(1), path)
         assert len(memory.turns()) == 1
 
@@ -206,7 +206,7 @@ def test_the_death_of_the_owner_frees_the_file(path: Path) -> None:
 def test_one_may_read_while_another_writes(
     path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:
-    with Memory.open(path) as memory, Memory.reading(path) as reader:
+    with Memory.open(path) as memory, Memory.open_to_read(path) as reader:
         memory.begin_dialogue("now")
         assert reader.words() == ()
         memory.learn_object(said(1), "cup", "cup", seen)
@@ -297,12 +297,12 @@ def test_a_read_only_file_is_refused_before_anything_is_taught(
 def test_a_file_that_may_not_be_read_is_refused(protected: Path) -> None:
     protected.parent.chmod(0o755)
     protected.chmod(0o000)
-    for how in ("open", "reading"):
+    for how in ("open", "open_to_read"):
         assert "cannot be opened" in as_nobody(how, protected)
 
 
 def test_a_memory_on_a_read_only_medium_can_be_read(protected: Path) -> None:
-    assert as_nobody("reading", protected) == "1\n"
+    assert as_nobody("open_to_read", protected) == "1\n"
 
 
 def test_a_log_that_cannot_be_read_is_not_passed_over(
@@ -316,7 +316,7 @@ def test_a_log_that_cannot_be_read_is_not_passed_over(
             shutil.copy(path.with_name(name), folder)
             killed.with_name(name).chmod(0o644)  # the file itself may be read
         killed.parent.chmod(0o555)
-        assert "or its folder not written" in as_nobody("reading", killed)
+        assert "or its folder not written" in as_nobody("open_to_read", killed)
         killed.parent.chmod(0o755)
-        with Memory.reading(killed) as reader:
+        with Memory.open_to_read(killed) as reader:
             assert reader.words() == (Word("cup", "cup", "object"),)

@@ -167,7 +167,11 @@ class Remembering(RuleBasedStateMachine):
         for key, (word, turn, seen) in self.taught.items():
             lesson = self.memory.lesson(key)
             assert (lesson.word, lesson.turn) == (word, turn)
-            assert lesson.holds == self.memory.told(key).holds == self.holding[key]
+            assert (
+                lesson.holds
+                == self.memory.lesson_without_sight(key).holds
+                == self.holding[key]
+            )
             assert lesson.seen.picture == self.memory.picture(key) == seen.picture
 
     @invariant()
@@ -317,7 +321,7 @@ def test_lessons_may_be_forgotten_and_learned_while_they_are_read(
 def test_a_reader_sees_no_half_of_what_another_does_meanwhile(
     path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:
-    with Memory.open(path) as memory, Memory.reading(path) as reader:
+    with Memory.open(path) as memory, Memory.open_to_read(path) as reader:
         memory.begin_dialogue("now")
         key = memory.learn_object(said(1), "cup", "cup", seen)
         with reader.at_one_moment() as then:
@@ -345,7 +349,7 @@ def test_two_words_for_one_thing_and_one_word_for_two(
 def test_a_lesson_that_is_not_there_has_neither_content_nor_picture() -> None:
     with Memory.transient() as memory:
         assert memory.picture(3) is None
-        for question in (memory.lesson, memory.told):
+        for question in (memory.lesson, memory.lesson_without_sight):
             with pytest.raises(NoSuchLessonError, match="no lesson 3"):
                 question(3)
 
@@ -409,7 +413,7 @@ def test_the_lessons_in_which_a_word_holds_are_counted(
 def test_what_is_kept_together_is_on_disk_at_the_end_alone(
     path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:
-    with Memory.open(path) as memory, Memory.reading(path) as reader:
+    with Memory.open(path) as memory, Memory.open_to_read(path) as reader:
         memory.begin_dialogue("now")
         with memory.together():
             memory.learn_object(said(1), "cup", "cup", seen)
@@ -440,7 +444,7 @@ def test_what_fails_together_never_happened(
         assert (memory.lessons(), memory.turns()) == ((), ())
         assert len(memory.dialogues()) == 1
         memory.learn_object(said(2), "cup", "cup", seen)
-    with Memory.reading(path) as reader:
+    with Memory.open_to_read(path) as reader:
         assert [it.word.name for it in reader.lessons()] == ["cup"]
 
 
@@ -456,5 +460,5 @@ def test_a_part_that_fails_is_undone_and_the_rest_is_kept(
             with pytest.raises(NoSuchLessonError):
                 memory.forget(9)
             memory.learn_object(said(3), "jug", "jug", seen)
-    with Memory.reading(path) as reader:
+    with Memory.open_to_read(path) as reader:
         assert [it.word.name for it in reader.lessons()] == ["cup", "jug"]

@@ -29,9 +29,9 @@ from kille.memory import (
     Sighting,
     Turn,
 )
-from kille.memory.exporting import Amount, export
+from kille.memory.exporting import MemorySize, export
 from kille.memory.importing import open_package
-from kille.memory.merging import Merged
+from kille.memory.merging import MergeResult
 from kille.memory.packages import PackageError
 from kille.scene import Configuration
 from ttr.safety.limits import FACTOR, Limit
@@ -131,7 +131,7 @@ def test_import_undoes_export(
 
 def test_the_same_memory_gives_the_same_bytes(tmp_path: Path, seen: Sighting) -> None:
     with small_memory(seen) as memory:
-        assert export(memory, tmp_path / "a.zip") == Amount(2, 4, 2)
+        assert export(memory, tmp_path / "a.zip") == MemorySize(2, 4, 2)
         export(memory, tmp_path / "b.zip")
     assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
 
@@ -313,9 +313,9 @@ def test_what_a_memory_gains_is_counted(tmp_path: Path, seen: Sighting) -> None:
         export(other, path)
         memory.begin_dialogue("before")
         with open_package(path) as package:
-            assert memory.merge(package) == Merged(2, 4, (2, 3), 0)
+            assert memory.merge(package) == MergeResult(2, 4, (2, 3), 0)
         with open_package(path) as package:
-            assert memory.merge(package) == Merged(0, 0, (), 2)
+            assert memory.merge(package) == MergeResult(0, 0, (), 2)
 
 
 def test_what_was_forgotten_can_be_brought_back(tmp_path: Path, seen: Sighting) -> None:

@@ -27,7 +27,7 @@ from kille.memory import (
     Turn,
 )
 from kille.memory.checking import check
-from kille.memory.exporting import Amount
+from kille.memory.exporting import MemorySize
 from kille.memory.lessons import has_same_content
 from kille.memory.pages import page_size, rows_in
 from kille.memory.salvaging import Salvage, salvage
@@ -72,7 +72,7 @@ def teach(path: Path, lessons: int = LESSONS) -> None:
 
 
 def lessons_of(path: Path) -> dict[int, ObjectLesson | RelationLesson]:
-    with Memory.reading(path) as memory:
+    with Memory.open_to_read(path) as memory:
         return {it.key: memory.lesson(it.key) for it in memory.lessons()}
 
 
@@ -287,13 +287,13 @@ def test_a_sound_memory_is_sound_and_saved_whole(path: Path) -> None:
 def test_it_is_said_how_much_a_sound_memory_holds(path: Path) -> None:
     path.parent.mkdir()
     path.touch()
-    assert check(path).amount == Amount(0, 0, 0)
+    assert check(path).amount == MemorySize(0, 0, 0)
     with Memory.open(path) as memory:
         memory.begin_dialogue("the day before")
-    assert check(path).amount == Amount(1, 0, 0)
+    assert check(path).amount == MemorySize(1, 0, 0)
     path.unlink()
     teach(path)
-    assert check(path).amount == Amount(LESSONS, LESSONS + 1, LESSONS)
+    assert check(path).amount == MemorySize(LESSONS, LESSONS + 1, LESSONS)
 
 
 @pytest.mark.parametrize("make", [of_version_1, of_version_2])
@@ -611,7 +611,7 @@ def test_memories_of_older_versions_are_saved(path: Path) -> None:
         change(path, FORGETFUL)
         target = path.with_name(f"new-{path.name}")
         assert salvage(path, target).losses == ()
-        with Memory.reading(target) as memory:
+        with Memory.open_to_read(target) as memory:
             if make is of_version_1:
                 assert_kept(memory)
             assert [it.key for it in memory.lessons()] in ([2, 3, 7], [2, 7])

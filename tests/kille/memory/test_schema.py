@@ -54,7 +54,7 @@ def test_a_file_of_a_newer_version_is_refused_and_left_alone(path: Path) -> None
         schema.migrate(connection, NEXT)
         connection.commit()
     before = path.read_bytes()
-    for opening in (Memory.open, Memory.reading):
+    for opening in (Memory.open, Memory.open_to_read):
         with pytest.raises(MemoryFileError, match=r"newer kille.*update kille"):
             opening(path)
     assert path.read_bytes() == before
@@ -194,7 +194,7 @@ def test_a_length_that_no_thing_has_is_not_brought_up_to_date(
 def test_a_file_of_an_older_version_is_read_without_being_changed(path: Path) -> None:
     of_version_1(path)
     before = path.read_bytes()
-    with Memory.reading(path) as memory:
+    with Memory.open_to_read(path) as memory:
         assert_kept(memory)
     assert path.read_bytes() == before
     assert [it.name for it in path.parent.iterdir()] == [path.name]
@@ -215,7 +215,7 @@ def test_a_migration_killed_half_way_leaves_the_first_version(path: Path) -> Non
 def test_an_empty_file_is_an_empty_memory(path: Path) -> None:
     path.parent.mkdir()
     path.touch()
-    with Memory.reading(path) as memory:
+    with Memory.open_to_read(path) as memory:
         assert (memory.words(), memory.turns(), memory.lessons()) == ((), (), ())
     assert path.read_bytes() == b""
 

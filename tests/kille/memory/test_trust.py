@@ -28,7 +28,7 @@ from kille.memory.files import open_to_read
 from .test_files import refusal, taught
 from .test_schema import of_version_1, of_version_2
 
-OPENINGS = pytest.mark.parametrize("opening", [Memory.open, Memory.reading])
+OPENINGS = pytest.mark.parametrize("opening", [Memory.open, Memory.open_to_read])
 
 
 def change(path: Path, statements: str) -> None:
@@ -262,10 +262,10 @@ def test_a_word_that_is_none_is_damage(
         lambda memory: memory.lessons(),
         lambda memory: memory.lesson(1),
         lambda memory: memory.latest(),
-        lambda memory: memory.told(1),
+        lambda memory: memory.lesson_without_sight(1),
         lambda memory: list(memory.objects()),
     ]
-    with Memory.reading(path) as memory:
+    with Memory.open_to_read(path) as memory:
         for question in questions:
             line = refusal(lambda _, ask=question: ask(memory), path)
             assert "is damaged" in line
@@ -288,7 +288,7 @@ def test_numbers_that_are_none_are_damage(
 ) -> None:
     taught(path, said(1), seen)
     change(path, harm.format("[" * 100_000))
-    with Memory.reading(path) as memory:
+    with Memory.open_to_read(path) as memory:
         assert "is damaged" in refusal(lambda _: memory.lesson(1), path)
 
 
@@ -553,7 +553,7 @@ def test_a_file_whose_free_pages_are_counted_wrong_is_damaged(
 
 def test_a_connection_trusts_no_schema_and_checks_pages(path: Path) -> None:
     expected = {"trusted_schema": 0, "cell_size_check": 1}
-    for opening in (Memory.open, Memory.reading):
+    for opening in (Memory.open, Memory.open_to_read):
         with opening(path) as memory:
             asked = memory._connection.execute
             found = {it: asked(f"PRAGMA {it}").fetchone()[0] for it in expected}

@@ -17,10 +17,10 @@ from kille.lab.scenes.shown_things import OnTable
 from kille.perception.features import features_of
 from kille.perception.look import look
 from kille.perception.pointing import region_at
-from kille.perception.segment import Scene, region_of, segment
+from kille.perception.segment import SegmentedFrame, region_of, segment
 from kille.scene import Frame
 from kille.sensors.recordings import open_recording
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 LEFT, RIGHT = Card(-0.12, 0.8, seed=1), Card(0.12, 0.9, seed=2)
 
@@ -106,10 +106,10 @@ def test_what_fails_in_a_frame_that_nobody_needs_is_no_failure(
 ) -> None:
     shown = frames(3)
 
-    def fail_later(frame: Frame) -> Scene:
+    def fail_later(frame: Frame) -> SegmentedFrame:
         if frame is not shown[0]:
             raise ValueError("not needed")
-        return Scene((), UP)
+        return SegmentedFrame((), UP)
 
     monkeypatch.setattr("kille.perception.look.segment", fail_later)
     for worker in (ThreadPoolExecutor, Quick):
@@ -133,9 +133,9 @@ def test_a_piece_that_is_split_off_in_one_frame_is_no_percept(
     piece = whole.copy()
     piece[: middle(whole)[1] + 20] = False
 
-    def split_at_first(frame: Frame) -> Scene:
+    def split_at_first(frame: Frame) -> SegmentedFrame:
         masks = [piece, whole & ~piece] if frame is shown[0] else [whole]
-        return Scene(tuple(region_of(frame, mask) for mask in masks), UP)
+        return SegmentedFrame(tuple(region_of(frame, mask) for mask in masks), UP)
 
     monkeypatch.setattr("kille.perception.look.segment", split_at_first)
     (percept,) = look(Camera(*shown)).percepts
@@ -147,7 +147,7 @@ def test_a_piece_that_is_split_off_in_one_frame_is_no_percept(
 def test_the_thing_that_is_shown_is_the_nearest_and_seldom_a_part() -> None:
     """Of seeds and specimens that the merge was not fitted to."""
     missed = []
-    for seed, turn, thing in product(range(400, 404), (0, 45), NAMES):
+    for seed, turn, thing in product(range(400, 404), (0, 45), TOY_NAMES):
         seen = OnTable(seed, specimen=seed).shown(thing, turn=turn, scans=3)
         assert seen.frame is not None
         if share(seen.frame.outlines[thing], seen.region) < 0.6:

@@ -16,21 +16,21 @@ from kille.perception.geometry import CAMERA_UP, offset, table_axes
 from kille.perception.segment import (
     Segmentation,
     overlap,
-    plainly,
     region_of,
     segment,
+    segment_by_contact,
 )
 from kille.scene import Frame, Intrinsics, Point
 from kille.sensors.recordings import open_recording
 from kille.sensors.synthetic import open_synthetic
-from kille.sensors.synthetic.camera import Camera
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.camera import SimulatedCamera
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 from kille.sensors.synthetic.faults import FAULTS, degrade_depth
-from kille.sensors.synthetic.model import Model
-from kille.sensors.synthetic.render import Body, Pose, render_scene
+from kille.sensors.synthetic.model import ToyModel
+from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from tools.fitting.piles import a_bowl, lift_model, pile
 from tools.modelling.shapes import box, disc, lathe, move
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
 THREE = (Card(-0.15, 0.75), Card(0.12, 0.65, width=0.08), Card(0.05, 1.0, seed=2))
 
@@ -186,7 +186,7 @@ def test_every_labelled_thing_of_a_real_scene_is_found(data: Path) -> None:
         assert max(share(mask, region) for region in regions) > 0.5, name
 
 
-@pytest.mark.parametrize("way", [segment, plainly])
+@pytest.mark.parametrize("way", [segment, segment_by_contact])
 def test_what_stands_apart_is_whole_either_way(way: Segmentation) -> None:
     frame = frame_of(*THREE)
     found = score(way(frame).regions, frame)
@@ -196,27 +196,31 @@ def test_what_stands_apart_is_whole_either_way(way: Segmentation) -> None:
 
 def test_things_that_lie_on_each_other_are_taken_apart() -> None:
     book, tin = _lying(0.24, 0.18, 0.04), _standing(0.035, 0.1)
-    frame = seen(Body(book, Pose(0, 0, 20)), Body(lift_model(tin, 0.04), Pose(0.03, 0)))
+    frame = seen(
+        PosedToy(book, Pose(0, 0, 20)), PosedToy(lift_model(tin, 0.04), Pose(0.03, 0))
+    )
     assert score(segment(frame).regions, frame).exact == 1
-    assert len(plainly(frame).regions) == 1
+    assert len(segment_by_contact(frame).regions) == 1
 
 
 def test_things_that_touch_are_taken_apart() -> None:
     pack = _lying(0.1, 0.06, 0.18)
-    frame = seen(Body(pack, Pose(0, 0)), Body(_standing(0.04, 0.12), Pose(0.03, -0.07)))
+    frame = seen(
+        PosedToy(pack, Pose(0, 0)), PosedToy(_standing(0.04, 0.12), Pose(0.03, -0.07))
+    )
     assert score(segment(frame).regions, frame).exact == 1
 
 
 def test_a_thing_behind_a_narrow_one_is_one_thing() -> None:
     wide, tall = _lying(0.26, 0.06, 0.12), _standing(0.025, 0.24)
-    frame = seen(Body(wide, Pose(0, 0.1)), Body(tall, Pose(0, -0.05)))
+    frame = seen(PosedToy(wide, Pose(0, 0.1)), PosedToy(tall, Pose(0, -0.05)))
     assert score(segment(frame).regions, frame).exact == 1
-    assert len(plainly(frame).regions) == 3
+    assert len(segment_by_contact(frame).regions) == 3
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_bowl_is_one_thing_with_its_inside(seed: int) -> None:
-    frame = seen(Body(a_bowl(np.random.default_rng(seed)), Pose(0, 0)))
+    frame = seen(PosedToy(a_bowl(np.random.default_rng(seed)), Pose(0, 0)))
     assert score(segment(frame).regions, frame).exact == 1
 
 
@@ -224,17 +228,17 @@ def test_more_things_in_heaps_are_found_than_plainly() -> None:
     """Heaps of seeds that the merge was not fitted to; there are no meshes in them."""
     frames = [pile(seed) for seed in range(5000, 5004)]
     found = sum((score(segment(it).regions, it) for it in frames), Score())
-    plain = sum((score(plainly(it).regions, it) for it in frames), Score())
+    plain = sum((score(segment_by_contact(it).regions, it) for it in frames), Score())
     assert found.recall > 0.6
     assert found.f > plain.f
 
 
 @pytest.mark.parametrize("tilt", [20.0, 35.0, 60.0, 80.0])
 def test_the_camera_may_be_tilted(tilt: float) -> None:
-    camera = Camera(0.9, tilt)
+    camera = SimulatedCamera(0.9, tilt)
     frame = seen(
-        Body(_lying(0.1, 0.1, 0.1), Pose(-0.12, 0)),
-        Body(_standing(0.04, 0.12), Pose(0.12, 0)),
+        PosedToy(_lying(0.1, 0.1, 0.1), Pose(-0.12, 0)),
+        PosedToy(_standing(0.04, 0.12), Pose(0.12, 0)),
         camera=camera,
     )
     scene = segment(frame)
@@ -253,11 +257,11 @@ def test_holes_in_the_depth_are_borne() -> None:
 
 
 def test_a_marker_pen_is_found() -> None:
-    frame = seen(Body(_lying(0.12, 0.015, 0.015), Pose(0, -0.1, 30)))
+    frame = seen(PosedToy(_lying(0.12, 0.015, 0.015), Pose(0, -0.1, 30)))
     assert score(segment(frame).regions, frame).exact == 1
 
 
-@pytest.mark.parametrize("thing", NAMES)
+@pytest.mark.parametrize("thing", TOY_NAMES)
 def test_a_synthetic_thing_is_one_region(thing: str) -> None:
     stage = open_synthetic("synthetic:empty?seed=11")
     stage.show(thing)
@@ -330,7 +334,7 @@ def test_a_large_picture_has_the_same_regions() -> None:
     assert len(segment(large).regions) == 3
 
 
-def seen(*bodies: Body, camera: Camera = Camera()) -> Frame:  # noqa: B008
+def seen(*bodies: PosedToy, camera: SimulatedCamera = SimulatedCamera()) -> Frame:  # noqa: B008
     """What a Kinect sees of these bodies; `outlines` are by number from 0."""
     image = render_scene(camera, {str(i): body for i, body in enumerate(bodies)})
     lens = camera.intrinsics
@@ -338,13 +342,13 @@ def seen(*bodies: Body, camera: Camera = Camera()) -> Frame:  # noqa: B008
     return Frame(image.colour, depth, lens, 0.0, image.outlines)
 
 
-def _lying(*size: float) -> Model:
-    return assemble([Part(face, _GREY) for face in box(*size).values()])
+def _lying(*size: float) -> ToyModel:
+    return assemble([Sheet(face, _GREY) for face in box(*size).values()])
 
 
-def _standing(radius: float, height: float) -> Model:
+def _standing(radius: float, height: float) -> ToyModel:
     sheets = lathe([(radius, height), (radius, 0)]), move(disc(radius), z=height)
-    return assemble([Part(sheet, _GREY) for sheet in sheets])
+    return assemble([Sheet(sheet, _GREY) for sheet in sheets])
 
 
 _GREY = np.full((4, 4, 3), 128, np.uint8)

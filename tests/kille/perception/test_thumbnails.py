@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kille.memory import Crop, Picture
-from kille.perception.cues import CUES, measured
+from kille.perception.cues import CUES, measure_cues
 from kille.perception.look import look
 from kille.perception.thumbnails import (
     decode_picture,
@@ -62,7 +62,7 @@ def test_what_is_kept_can_be_measured_again(cup: Percept) -> None:
     assert region.mask.sum() == cup.region.mask.sum()
     assert cup.region.place is not None
     assert region.place == pytest.approx(cup.region.place, abs=0.001)
-    before, after = measured(frame, cup.region), measured(again, region)
+    before, after = measure_cues(frame, cup.region), measure_cues(again, region)
     assert after.keys() == before.keys()
     assert after["size"] == pytest.approx(before["size"], abs=0.02)
     for cue in before.keys() & {"colour", "shape", "outline"}:

@@ -20,18 +20,23 @@ import pytest
 
 from kille.scene import Intrinsics
 from kille.sensors.kinect.calibration import IDENTITY, Calibration
-from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture, RawSource, frame_of
+from kille.sensors.kinect.capture import (
+    COLOUR_CAMERA,
+    KinectCapture,
+    RawSource,
+    frame_of,
+)
 from kille.sensors.kinect.motor import Tilt
-from kille.sensors.recordings.developing import Raw, raw_source
-from kille.sensors.recordings.fakenect import event_of
+from kille.sensors.recordings.developing import RawFrameSource, raw_source
+from kille.sensors.recordings.fakenect import parse_index_line
 from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import RawRecording, Recording
 from kille.sensors.recordings.recorder import (
     Disk,
-    End,
     Limits,
     NoRoomError,
     Progress,
+    RecordingEnd,
     check_room,
     record,
 )
@@ -43,11 +48,11 @@ NOWHERE = Intrinsics(510.0, 511.0, 312.5, 251.25)
 ROOMY = Disk(lambda folder: 10**12)
 
 
-def captures(count: int) -> Iterator[Capture]:
+def captures(count: int) -> Iterator[KinectCapture]:
     """Readings of all numbers, whose ticks and times differ between the two cameras."""
     rng = np.random.default_rng(7)
     for number in range(count):
-        yield Capture(
+        yield KinectCapture(
             time=number / 30,
             colour=rng.integers(0, 256, (480, 640, 3), np.uint8),
             depth=rng.integers(0, 2048, (480, 640), np.uint16),
@@ -59,7 +64,7 @@ def captures(count: int) -> Iterator[Capture]:
 
 def written(
     folder: Path, count: int = 3, calibration: Calibration = IDENTITY
-) -> list[Capture]:
+) -> list[KinectCapture]:
     given = list(captures(count))
     with FakenectWriter(folder, calibration, COLOUR_CAMERA, 1000.0) as writer:
         for capture in given:
@@ -73,7 +78,7 @@ def played(folder: Path | str) -> RawRecording:
     return recording
 
 
-def same(one: Capture, other: Capture) -> bool:
+def same(one: KinectCapture, other: KinectCapture) -> bool:
     return (
         np.array_equal(one.colour, other.colour)
         and np.array_equal(one.depth, other.depth)
@@ -179,7 +184,7 @@ def test_colour_alone_is_a_recording_without_depth(tmp_path: Path) -> None:
     "line", ["", "x-1.0-2.ppm", "r-1.0.ppm", "r-1.0-2.ppm/..", "r"]
 )
 def test_a_line_that_names_no_event(line: str) -> None:
-    assert event_of(line) is None
+    assert parse_index_line(line) is None
 
 
 @pytest.mark.parametrize("began", [0.0, 0.1234565, 1_795_301_729.5832339])
@@ -310,7 +315,7 @@ def test_a_device_json_that_is_wrong(tmp_path: Path, text: str, told: str) -> No
 def test_a_simulated_kinect_is_recorded_as_a_kinect_reads(tmp_path: Path) -> None:
     sensor = open_sensor("synthetic:desk?seed=7")
     done = record(raw_source(sensor), tmp_path / "walk", Limits(3), ROOMY, told_nobody)
-    assert (done.frames, done.end) == (3, End.ASKED)
+    assert (done.frames, done.end) == (3, RecordingEnd.ASKED)
     again = open_sensor("synthetic:desk?seed=7")
     recording = played(tmp_path / "walk")
     for _ in range(3):
@@ -327,9 +332,9 @@ def test_a_simulated_kinect_is_recorded_as_a_kinect_reads(tmp_path: Path) -> Non
 def test_a_recording_is_recorded_bit_for_bit(tmp_path: Path) -> None:
     given = written(tmp_path / "one", 4, Calibration.typical())
     source = raw_source(open_sensor(f"{tmp_path / 'one'}?loop=no"))
-    assert not isinstance(source, Raw)
+    assert not isinstance(source, RawFrameSource)
     done = record(source, tmp_path / "two", Limits(), ROOMY, told_nobody)
-    assert (done.frames, done.end) == (4, End.OVER)
+    assert (done.frames, done.end) == (4, RecordingEnd.OVER)
     recording = played(tmp_path / "two")
     assert recording.calibration == Calibration.typical()
     assert all(same(it, recording.capture()) for it in given)
@@ -366,7 +371,7 @@ def test_it_is_as_long_as_asked(tmp_path: Path, limits: Limits, frames: int) -> 
     told: list[Progress] = []
     done = record(source(tmp_path), tmp_path / "walk", limits, ROOMY, told.append)
     assert [it.frames for it in told] == list(range(1, frames + 1))
-    assert (done.frames, done.end) == (frames, End.ASKED)
+    assert (done.frames, done.end) == (frames, RecordingEnd.ASKED)
     assert len(played(tmp_path / "walk").reel.moments) == frames
 
 
@@ -376,7 +381,7 @@ def test_ctrl_c_ends_it_and_what_is_there_is_whole(tmp_path: Path) -> None:
             raise KeyboardInterrupt
 
     done = record(source(tmp_path), tmp_path / "walk", Limits(), ROOMY, interrupt)
-    assert (done.frames, done.end) == (2, End.STOPPED)
+    assert (done.frames, done.end) == (2, RecordingEnd.STOPPED)
     assert len(played(tmp_path / "walk").reel.moments) == 2
 
 
@@ -384,7 +389,7 @@ def test_it_ends_before_the_disk_is_full(tmp_path: Path) -> None:
     free = iter(range(10 * CAPTURE_BYTES, 0, -CAPTURE_BYTES))
     disk = Disk(lambda folder: next(free), reserve=5 * CAPTURE_BYTES)
     done = record(source(tmp_path), tmp_path / "walk", Limits(), disk, told_nobody)
-    assert done.end is End.FULL
+    assert done.end is RecordingEnd.FULL
     assert done.frames == 7
     assert len(played(tmp_path / "walk").reel.moments) == 7
 
@@ -431,7 +436,7 @@ class _FullAfter(FakenectWriter):
 
     room = 2
 
-    def write(self, capture: Capture) -> None:
+    def write(self, capture: KinectCapture) -> None:
         if not self.room:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         self.room -= 1
@@ -441,7 +446,7 @@ class _FullAfter(FakenectWriter):
 def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kille.sensors.recordings.recorder.FakenectWriter", _FullAfter)
     done = record(source(tmp_path), tmp_path / "walk", Limits(), ROOMY, told_nobody)
-    assert (done.frames, done.end) == (2, End.FULL)
+    assert (done.frames, done.end) == (2, RecordingEnd.FULL)
     assert done.seconds == pytest.approx(1 / 30, abs=2e-6)
     assert len(played(tmp_path / "walk").reel.moments) == 2
 
@@ -449,7 +454,7 @@ def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 class _Broken(FakenectWriter):
     """A writer with a mistake in it."""
 
-    def write(self, capture: Capture) -> None:
+    def write(self, capture: KinectCapture) -> None:
         raise ValueError("a mistake")
 
 

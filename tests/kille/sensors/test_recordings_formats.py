@@ -26,7 +26,7 @@ from kille.sensors.recordings.bagging import write_mcap
 from kille.sensors.recordings.converting import FORMATS, convert, estimate, format_of
 from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import Recording
-from kille.sensors.recordings.reels import Moment, Reel
+from kille.sensors.recordings.reels import Moment, RecordedMoments
 from kille.sensors.sensor import SensorError
 
 LENS = Intrinsics(50.0, 51.5, 15.5, 11.25)
@@ -55,7 +55,7 @@ def recording(some: Iterator[Frame]) -> Recording:
     from kille.sensors.recordings.options import Options
 
     moments = [Moment(it.time, lambda it=it: it) for it in some]
-    return Recording("memory", Reel("memory", moments), Options())
+    return Recording("memory", RecordedMoments("memory", moments), Options())
 
 
 def written(kind: str, folder: Path, some: Iterator[Frame]) -> Path:

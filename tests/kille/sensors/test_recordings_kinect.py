@@ -9,11 +9,17 @@ import pytest
 
 from kille.sensors.kinect import sensor as driver
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.capture import Capture
+from kille.sensors.kinect.capture import KinectCapture
 from kille.sensors.kinect.sensor import KinectSensor
 from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import RawRecording
-from kille.sensors.recordings.recorder import Disk, End, Limits, Progress, record
+from kille.sensors.recordings.recorder import (
+    Disk,
+    Limits,
+    Progress,
+    RecordingEnd,
+    record,
+)
 from kille.sensors.sensor import SensorError
 from kinect_emulator.inside import InsideBus
 from kinect_emulator.kinect import Kinect
@@ -26,13 +32,13 @@ class Witness:
 
     def __init__(self, sensor: KinectSensor) -> None:
         self._sensor = sensor
-        self.seen: list[Capture] = []
+        self.seen: list[KinectCapture] = []
 
     @property
     def calibration(self) -> Calibration:
         return self._sensor.calibration
 
-    def capture(self) -> Capture:
+    def capture(self) -> KinectCapture:
         self.seen.append(self._sensor.capture())
         return self.seen[-1]
 
@@ -48,7 +54,7 @@ def test_a_kinect_is_recorded_bit_for_bit(
 ) -> None:
     source = Witness(sensor)
     done = record(source, tmp_path / "walk", Limits(15), Disk.real(), lambda told: None)
-    assert (done.frames, done.end) == (15, End.ASKED)
+    assert (done.frames, done.end) == (15, RecordingEnd.ASKED)
     recording = played(tmp_path / "walk")
     assert recording.calibration == sensor.calibration
     assert len(recording.rest) == 15

@@ -16,7 +16,7 @@ import pytest
 
 from kille.scene import Frame, Intrinsics
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture
+from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture
 from kille.sensors.kinect.motor import Tilt
 from kille.sensors.recordings.bagging import write_bag, write_mcap
 from kille.sensors.recordings.opening import open_recording
@@ -37,10 +37,10 @@ def fakenect() -> str:
     return found
 
 
-def captures(count: int) -> Iterator[Capture]:
+def captures(count: int) -> Iterator[KinectCapture]:
     rng = np.random.default_rng(11)
     for number in range(count):
-        yield Capture(
+        yield KinectCapture(
             time=number / 30,
             colour=rng.integers(0, 256, (480, 640, 3), np.uint8),
             depth=rng.integers(0, 2048, (480, 640), np.uint16),

@@ -15,13 +15,13 @@ from kille.scene import Frame, Intrinsics
 from kille.sensors.recordings.options import Options, split_options
 from kille.sensors.recordings.pairing import pair_times
 from kille.sensors.recordings.playing import (
-    Clock,
+    PlaybackClock,
     Recording,
     RecordingOverError,
     due,
     latest,
 )
-from kille.sensors.recordings.reels import Moment, Reel, remark_on
+from kille.sensors.recordings.reels import Moment, RecordedMoments, remark_on
 from kille.sensors.sensor import SensorError
 
 TIMES = (100.0, 100.1, 100.25, 100.3)
@@ -33,7 +33,9 @@ def moment(number: int, time: float) -> Moment:
     return Moment(time, lambda: Frame(colour, None, None, time, {}))
 
 
-REEL = Reel("test", [moment(number, time) for number, time in enumerate(TIMES)])
+REEL = RecordedMoments(
+    "test", [moment(number, time) for number, time in enumerate(TIMES)]
+)
 
 
 @dataclass
@@ -44,8 +46,8 @@ class Hours:
     waits: list[float] = field(default_factory=list)
 
     @property
-    def clock(self) -> Clock:
-        return Clock(lambda: self.time, self.wait)
+    def clock(self) -> PlaybackClock:
+        return PlaybackClock(lambda: self.time, self.wait)
 
     def wait(self, seconds: float) -> None:
         self.waits.append(seconds)
@@ -146,7 +148,7 @@ def test_who_is_slow_sees_the_last_frame_before_the_end() -> None:
 @given(st.lists(st.integers(1, 50), max_size=6), st.floats(0, 100))
 def test_the_latest_is_due_and_the_next_is_not(gaps: list[int], now: float) -> None:
     times = np.cumsum([0, *gaps]) / 10
-    reel = Reel("r", [moment(0, float(time)) for time in times])
+    reel = RecordedMoments("r", [moment(0, float(time)) for time in times])
     number = latest(reel, now)
     assert due(reel, number) <= now + 1e-9
     assert due(reel, number + 1) > now - 1e-9
@@ -155,7 +157,7 @@ def test_the_latest_is_due_and_the_next_is_not(gaps: list[int], now: float) -> N
 @given(st.lists(st.integers(1, 50), max_size=6))
 def test_times_rise_over_all_laps(gaps: list[int]) -> None:
     times = np.cumsum([0, *gaps]) / 10
-    reel = Reel("r", [moment(0, float(time)) for time in times])
+    reel = RecordedMoments("r", [moment(0, float(time)) for time in times])
     row = [due(reel, number) for number in range(3 * len(times))]
     assert all(a < b for a, b in pairwise(row))
 

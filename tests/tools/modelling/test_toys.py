@@ -11,11 +11,11 @@ from kille.scene import Colour
 from kille.sensors.pictures import read_colour
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic import catalogue
-from kille.sensors.synthetic.model import Model
+from kille.sensors.synthetic.model import ToyModel
 from kille.sensors.synthetic.obj import load_model
 from tools.modelling.obj_files import obj_text
 from tools.modelling.shapes import disc, ellipsoid, lathe
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 from tools.modelling.toys import MAKERS, SHIPPED, write_picture
 from tools.modelling.wood import wood
 
@@ -27,7 +27,7 @@ def pictures_agree(one: Colour, other: Colour) -> bool:
     )
 
 
-def save(folder: Path, model: Model) -> Path:
+def save(folder: Path, model: ToyModel) -> Path:
     file = folder / "thing.obj"
     file.write_text(obj_text(model, "thing.mtl"))
     (folder / "thing.mtl").write_text("newmtl thing\nmap_Kd thing.png\n")
@@ -36,7 +36,7 @@ def save(folder: Path, model: Model) -> Path:
 
 
 def test_each_toy_has_a_maker() -> None:
-    assert [name.replace("_", " ") for name in MAKERS] == [*catalogue.NAMES]
+    assert [name.replace("_", " ") for name in MAKERS] == [*catalogue.TOY_NAMES]
     files = {file.name for file in (SHIPPED / "toys").iterdir()}
     assert files == {
         f"{name}.{end}" for name in MAKERS for end in ("obj", "mtl", "png")
@@ -46,7 +46,7 @@ def test_each_toy_has_a_maker() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", MAKERS)
 def test_a_shipped_toy_is_what_its_maker_makes(name: str) -> None:
-    shipped, made = catalogue.model(name.replace("_", " ")), MAKERS[name]()
+    shipped, made = catalogue.toy_model(name.replace("_", " ")), MAKERS[name]()
     assert np.array_equal(shipped.triangles, made.triangles)
     assert shipped.vertices == pytest.approx(made.vertices, abs=1e-6)
     assert shipped.normals == pytest.approx(made.normals, abs=1e-4)
@@ -68,7 +68,7 @@ def test_a_model_is_read_as_it_was_written(tmp_path: Path, seed: int) -> None:
 
     profile = chance.uniform(0.01, 0.1, (4, 2))
     sheets = ellipsoid(chance.uniform(0.01, 0.1, 3), 8), lathe(profile, 7), disc(0.05)
-    model = assemble([Part(sheet, picture()) for sheet in sheets])
+    model = assemble([Sheet(sheet, picture()) for sheet in sheets])
     read = load_model(save(tmp_path, model))
     for name in ("vertices", "normals", "triangles", "texture"):
         assert np.array_equal(getattr(read, name), getattr(model, name))
@@ -77,7 +77,7 @@ def test_a_model_is_read_as_it_was_written(tmp_path: Path, seed: int) -> None:
 
 
 def test_a_model_has_normals(tmp_path: Path) -> None:
-    file = save(tmp_path, catalogue.model("book"))
+    file = save(tmp_path, catalogue.toy_model("book"))
     lines = [it for it in file.read_text().splitlines() if not it.startswith("vn")]
     file.write_text("\n".join(lines))
     with pytest.raises(SensorError, match="no usable `vn` lines"):

@@ -16,7 +16,7 @@ from kille.lab.results import ExperimentError, Result, silent
 from kille.lab.scenes.galleries import Gallery, open_gallery
 from kille.lab.scenes.labelled import Split, open_scenes, splits
 from kille.lab.theories.candidates import MethodFailedError, candidates
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 from .conftest import discs
 
@@ -67,9 +67,9 @@ def test_the_papers_protocol(colour: Make, mute: Make) -> None:
 
 
 def test_the_papers_own_ranking_stands_beside_ours(mute: Make) -> None:
-    answers = [Answer(thing, {}) for thing in NAMES]
+    answers = [Answer(thing, {}) for thing in TOY_NAMES]
     course = objects._Course([answers], answers)
-    ranking = objects._ranking({"mute": course}, NAMES)
+    ranking = objects._ranking({"mute": course}, TOY_NAMES)
     assert ranking.columns == ("", "KILLE's robot", "mute")
     assert [row[1] for row in ranking.rows][:3] == ["book", "car", "shoe"]
 
@@ -85,7 +85,7 @@ def test_new_things_of_a_kind_are_others(monkeypatch: pytest.MonkeyPatch) -> Non
             seen.append(tuple(x.frame.colour[x.region.mask].mean(axis=0)))
             return {"cup": 1.0}
 
-    monkeypatch.setattr(variations, "NAMES", ("cup",))
+    monkeypatch.setattr(variations, "TOY_NAMES", ("cup",))
     result = variations.specimens(methods(it=Watching), seed=7)
     assert len(set(seen)) == len(seen) == 6
     assert result.facts["methods"]["it"] == 1

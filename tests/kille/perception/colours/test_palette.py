@@ -12,9 +12,9 @@ from kille.perception.colours import (
     colour_words,
     colours_in,
     colours_of,
-    packed,
+    pack_palette,
     plain,
-    unpacked,
+    unpack_palette,
     xkcd,
 )
 from kille.perception.cues import CUES, Patch
@@ -156,11 +156,11 @@ def test_what_is_chosen_sums_to_one() -> None:
 
 def test_palettes_are_kept_as_numbers() -> None:
     palette = Palette([0.2, 0.7, 0.1], [[90, 0, 0], [48, 66, 48], [0, 0, 0]])
-    again = unpacked(packed(palette))
+    again = unpack_palette(pack_palette(palette))
     assert again.shares == pytest.approx([0.7, 0.2, 0.1])
     assert again.lab == pytest.approx(np.array([[48, 66, 48], [90, 0, 0], [0, 0, 0]]))
     with pytest.raises(ValueError, match="a packed palette has 16 numbers"):
-        unpacked(np.ones(3, np.float32))
+        unpack_palette(np.ones(3, np.float32))
 
 
 @pytest.mark.parametrize(

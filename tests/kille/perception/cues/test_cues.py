@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from tabletop import Card, frame_of
 
-from kille.perception.cues import CUES, Cue, Patch, measured
+from kille.perception.cues import CUES, Cue, Patch, measure_cues
 from kille.perception.cues.fisher import load_codebook, numbers, project_vector
 from kille.perception.segment import region_of, whole
 from kille.scene import Frame, Intrinsics, Region, Traits
@@ -51,7 +51,7 @@ def distance(one: Traits, other: Traits, cue: str) -> float:
 
 
 def test_every_cue_gives_its_length_of_finite_numbers() -> None:
-    for traits in (measured(*seen()), measured(*drawn("disc"))):
+    for traits in (measure_cues(*seen()), measure_cues(*drawn("disc"))):
         for name, vector in traits.items():
             assert vector.shape == (CUES[name].length,)
             assert vector.dtype == np.float32
@@ -61,31 +61,34 @@ def test_every_cue_gives_its_length_of_finite_numbers() -> None:
 def test_with_depth_all_cues_are_of_the_region_and_without_also_of_the_picture() -> (
     None
 ):
-    assert set(measured(*seen())) == set(CUES) - WHOLE
-    assert set(measured(*drawn("disc"))) == set(CUES) - {"size"}
+    assert set(measure_cues(*seen())) == set(CUES) - WHOLE
+    assert set(measure_cues(*drawn("disc"))) == set(CUES) - {"size"}
 
 
 @pytest.mark.parametrize("cue", sorted(set(CUES) - WHOLE))
 def test_a_thing_is_more_like_itself_than_like_another(cue: str) -> None:
-    one, again = measured(*seen(seed=1)), measured(*seen(seed=2))
-    other = measured(*seen(Card(0.0, 0.8, 0.22, 0.06, seed=9)))
+    one, again = measure_cues(*seen(seed=1)), measure_cues(*seen(seed=2))
+    other = measure_cues(*seen(Card(0.0, 0.8, 0.22, 0.06, seed=9)))
     assert distance(one, again, cue) < 0.7 * distance(one, other, cue)
 
 
 @pytest.mark.parametrize("cue", ["shape", "outline", "form", "colour", "paint"])
 def test_where_in_the_picture_a_thing_is_does_not_count(cue: str) -> None:
-    one, moved = measured(*drawn("disc")), measured(*drawn("disc", at=(90, 140)))
+    one, moved = (
+        measure_cues(*drawn("disc")),
+        measure_cues(*drawn("disc", at=(90, 140))),
+    )
     assert distance(one, moved, cue) < 0.1
 
 
 @pytest.mark.parametrize("cue", ["shape", "outline", "form"])
 def test_shapes_differ(cue: str) -> None:
-    disc, bar = measured(*drawn("disc")), measured(*drawn("bar"))
+    disc, bar = measure_cues(*drawn("disc")), measure_cues(*drawn("bar"))
     assert distance(disc, bar, cue) > 0.3
 
 
 def test_colours_have_length_one_and_change_little_from_frame_to_frame() -> None:
-    one, other = measured(*seen(seed=1)), measured(*seen(seed=2))
+    one, other = measure_cues(*seen(seed=1)), measure_cues(*seen(seed=2))
     for cue in ("colour", "hue"):
         assert np.linalg.norm(one[cue]) == pytest.approx(1, abs=1e-5)
         assert distance(one, other, cue) < 0.1
@@ -96,7 +99,7 @@ def test_a_slight_cast_changes_colours_less_than_another_colour_does() -> None:
     cast = np.clip(frame.colour * np.array([1.05, 1.0, 0.92]), 0, 255).astype(np.uint8)
     blue = np.full_like(frame.colour, (10, 20, 200))
     plain, tinted, painted = (
-        measured(replace(frame, colour=colour), region)
+        measure_cues(replace(frame, colour=colour), region)
         for colour in (frame.colour, cast, blue)
     )
     for cue in ("colour", "hue"):
@@ -106,13 +109,13 @@ def test_a_slight_cast_changes_colours_less_than_another_colour_does() -> None:
 def test_hue_is_the_same_in_half_the_light_and_colour_is_not() -> None:
     frame, region = drawn("disc")
     darker = replace(frame, colour=(frame.colour * 0.7).astype(np.uint8))
-    plain, dim = measured(frame, region), measured(darker, region)
+    plain, dim = measure_cues(frame, region), measure_cues(darker, region)
     assert distance(plain, dim, "hue") < distance(plain, dim, "colour") / 2
 
 
 @pytest.mark.parametrize("card", [CARD, Card(0.1, 1.0, 0.2, 0.1), Card(-0.1, 0.6)])
 def test_a_size_is_that_of_the_thing_wherever_it_stands(card: Card) -> None:
-    reach = np.exp(measured(*seen(card))["size"]) - 0.01
+    reach = np.exp(measure_cues(*seen(card))["size"]) - 0.01
     width, height = sorted((card.width, card.height))
     assert reach[:2] == pytest.approx((height, width), rel=0.2)
     assert reach[2] < 0.02
@@ -121,7 +124,10 @@ def test_a_size_is_that_of_the_thing_wherever_it_stands(card: Card) -> None:
 def test_readings_of_the_background_at_the_rim_do_not_count_as_size() -> None:
     frame, region = seen()
     wide = np.roll(region.mask, 2, axis=1) | region.mask
-    one, other = measured(frame, region), measured(frame, region_of(frame, wide))
+    one, other = (
+        measure_cues(frame, region),
+        measure_cues(frame, region_of(frame, wide)),
+    )
     assert distance(one, other, "size") < 0.1
 
 
@@ -132,7 +138,7 @@ def test_what_surrounds_a_region_with_depth_is_neither_its_texture_nor_its_colou
     noise = np.random.default_rng(0).integers(0, 255, frame.colour.shape, np.uint8)
     near = cv2.dilate(region.mask.astype(np.uint8), np.ones((41, 41))) > 0
     other = replace(frame, colour=np.where(near[..., None], frame.colour, noise))
-    one, same = measured(frame, region), measured(other, region)
+    one, same = measure_cues(frame, region), measure_cues(other, region)
     for cue in ("texture", "paint", "pattern", "colour", "hue"):
         assert distance(one, same, cue) < 1e-3
 
@@ -142,7 +148,7 @@ def test_a_cue_of_ones_own_is_measured_like_the_others() -> None:
         return patch.lab.mean(axis=0).astype(np.float32)
 
     own: Mapping[str, Cue] = {"middle": Cue("middle", 3, middle)}
-    assert list(measured(*seen(), own)) == ["middle"]
+    assert list(measure_cues(*seen(), own)) == ["middle"]
 
 
 SIGNS = [-1, 1, -1, 1, 1, 1, 1, 1, 1, -1, -1, -1, -1, -1, 1, -1]
@@ -165,7 +171,7 @@ def test_odd_input_gives_finite_vectors_or_none(
     )
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        traits = measured(frame, region_of(frame, mask))
+        traits = measure_cues(frame, region_of(frame, mask))
     assert all(np.isfinite(vector).all() for vector in traits.values())
     if kind == "none":
         assert set(traits) <= WHOLE
@@ -174,7 +180,7 @@ def test_odd_input_gives_finite_vectors_or_none(
 @pytest.mark.parametrize("shape", [(1, 1), (3, 900), (900, 2), (2160, 3840)])
 def test_pictures_of_any_size_can_be_measured(shape: tuple[int, int]) -> None:
     frame = picture(np.full((*shape, 3), 90, np.uint8))
-    traits = measured(frame, whole(frame))
+    traits = measure_cues(frame, whole(frame))
     assert all(np.isfinite(vector).all() for vector in traits.values())
 
 
@@ -187,7 +193,7 @@ def test_any_mask_on_any_picture_gives_finite_vectors(seed: int) -> None:
     depth = np.where(chance.random(shape) < 0.5, chance.random(shape), np.nan)
     frame = Frame(colour, depth.astype(np.float32), LENS, 0.0, {})
     region = region_of(frame, chance.random(shape) < chance.random())
-    traits = measured(frame, region)
+    traits = measure_cues(frame, region)
     assert all(np.isfinite(vector).all() for vector in traits.values())
     assert all(len(vector) == CUES[name].length for name, vector in traits.items())
 
@@ -223,7 +229,7 @@ def test_the_same_thing_is_known_again_in_real_frames(data: Path) -> None:
     first, last = (read_sequence(description)[k].read() for k in (0, -1))
     one, other = (
         {
-            word: measured(frame, region_of(frame, mask))
+            word: measure_cues(frame, region_of(frame, mask))
             for word, mask in frame.outlines.items()
         }
         for frame in (first, last)

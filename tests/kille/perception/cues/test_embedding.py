@@ -10,7 +10,12 @@ import numpy as np
 import pytest
 from tabletop import Card, frame_of
 
-from kille.perception.cues import EMBEDDING, MissingExtraError, measured, with_embedding
+from kille.perception.cues import (
+    EMBEDDING,
+    MissingExtraError,
+    measure_cues,
+    with_embedding,
+)
 from kille.perception.cues.embedding import network
 from kille.perception.segment import region_of, whole
 from kille.scene import Frame, Region, Vector
@@ -43,7 +48,7 @@ def seen(card: Card) -> tuple[Frame, Region]:
 
 
 def embedded(frame: Frame, region: Region) -> Vector:
-    return measured(frame, region, {"embedding": EMBEDDING})["embedding"]
+    return measure_cues(frame, region, {"embedding": EMBEDDING})["embedding"]
 
 
 @pytest.mark.usefixtures("without_torch")
@@ -57,12 +62,12 @@ def test_without_its_packages_one_line_says_what_to_install() -> None:
 
 @pytest.mark.usefixtures("without_torch")
 def test_the_default_cues_do_not_need_its_packages() -> None:
-    assert "embedding" not in measured(*seen(Card(0.0, 0.8)))
+    assert "embedding" not in measure_cues(*seen(Card(0.0, 0.8)))
 
 
 @installed
 def test_it_is_one_of_the_cues() -> None:
-    vector = measured(*seen(Card(0.0, 0.8)), with_embedding())["embedding"]
+    vector = measure_cues(*seen(Card(0.0, 0.8)), with_embedding())["embedding"]
     assert vector.shape == (EMBEDDING.length,)
     assert vector.dtype == np.float32
     assert np.linalg.norm(vector) == pytest.approx(1, abs=1e-4)
@@ -98,4 +103,4 @@ def test_empty_pictures_have_finite_embeddings(level: int) -> None:
     frame = Frame(np.full((30, 40, 3), level, np.uint8), None, None, 0.0, {})
     assert np.isfinite(embedded(frame, whole(frame))).all()
     nothing = region_of(frame, np.zeros((30, 40), bool))
-    assert measured(frame, nothing, {"embedding": EMBEDDING}) == {}
+    assert measure_cues(frame, nothing, {"embedding": EMBEDDING}) == {}

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.perception.relations.bounding_boxes import Bounds, bounds_of, hold
+from kille.perception.relations.bounding_boxes import Bounds, bounds_of, containment
 from kille.perception.relations.configurations import configuration, configurations
 from kille.perception.segment import region_of
 from kille.scene import Configuration, Region
@@ -26,7 +26,7 @@ def box(low: list[float], size: list[float]) -> Bounds:
 def test_a_hold_is_in_degrees(
     low: list[float], size: list[float], other: list[float], its: list[float]
 ) -> None:
-    held = hold(box(low, size), box(other, its))
+    held = containment(box(low, size), box(other, its))
     for degree in (held.contact, held.support, held.containment):
         assert 0 <= degree <= 1
 
@@ -35,16 +35,16 @@ def test_a_hold_is_in_degrees(
 def test_a_thing_contains_and_touches_itself(
     low: list[float], size: list[float]
 ) -> None:
-    held = hold(box(low, size), box(low, size))
+    held = containment(box(low, size), box(low, size))
     assert held.contact == 1
     assert held.containment == pytest.approx(1)
 
 
 def test_on_beside_and_over() -> None:
     table = box([0, 0, 0], [1, 1, 0.2])
-    on = hold(box([0.4, 0.4, 0.2], [0.1, 0.1, 0.1]), table)
-    beside = hold(box([1.0, 0.4, 0], [0.1, 0.1, 0.1]), table)
-    over = hold(box([0.4, 0.4, 0.6], [0.1, 0.1, 0.1]), table)
+    on = containment(box([0.4, 0.4, 0.2], [0.1, 0.1, 0.1]), table)
+    beside = containment(box([1.0, 0.4, 0], [0.1, 0.1, 0.1]), table)
+    over = containment(box([0.4, 0.4, 0.6], [0.1, 0.1, 0.1]), table)
     assert (on.contact, on.support, on.containment) == (1, pytest.approx(1), 0)
     assert (beside.contact, beside.support) == (1, 0)
     assert (over.contact, over.support) == (0, 0)

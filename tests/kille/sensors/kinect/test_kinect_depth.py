@@ -17,7 +17,7 @@ from kille.sensors.kinect.calibration import (
     Padding,
     Registration,
 )
-from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture, frame_of
+from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture, frame_of
 from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.metric import beyond, depths, millimetres, raw_of
 from kille.sensors.kinect.registration import register_depth
@@ -208,7 +208,7 @@ def test_a_frame_has_metres_where_depth_is_known() -> None:
     raw[:, 200] = beyond(IDENTITY)
     raw[:, 201] = 1090  # behind everything; in sixteen bits it would wrap around
     colour = np.zeros((480, 640, 3), np.uint8)
-    frame = frame_of(Capture(1.5, colour, raw, 1, 2), IDENTITY)
+    frame = frame_of(KinectCapture(1.5, colour, raw, 1, 2), IDENTITY)
     assert frame.depth is not None
     assert frame.depth.dtype == np.float32
     assert frame.depth[5, 5] == pytest.approx(0.887)

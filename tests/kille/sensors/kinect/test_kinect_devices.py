@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from kille.sensors.kinect.devices import Kinect, Model, chosen, kinects
-from kille.sensors.kinect.transport import Plugged
+from kille.sensors.kinect.devices import Kinect, KinectModel, choose_kinect, kinects
+from kille.sensors.kinect.transport import PluggedDevice
 from kille.sensors.sensor import SensorError
 
 ZEROS = "0000000000000000"
@@ -13,8 +13,8 @@ ZEROS = "0000000000000000"
 
 def device(
     product: int, *place: int, serial: str = "", release: int = 0x010B
-) -> Plugged:
-    return Plugged(0x045E, product, release, serial, place)
+) -> PluggedDevice:
+    return PluggedDevice(0x045E, product, release, serial, place)
 
 
 OLD = (
@@ -30,15 +30,15 @@ FOR_WINDOWS = (
     device(0x02BE, 3, 1, 1, serial="A3"),
     device(0x02BF, 3, 1, 2, serial=ZEROS, release=0x0114),
 )
-MOUSE = Plugged(0x046D, 0xC077, 1, "", (1, 1))
+MOUSE = PluggedDevice(0x046D, 0xC077, 1, "", (1, 1))
 
 
 def test_each_camera_finds_its_own_motor_and_number() -> None:
     found = kinects((MOUSE, *OLD, *NEW, *FOR_WINDOWS))
     assert found == (
-        Kinect(Model.XBOX_1414, "B1", OLD[2], OLD[0]),
-        Kinect(Model.XBOX_1473, "A2", NEW[1], None),
-        Kinect(Model.WINDOWS, "A3", FOR_WINDOWS[1], None),
+        Kinect(KinectModel.XBOX_1414, "B1", OLD[2], OLD[0]),
+        Kinect(KinectModel.XBOX_1473, "A2", NEW[1], None),
+        Kinect(KinectModel.WINDOWS, "A3", FOR_WINDOWS[1], None),
     )
 
 
@@ -50,12 +50,12 @@ def test_neighbours_need_not_hang_on_the_same_hub() -> None:
 
 def test_a_kinect_is_chosen_by_its_number_or_comes_first() -> None:
     devices = (*OLD, *NEW)
-    assert chosen(devices, None).serial == "B1"
-    assert chosen(devices, "A2").model is Model.XBOX_1473
+    assert choose_kinect(devices, None).serial == "B1"
+    assert choose_kinect(devices, "A2").model is KinectModel.XBOX_1473
     with pytest.raises(SensorError, match="number C9; plugged in: B1 and A2"):
-        chosen(devices, "C9")
+        choose_kinect(devices, "C9")
     with pytest.raises(SensorError, match="one whose number cannot be read"):
-        chosen((*OLD[:1], device(0x02AE, 1, 2, 3)), "B1")
+        choose_kinect((*OLD[:1], device(0x02AE, 1, 2, 3)), "B1")
 
 
 @pytest.mark.parametrize(
@@ -69,6 +69,8 @@ def test_a_kinect_is_chosen_by_its_number_or_comes_first() -> None:
         ((device(0x02D9, 2, 1),), "this is a Kinect v2"),
     ],
 )
-def test_what_is_no_kinect_is_told(devices: tuple[Plugged, ...], said: str) -> None:
+def test_what_is_no_kinect_is_told(
+    devices: tuple[PluggedDevice, ...], said: str
+) -> None:
     with pytest.raises(SensorError, match=said):
-        chosen(devices, None)
+        choose_kinect(devices, None)

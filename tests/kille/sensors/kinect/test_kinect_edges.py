@@ -25,9 +25,9 @@ from kille.sensors.kinect.devices import Kinect as Found
 from kille.sensors.kinect.devices import again, kinects
 from kille.sensors.kinect.motor import Light, tilt_value
 from kille.sensors.kinect.sensor import KinectSensor
-from kille.sensors.kinect.session import Session
+from kille.sensors.kinect.session import StreamSession
 from kille.sensors.kinect.streams import COLOUR
-from kille.sensors.kinect.transport import Connection, Plugged, TransportError
+from kille.sensors.kinect.transport import Connection, PluggedDevice, TransportError
 from kille.sensors.sensor import SensorError
 from kinect_emulator.calibration import LIKELY
 from kinect_emulator.descriptors import MODEL_1414, MODEL_1473, Model, Role
@@ -273,7 +273,7 @@ def test_the_part_that_tells_the_number_may_come_later() -> None:
 @given(st.permutations(range(4)))
 def test_the_order_of_devices_does_not_matter(order: list[int]) -> None:
     devices = [
-        Plugged(0x045E, product, 0x010B, serial, place)
+        PluggedDevice(0x045E, product, 0x010B, serial, place)
         for product, serial, place in (
             (0x02B0, "", (1, 1, 1)),
             (0x02AE, "B1", (1, 1, 3)),
@@ -290,7 +290,7 @@ def test_the_order_of_devices_does_not_matter(order: list[int]) -> None:
 def test_a_motor_is_not_shared_by_two_cameras_beside_it() -> None:
     """As where a computer is given single devices, and not their hubs."""
     parts = [(0x02B0, (1, 1)), (0x02AE, (1, 2)), (0x02AE, (1, 3))]
-    found = kinects([Plugged(0x045E, it, 0x010B, "", at) for it, at in parts])
+    found = kinects([PluggedDevice(0x045E, it, 0x010B, "", at) for it, at in parts])
     assert [it.motor for it in found] == [None, None]
 
 
@@ -351,10 +351,10 @@ class Trapped:
         self._happens = happens
         self._count = count()
 
-    def devices(self) -> tuple[Plugged, ...]:
+    def devices(self) -> tuple[PluggedDevice, ...]:
         return self._bus.devices()
 
-    def open(self, device: Plugged, alternate: int) -> Connection:
+    def open(self, device: PluggedDevice, alternate: int) -> Connection:
         connection = self._bus.open(device, alternate)
         write = connection.write
 
@@ -397,9 +397,9 @@ def test_one_that_is_pulled_while_it_is_closed_is_closed(
 # --- why no pictures come ------------------------------------------------------------
 
 
-def session_of(bus: InsideBus) -> Session:
+def session_of(bus: InsideBus) -> StreamSession:
     (found,) = kinects(bus.devices())
-    return Session(bus, found, COLOUR)
+    return StreamSession(bus, found, COLOUR)
 
 
 def test_a_computer_that_is_too_busy_is_told_from_a_bad_cable() -> None:
@@ -495,7 +495,7 @@ def test_what_is_closed_is_freed_at_once(
     opened = KinectSensor("kinect", bus)
     opened.capture()
     session = opened._streams
-    assert isinstance(session, Session)
+    assert isinstance(session, StreamSession)
     feeds = [weakref.ref(feed) for feed in session._feeds]
     held = [weakref.ref(session), *feeds, *(weakref.ref(it().stream) for it in feeds)]
     del session
@@ -514,7 +514,7 @@ def test_opened_and_closed_120_times_it_leaves_nothing(bus: InsideBus) -> None:
     def left() -> tuple[int, int]:
         with closing(KinectSensor("kinect", bus)) as sensor:
             sensor.frame()
-        kinds = (Session, Found, TransportError, np.ndarray)
+        kinds = (StreamSession, Found, TransportError, np.ndarray)
         return threading.active_count(), sum(
             isinstance(it, kinds) for it in gc.get_objects()
         )

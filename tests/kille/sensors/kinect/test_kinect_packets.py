@@ -10,7 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from kille.sensors.kinect.packets import Assembler, Counts, RawFrame
+from kille.sensors.kinect.packets import Assembler, RawFrame, StreamCounts
 from kille.sensors.kinect.streams import COLOUR, DEPTH_10, DEPTH_11, INFRARED, Mode
 from kille.sensors.kinect.transport import Batch
 
@@ -48,7 +48,7 @@ def sent(mode: Mode, frames: int, number: int = 0) -> Sent:
 
 def fed(
     mode: Mode, rows: NDArray[np.uint8], lengths: NDArray[np.int32], cuts: list[int]
-) -> tuple[list[RawFrame], Counts]:
+) -> tuple[list[RawFrame], StreamCounts]:
     """What comes out if the packets come in batches cut there."""
     assembler = Assembler(mode)
     frames: list[RawFrame] = []
@@ -65,7 +65,7 @@ def test_all_frames_come_out_whatever_the_stream() -> None:
         packets = sent(mode, 3, number=200)
         frames, counts = fed(mode, packets.rows, packets.lengths, [64, 128, 300])
         assert [frame.data.tobytes() for frame in frames] == packets.frames
-        assert counts == Counts(packets=3 * mode.packets, frames=3)
+        assert counts == StreamCounts(packets=3 * mode.packets, frames=3)
         assert frames[1].ticks == (4_294_000_000 + TICKS) % 2**32
 
 
@@ -79,7 +79,7 @@ def test_the_first_frame_begins_with_a_first_packet() -> None:
     packets = sent(SMALL, 3)
     frames, counts = fed(SMALL, packets.rows[2:], packets.lengths[2:], [])
     assert [frame.data.tobytes() for frame in frames] == packets.frames[1:]
-    assert counts == Counts(packets=16, frames=2)
+    assert counts == StreamCounts(packets=16, frames=2)
 
 
 def test_a_lost_packet_costs_its_frame_and_is_counted() -> None:
@@ -87,7 +87,7 @@ def test_a_lost_packet_costs_its_frame_and_is_counted() -> None:
     kept = np.delete(np.arange(18), [8, 9])
     frames, counts = fed(SMALL, packets.rows[kept], packets.lengths[kept], [])
     assert [frame.data.tobytes() for frame in frames] == packets.frames[::2]
-    assert counts == Counts(packets=16, lost=2, frames=2, broken=1)
+    assert counts == StreamCounts(packets=16, lost=2, frames=2, broken=1)
 
 
 def test_so_many_lost_that_numbers_and_places_fit_again() -> None:
@@ -106,7 +106,7 @@ def test_empty_microframes_and_failed_packets_are_passed_over() -> None:
     rows[::2], lengths[::2] = packets.rows, packets.lengths
     frames, counts = fed(SMALL, rows, lengths, [5, 11])
     assert [frame.data.tobytes() for frame in frames] == packets.frames
-    assert counts == Counts(packets=12, frames=2)
+    assert counts == StreamCounts(packets=12, frames=2)
 
 
 def test_a_frame_whose_first_packet_is_the_latest_is_broken() -> None:

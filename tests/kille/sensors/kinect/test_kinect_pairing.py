@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.sensors.kinect.clock import Clock
+from kille.sensors.kinect.clock import DeviceClock
 from kille.sensors.kinect.packets import RawFrame
 from kille.sensors.kinect.pairing import NEAR, first_pair
 
@@ -25,7 +25,7 @@ def frame(time: float, late: float = 0.0, began: int = 0) -> RawFrame:
 def test_a_time_is_late_by_the_least_delay_so_far(
     delays: list[float], start: int
 ) -> None:
-    clock = Clock()
+    clock = DeviceClock()
     for number, delay in enumerate(delays):
         ticks = (start + number * 2_000_000) % 2**32
         told = clock.at(ticks, 100 + number * PERIOD + delay)
@@ -35,7 +35,7 @@ def test_a_time_is_late_by_the_least_delay_so_far(
 
 @given(st.lists(st.integers(0, 2**32 - 1), min_size=1, max_size=80))
 def test_a_clock_out_of_its_mind_is_not_believed_for_long(ticks: list[int]) -> None:
-    clock = Clock()
+    clock = DeviceClock()
     for number, told in enumerate(ticks):
         arrived = number * PERIOD
         assert arrived - 0.5 <= clock.at(told, arrived) <= arrived + 1e-6

@@ -12,7 +12,7 @@ import pytest
 
 from kille.sensors.kinect import sensor as sensors
 from kille.sensors.kinect import session as sessions
-from kille.sensors.kinect.camera import Camera
+from kille.sensors.kinect.camera import KinectCamera
 from kille.sensors.kinect.capture import RawSource
 from kille.sensors.kinect.motor import Light
 from kille.sensors.kinect.packets import RawFrame
@@ -330,7 +330,7 @@ def test_one_kinect_is_had_by_one(sensor: KinectSensor, bus: InsideBus) -> None:
 
 
 def test_failures_in_taking_frames_are_counted(bus: InsideBus) -> None:
-    camera = Camera(bus.open(bus.devices()[-1], 0))
+    camera = KinectCamera(bus.open(bus.devices()[-1], 0))
     done = threading.Event()
 
     def fail(frame: RawFrame) -> None:
@@ -348,7 +348,7 @@ def test_failures_in_taking_frames_are_counted(bus: InsideBus) -> None:
 
 @pytest.mark.parametrize(("mode", "shift"), [(DEPTH_10, 1), (INFRARED, 0)])
 def test_other_streams(bus: InsideBus, kinect: Kinect, mode, shift: int) -> None:
-    camera = Camera(bus.open(bus.devices()[-1], 0))
+    camera = KinectCamera(bus.open(bus.devices()[-1], 0))
     frames: list[RawFrame] = []
     feed = camera.start(mode, frames.append)
     until(lambda: frames)
@@ -360,7 +360,7 @@ def test_other_streams(bus: InsideBus, kinect: Kinect, mode, shift: int) -> None
 
 
 def test_registers_can_be_read(bus: InsideBus) -> None:
-    camera = Camera(bus.open(bus.devices()[-1], 0))
+    camera = KinectCamera(bus.open(bus.devices()[-1], 0))
     feed = camera.start(DEPTH_10, lambda frame: None)
     assert (camera.register(0x06), camera.register(0x12)) == (2, 2)
     camera.stop(feed)
@@ -375,7 +375,7 @@ def test_a_start_that_fails_leaves_nothing_behind(
     before = threading.active_count()
     problem_of(bus)
     assert threading.active_count() == before
-    camera = Camera(bus.open(bus.devices()[-1], 0))
+    camera = KinectCamera(bus.open(bus.devices()[-1], 0))
     with pytest.raises(TransportError):
         camera.rest()
     camera.close()

@@ -5,7 +5,11 @@ from __future__ import annotations
 import pytest
 
 from kille.sensors.kinect import troubles, usb
-from kille.sensors.kinect.transport import DeviceBusyError, Driven, TransportError
+from kille.sensors.kinect.transport import (
+    DeviceBusyError,
+    KernelDriverError,
+    TransportError,
+)
 
 
 def test_a_kernel_driver_is_blamed_only_for_what_it_has(
@@ -13,7 +17,9 @@ def test_a_kernel_driver_is_blamed_only_for_what_it_has(
 ) -> None:
     """It is loaded on most computers, but moved aside by whoever opens the Kinect."""
     monkeypatch.setattr(troubles, "driver_loaded", lambda: True)
-    assert troubles.explain_error("kinect", Driven("busy")).endswith(troubles.UNLOAD)
+    assert troubles.explain_error("kinect", KernelDriverError("busy")).endswith(
+        troubles.UNLOAD
+    )
     assert troubles.trouble(DeviceBusyError("busy")).state == "another program has it"
 
 

@@ -8,30 +8,33 @@ import pytest
 
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic import open_synthetic
-from kille.sensors.synthetic.address import Address, parse_address
+from kille.sensors.synthetic.address import SceneAddress, parse_address
 from kille.sensors.synthetic.faults import FAULTS
 
 
 @pytest.mark.parametrize(
     ("name", "address"),
     [
-        ("synthetic", Address("desk", 0, frozenset(FAULTS), None)),
-        ("synthetic:", Address("desk", 0, frozenset(FAULTS), None)),
-        ("synthetic:all", Address("all", 0, frozenset(FAULTS), None)),
-        ("synthetic:desk?seed=7", Address("desk", 7, frozenset(FAULTS), None)),
-        ("synthetic?faults=none", Address("desk", 0, frozenset(), None)),
-        ("synthetic?faults=all&seed=2", Address("desk", 2, frozenset(FAULTS), None)),
+        ("synthetic", SceneAddress("desk", 0, frozenset(FAULTS), None)),
+        ("synthetic:", SceneAddress("desk", 0, frozenset(FAULTS), None)),
+        ("synthetic:all", SceneAddress("all", 0, frozenset(FAULTS), None)),
+        ("synthetic:desk?seed=7", SceneAddress("desk", 7, frozenset(FAULTS), None)),
+        ("synthetic?faults=none", SceneAddress("desk", 0, frozenset(), None)),
+        (
+            "synthetic?faults=all&seed=2",
+            SceneAddress("desk", 2, frozenset(FAULTS), None),
+        ),
         (
             "synthetic:Empty?faults=noise,Bayer",
-            Address("empty", 0, frozenset({"noise", "bayer"}), None),
+            SceneAddress("empty", 0, frozenset({"noise", "bayer"}), None),
         ),
         (
             "synthetic:empty?meshes=a%20b/c",
-            Address("empty", 0, frozenset(FAULTS), Path("a b/c")),
+            SceneAddress("empty", 0, frozenset(FAULTS), Path("a b/c")),
         ),
     ],
 )
-def test_an_address_reads(name: str, address: Address) -> None:
+def test_an_address_reads(name: str, address: SceneAddress) -> None:
     assert parse_address(name) == address
 
 

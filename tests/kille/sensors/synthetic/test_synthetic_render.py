@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.scene import Depth, Intrinsics
-from kille.sensors.synthetic.camera import Camera
-from kille.sensors.synthetic.catalogue import NAMES, model
-from kille.sensors.synthetic.render import Body, Pose, render_scene
+from kille.sensors.synthetic.camera import SimulatedCamera
+from kille.sensors.synthetic.catalogue import TOY_NAMES, toy_model
+from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.room import room
 from tools.modelling.shapes import box, ellipsoid
-from tools.modelling.sheets import Part, assemble
+from tools.modelling.sheets import Sheet, assemble
 
-CAMERA = Camera()
+CAMERA = SimulatedCamera()
 
 
 def points(depth: Depth, lens: Intrinsics) -> np.ndarray:
@@ -33,7 +33,7 @@ def painted(colour: tuple[int, int, int]) -> np.ndarray:
 
 def test_table_pixels_lie_on_the_table() -> None:
     empty = room(CAMERA)
-    image = render_scene(CAMERA, {"cup": Body(model("cup"), Pose(0, 0))})
+    image = render_scene(CAMERA, {"cup": PosedToy(toy_model("cup"), Pose(0, 0))})
     table = empty.table & ~image.outlines["cup"]
     heights = points(image.depth, CAMERA.intrinsics)[table] @ CAMERA.up + CAMERA.height
     assert table.sum() > 150_000
@@ -52,9 +52,11 @@ def test_the_camera_stands_where_it_says() -> None:
 
 def test_a_box_has_the_depth_of_its_planes() -> None:
     sheets = [
-        Part(sheet, painted((90, 90, 90))) for sheet in box(0.2, 0.1, 0.1).values()
+        Sheet(sheet, painted((90, 90, 90))) for sheet in box(0.2, 0.1, 0.1).values()
     ]
-    image = render_scene(CAMERA, {"box": Body(assemble(sheets), Pose(0.05, 0.02, 30))})
+    image = render_scene(
+        CAMERA, {"box": PosedToy(assemble(sheets), Pose(0.05, 0.02, 30))}
+    )
     seen = points(image.depth, CAMERA.intrinsics)[image.outlines["box"]]
     there = seen @ CAMERA.rotation + CAMERA.position - (0.05, 0.02, 0.0)
     sine, cosine = np.sin(np.radians(30)), np.cos(np.radians(30))
@@ -68,8 +70,8 @@ def test_a_box_has_the_depth_of_its_planes() -> None:
 
 def test_things_are_nearer_than_the_room() -> None:
     empty = room(CAMERA)
-    for name in NAMES:
-        image = render_scene(CAMERA, {name: Body(model(name), Pose(0, 0, 40))})
+    for name in TOY_NAMES:
+        image = render_scene(CAMERA, {name: PosedToy(toy_model(name), Pose(0, 0, 40))})
         mask = image.outlines[name]
         assert (image.depth[mask] < empty.depth[mask] + 1e-3).all()
         assert np.abs(image.depth[~mask] - empty.depth[~mask]).max() < 1e-4
@@ -77,8 +79,8 @@ def test_things_are_nearer_than_the_room() -> None:
 
 def test_the_nearer_thing_hides_the_farther() -> None:
     bodies = {
-        "book": Body(model("book"), Pose(0, 0.15)),
-        "shoe-box": Body(model("shoe-box"), Pose(0, -0.05)),
+        "book": PosedToy(toy_model("book"), Pose(0, 0.15)),
+        "shoe-box": PosedToy(toy_model("shoe-box"), Pose(0, -0.05)),
     }
     image = render_scene(CAMERA, bodies)
     book = render_scene(CAMERA, {"book": bodies["book"]}).outlines["book"]
@@ -91,11 +93,11 @@ def test_the_nearer_thing_hides_the_farther() -> None:
 
 def test_a_wholly_hidden_thing_has_no_outline() -> None:
     bodies = {
-        "shoe-box": Body(model("shoe-box"), Pose(0, 0)),
-        "apple": Body(model("apple"), Pose(0, 0)),
+        "shoe-box": PosedToy(toy_model("shoe-box"), Pose(0, 0)),
+        "apple": PosedToy(toy_model("apple"), Pose(0, 0)),
     }
-    inside = assemble([Part(ellipsoid((0.02, 0.02, 0.02)), painted((0, 0, 0)))])
-    image = render_scene(CAMERA, bodies | {"apple": Body(inside, Pose(0, 0))})
+    inside = assemble([Sheet(ellipsoid((0.02, 0.02, 0.02)), painted((0, 0, 0)))])
+    image = render_scene(CAMERA, bodies | {"apple": PosedToy(inside, Pose(0, 0))})
     assert set(image.outlines) == {"shoe-box"}
 
 
@@ -105,13 +107,13 @@ def test_the_picture_on_a_thing_is_its_own() -> None:
         for side in box(1, 1, 1)
     }
     faces = box(0.2, 0.2, 0.1)
-    cube = assemble([Part(faces[side], sides[side]) for side in faces])
-    image = render_scene(CAMERA, {"cube": Body(cube, Pose(0, 0))})
+    cube = assemble([Sheet(faces[side], sides[side]) for side in faces])
+    image = render_scene(CAMERA, {"cube": PosedToy(cube, Pose(0, 0))})
     front = CAMERA.pixels(np.array([[0.0, -0.1, 0.05]]))[0].round().astype(int)
     top = CAMERA.pixels(np.array([[0.0, 0.0, 0.1]]))[0].round().astype(int)
     assert image.colour[front[1], front[0]].argmax() == 0
     assert image.colour[top[1], top[0]].argmax() == 1
-    behind = render_scene(CAMERA, {"cube": Body(cube, Pose(0, 0, 180))})
+    behind = render_scene(CAMERA, {"cube": PosedToy(cube, Pose(0, 0, 180))})
     assert behind.colour[front[1], front[0]].argmax() == 2
 
 
@@ -119,9 +121,9 @@ def test_letters_are_not_mirrored() -> None:
     left_half = painted((0, 0, 0))
     left_half[:, 4:] = 255
     for side, turn in (("front", 0), ("back", 180), ("left", 90), ("right", -90)):
-        sheet = Part(box(0.1, 0.1, 0.1)[side], left_half)
+        sheet = Sheet(box(0.1, 0.1, 0.1)[side], left_half)
         image = render_scene(
-            CAMERA, {"sheet": Body(assemble([sheet]), Pose(0, 0, turn))}
+            CAMERA, {"sheet": PosedToy(assemble([sheet]), Pose(0, 0, turn))}
         )
         _, columns = np.nonzero(image.outlines["sheet"])
         row = np.nonzero(image.outlines["sheet"])[0].mean().astype(int)
@@ -131,7 +133,7 @@ def test_letters_are_not_mirrored() -> None:
 
 @settings(max_examples=20)
 @given(
-    st.sampled_from(NAMES),
+    st.sampled_from(TOY_NAMES),
     st.floats(-0.2, 0.2),
     st.floats(-0.2, 0.2),
     st.floats(-180, 180),
@@ -139,7 +141,7 @@ def test_letters_are_not_mirrored() -> None:
 def test_an_outline_stays_within_the_projected_vertices(
     name: str, right: float, away: float, turn: float
 ) -> None:
-    body = Body(model(name), Pose(right, away, turn))
+    body = PosedToy(toy_model(name), Pose(right, away, turn))
     rows, columns = np.nonzero(render_scene(CAMERA, {name: body}).outlines[name])
     pixels = CAMERA.pixels(body.pose.move_points(body.model.vertices))
     low, high = pixels.min(axis=0), pixels.max(axis=0)
@@ -151,9 +153,9 @@ def test_an_outline_stays_within_the_projected_vertices(
     assert high[0] - columns.max() < 4
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", TOY_NAMES)
 def test_models_stand_on_the_table_and_are_life_sized(name: str) -> None:
-    made = model(name)
+    made = toy_model(name)
     assert made.vertices[:, 2].min() == pytest.approx(0, abs=1e-6)
     middle = (made.vertices.min(axis=0) + made.vertices.max(axis=0))[:2] / 2
     assert middle == pytest.approx([0, 0], abs=1e-6)
@@ -166,8 +168,8 @@ def test_models_stand_on_the_table_and_are_life_sized(name: str) -> None:
 
 
 def test_a_ball_is_lit_from_above_and_the_left() -> None:
-    ball = assemble([Part(ellipsoid((0.08, 0.08, 0.08)), painted((150, 150, 150)))])
-    image = render_scene(CAMERA, {"ball": Body(ball, Pose(0, 0))})
+    ball = assemble([Sheet(ellipsoid((0.08, 0.08, 0.08)), painted((150, 150, 150)))])
+    image = render_scene(CAMERA, {"ball": PosedToy(ball, Pose(0, 0))})
     rows, columns = np.nonzero(image.outlines["ball"])
     grey = image.colour[..., 1].astype(float)
     middle_row, middle_column = int(rows.mean()), int(columns.mean())
@@ -181,7 +183,7 @@ def test_a_ball_is_lit_from_above_and_the_left() -> None:
 
 def test_a_thing_casts_a_shadow_on_the_table_only() -> None:
     empty = room(CAMERA)
-    image = render_scene(CAMERA, {"cup": Body(model("cup"), Pose(0, 0))})
+    image = render_scene(CAMERA, {"cup": PosedToy(toy_model("cup"), Pose(0, 0))})
     around = ~image.outlines["cup"]
     darker = (empty.colour.astype(int) - image.colour).max(axis=2) > 25
     assert (darker & around & empty.table).sum() > 400

@@ -11,7 +11,7 @@ import pytest
 
 from kille.sensors.sensor import At, Beside, SensorError, Stage
 from kille.sensors.synthetic import Synthetic, open_synthetic
-from kille.sensors.synthetic.catalogue import NAMES, model
+from kille.sensors.synthetic.catalogue import TOY_NAMES, toy_model
 from kille.sensors.synthetic.specimens import specimen
 
 
@@ -26,8 +26,8 @@ def same(a: np.ndarray, b: np.ndarray) -> bool:
 def test_it_is_a_stage_with_the_ten_objects() -> None:
     sensor = open_synthetic("synthetic")
     assert isinstance(sensor, Stage)
-    assert sensor.things() == NAMES
-    assert len(set(NAMES)) == 10
+    assert sensor.things() == TOY_NAMES
+    assert len(set(TOY_NAMES)) == 10
 
 
 def test_a_frame_has_all_that_a_frame_has() -> None:
@@ -85,7 +85,7 @@ def test_frames_cannot_be_written() -> None:
         frame.outlines["ghost"] = frame.outlines["cup"]  # type: ignore[index]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", TOY_NAMES)
 def test_every_object_has_texture_enough_for_sift(name: str) -> None:
     sensor = open_synthetic("synthetic:empty?seed=1")
     sensor.place(name, At(0, 0))
@@ -96,7 +96,7 @@ def test_every_object_has_texture_enough_for_sift(name: str) -> None:
     assert len(cv2.SIFT_create().detect(grey, inside)) >= enough
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", TOY_NAMES)
 def test_show_shows_only_that_and_never_twice_the_same(name: str) -> None:
     sensor = clean("desk")
     masks = []
@@ -235,7 +235,7 @@ def test_a_full_turn_changes_nothing() -> None:
 
 def test_all_ten_fit_and_are_seen() -> None:
     frame = clean("all").frame()
-    assert set(frame.outlines) == set(NAMES)
+    assert set(frame.outlines) == set(TOY_NAMES)
     assert min(mask.sum() for mask in frame.outlines.values()) > 1500
 
 
@@ -301,10 +301,10 @@ def test_things_never_stand_in_one_another(turn: float) -> None:
             sensor.place("apple", spot)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", TOY_NAMES)
 def test_a_specimen_is_another_thing_of_its_kind(name: str) -> None:
     first, other = specimen(name, 0), specimen(name, 3)
-    assert first is model(name)
+    assert first is toy_model(name)
     assert not np.array_equal(first.texture, other.texture)
     assert np.all(other.size < 1.3 * first.size)
     assert np.all(other.size > first.size / 1.3)
