@@ -1,8 +1,7 @@
 """Grammars in Lark's notation, read to the productions that sentences are parsed by.
 
-What our grammars are made of - rules, groups, repetitions, aliases, terminals that are
-regular expressions - is read here, in a tenth of the time. For anything else, and for
-every mistake, Lark is asked. Law: where both can read a grammar, they find the same.
+Lark reads the notation and writes out groups, repetitions and templates; nothing else
+of it is used. That takes a tenth of a second for a tutor's grammar, once in a process.
 
 Expressions are looked for by `regex`, which unlike `re` can be told how long to try.
 """
@@ -10,12 +9,11 @@ Expressions are looked for by `regex`, which unlike `re` can be told how long to
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
 from math import prod
 from time import process_time
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 import regex
 
@@ -68,19 +66,19 @@ class Expression:
             ) from None
 
 
-class Source(NamedTuple):
+class GrammarSource(NamedTuple):
     """A grammar: its productions, the regular expressions of its terminals.
 
-    A terminal is any of several, the first that fits; `ignored` are skipped.
+    What fits one of those in `ignored` is skipped.
     """
 
     productions: Sequence[Production]
-    terminals: Mapping[str, Sequence[str]]
+    terminals: Mapping[str, str]
     ignored: Sequence[str]
 
     def expression(self, terminal: str) -> Expression:
         """The expression of a terminal; `GrammarError` where it is none."""
-        found = _expression(self.terminals[terminal], f"the terminal {terminal}")
+        found = _expression([self.terminals[terminal]], f"the terminal {terminal}")
         nothing = found.match("", 0, process_time() + SECONDS)
         if nothing:
             raise GrammarError(f"{found.what} may not be nothing at all")
@@ -91,8 +89,7 @@ class Source(NamedTuple):
 
         None where that cannot be seen at once: then any sign has to be tried.
         """
-        found = [_initials(pattern) for pattern in self.terminals[terminal]]
-        return None if None in found else "".join(map(str, found))
+        return _initials(self.terminals[terminal])
 
     def between(self) -> Expression:
         """The expression of what is skipped; `GrammarError` where it is none."""
@@ -128,8 +125,10 @@ def _expression(patterns: Sequence[str], what: str, as_: str = "{}") -> Expressi
     )
 
 
-_WORDS = re.compile(r"\(\?i:([a-z ()|?*+]+)\)")
+_WORDS = r"\(\?i:([a-z ()|?*+]+)\)"
 """Words, some of which may be left out or repeated, in small letters or capitals."""
+
+_ALTERNATIVES = re.compile(rf"(?:\(\?:)?{_WORDS}(?:\|{_WORDS})*\)?")
 
 _FIRST = re.compile("(?<![a-z ])[a-z ]")
 """A sign with which such words can begin: none has to stand before it."""
@@ -140,9 +139,26 @@ def _initials(pattern: str) -> str | None:
 
     >>> _initials(r"(?i:((quite |all )?wrong|colou?r)\b)"), _initials("[ab]c")
     ('qawcr', None)
+    >>> _initials(r"(?:(?i:no\b)|(?i:wrong\b))")
+    'nw'
     """
-    words = _WORDS.fullmatch(pattern.replace("\\b", ""))
-    return "".join(_FIRST.findall(words[1])) if words else None
+    pattern = pattern.replace("\\b", "")
+    if not _ALTERNATIVES.fullmatch(pattern):
+        return None
+    return "".join(_FIRST.findall("|".join(re.findall(_WORDS, pattern))))
+
+
+def _together(patterns: Sequence[str]) -> str:
+    """One pattern for several: what can be longest first, as Lark has them."""
+    if len(patterns) == 1:
+        return patterns[0]
+    found = sorted(patterns, key=_longest_first)
+    return f"(?:{'|'.join(found)})"
+
+
+def _longest_first(pattern: str) -> tuple[int, int, int]:
+    least, most = re._parser.parse(pattern).getwidth()
+    return -most, -least, -len(pattern)
 
 
 def _length(pattern: str) -> int:
@@ -155,14 +171,15 @@ def _length(pattern: str) -> int:
     return len(pattern) * prod(max(int(it or 1) for it in both) for both in counts)
 
 
-def read(text: str, starts: Sequence[str]) -> Source:
+def read_grammar(text: str, starts: Sequence[str]) -> GrammarSource:
     """What can be reached from the start rules; `GrammarError` for what is no grammar.
 
-    >>> read('start: A?' + chr(10) + 'A: /a/i', ["start"]).terminals
-    {'A': ['(?i:a)']}
+    >>> dict(read_grammar('start: A?' + chr(10) + 'A: /a/i', ["start"]).terminals)
+    {'A': '(?i:a)'}
     """
     _check_ways(text)
-    found = plainly(text, starts) or by_lark(text, starts)
+    _refuse_backslashes(text)
+    found = _read_by_lark(text, starts)
     for name in starts:
         if not any(made.name == name for made in found.productions):
             raise GrammarError(f"the grammar has no rule {name}, with which it starts")
@@ -172,7 +189,7 @@ def read(text: str, starts: Sequence[str]) -> Source:
 # --- how much it is -------------------------------------------------------------------
 
 WAYS = 10_000
-"""In how many ways all rules may be made: each is written out, here and by Lark."""
+"""In how many ways all rules may be made: Lark writes each of them out."""
 
 _OFTEN = 20
 """How often a thing with several ways never stands: two ways are a million then."""
@@ -257,14 +274,17 @@ class _Ways:
 # --- by Lark --------------------------------------------------------------------------
 
 
-def by_lark(text: str, starts: Sequence[str]) -> Source:
-    """The grammar as Lark reads it."""
-    from lark import Lark
-    from lark.exceptions import LarkError
+def _read_by_lark(text: str, starts: Sequence[str]) -> GrammarSource:
+    from lark.exceptions import LarkError, VisitError
+    from lark.load_grammar import GrammarBuilder
 
-    _refuse_backslashes(text)
     try:
-        found = Lark(text, parser=None, lexer="basic", start=list(starts))
+        builder = GrammarBuilder()
+        builder.load_grammar(text, "<string>")
+        terminals, rules, ignored = builder.build().compile(list(starts), set())
+    except VisitError as mistake:
+        said = f"it has an expression that is none: {mistake.orig_exc}"
+        raise GrammarError(said) from mistake
     except LarkError as mistake:
         raise GrammarError(str(mistake)) from mistake
     except TypeError as failure:  # of Lark, while it looks for words for a mistake
@@ -273,7 +293,7 @@ def by_lark(text: str, starts: Sequence[str]) -> Source:
         raise GrammarError("its brackets nest too deep to be read") from None
     except (ValueError, OverflowError) as mistake:
         raise GrammarError(f"it has a number that is too large: {mistake}") from mistake
-    patterns = {it.name: [it.pattern.to_regexp()] for it in found.terminals}
+    patterns = {str(it.name): it.pattern.to_regexp() for it in terminals}
     productions = [
         _production(
             str(rule.origin.name),
@@ -284,10 +304,14 @@ def by_lark(text: str, starts: Sequence[str]) -> Source:
             str(rule.alias) if rule.alias else None,
             bool(rule.options.expand1),
         )
-        for rule in found.rules
+        for rule in rules
     ]
-    ignored = [it for name in found.ignore_tokens for it in patterns[name]]
-    return Source(productions, patterns, ignored)
+    used = {it.name for made in productions for it in made.symbols if it.is_term}
+    return GrammarSource(
+        productions,
+        {name: pattern for name, pattern in patterns.items() if name in used},
+        [patterns[name] for name in ignored],
+    )
 
 
 def _refuse_backslashes(text: str) -> None:
@@ -324,260 +348,3 @@ def _production(
         symbols = (*symbols[1:], symbols[0])
     made = None if name.startswith("_") else alias or name
     return Production(name, symbols, made, only_child)
-
-
-# --- by ourselves ---------------------------------------------------------------------
-
-_TOKEN = re.compile(
-    r"""(?P<skip>[ \t\r]+|//[^\n]*)
-      | (?P<regexp>/(?!/)(?:\\.|[^/\\\n])*/[imslux]*)
-      | (?P<name>(?:_?[a-z][_a-z0-9]*|_?[A-Z][_A-Z0-9]*)(?!\w))
-      | (?P<times>~[ ]*(?P<least>\d{1,9})(?:[ ]*\.\.[ ]*(?P<most>\d{1,9}))?(?!\d))
-      | (?P<mark>->|[|():*+]|[?](?![a-z_]))
-      | (?P<ignore>%ignore\b)
-      | (?P<end>\n\s*)
-    """,
-    re.VERBOSE,
-)
-
-_REGEXP = re.compile(r"/(.*)/([a-z]*)", re.DOTALL)
-
-
-class _NotPlain(Exception):
-    """What Lark has to be asked about."""
-
-
-class _Token(NamedTuple):
-    kind: str
-    text: str
-    times: tuple[int, int] = (1, 1)
-
-
-Way: TypeAlias = tuple[Symbol, ...]
-Ways: TypeAlias = tuple[Way, ...]
-"""The different ways to make something, in the order in which Lark has them."""
-
-
-def plainly(text: str, starts: Sequence[str]) -> Source | None:
-    """The grammar as it is read here, or None where Lark has to be asked.
-
-    >>> plainly("start: (", ["start"]), plainly('start: "a"', ["start"])
-    (None, None)
-    """
-    try:
-        return _Reading(_tokens(text)).source(starts)
-    except (_NotPlain, RecursionError):
-        return None
-
-
-def _tokens(text: str) -> Iterator[_Token]:
-    """The tokens; the end of a line counts where the next line goes on with no `|`."""
-    at, ended = 0, False
-    while at < len(text):
-        found = _TOKEN.match(text, at)
-        if found is None:
-            raise _NotPlain
-        at, kind = found.end(), str(found.lastgroup)
-        if kind == "skip":
-            continue
-        if kind == "end":
-            ended = True
-            continue
-        token = found.group()
-        if ended and token != "|":
-            yield _Token("end", "")
-        ended = False
-        if found["times"]:
-            least, most = found["least"], found["most"]
-            yield _Token("times", token, (int(least), int(most or least)))
-        else:
-            yield _Token("mark" if kind == "mark" else kind, token)
-    yield _Token("end", "")
-    yield _Token("stop", "")
-
-
-class _Reading:
-    """Reads the tokens of a grammar, definition by definition."""
-
-    def __init__(self, tokens: Iterable[_Token]) -> None:
-        self._tokens = list(tokens)
-        self._at = 0
-        self._rules: dict[str, int] = {}
-        self._regexps: dict[str, list[str]] = {}
-        self._ignored: list[str] = []
-        self._found: list[Production] = []
-        self._repeated: dict[Ways, Symbol] = {}
-        self._used: list[str] = []
-
-    def source(self, starts: Sequence[str]) -> Source:
-        """All that can be reached; each rule is read when something needs it."""
-        self._definitions()
-        waiting, known = list(starts), set(starts)
-        while waiting:
-            name = waiting.pop()
-            self._used = []
-            self._rule(name)
-            new = [it for it in dict.fromkeys(self._used) if it not in known]
-            known.update(new)
-            waiting += (it for it in new if it not in self._regexps)
-        terminals = {k: some for k, some in self._regexps.items() if k in known}
-        return Source(self._found, terminals, self._ignored)
-
-    # --- what is defined ---
-
-    def _definitions(self) -> None:
-        while self._next().kind != "stop":
-            token = self._take()
-            if token.kind == "end":
-                continue
-            if token.kind == "ignore":
-                self._ignored += self._alternatives()
-                continue
-            self._expect(":")
-            name = token.text
-            if token.kind != "name" or name in self._rules or name in self._regexps:
-                raise _NotPlain
-            if name.lower() != name:
-                self._regexps[name] = self._alternatives()
-                continue
-            self._rules[name] = self._at
-            while self._next().kind != "end":
-                self._at += 1
-
-    def _alternatives(self) -> list[str]:
-        """Regular expressions, one or the other."""
-        found = [_pattern(self._take("regexp").text)]
-        while self._next().text == "|":
-            self._at += 1
-            found.append(_pattern(self._take("regexp").text))
-        return found
-
-    # --- rules ---
-
-    def _rule(self, name: str) -> None:
-        if name not in self._rules:
-            raise _NotPlain
-        self._at = self._rules[name]
-        made: dict[Way, str | None] = {}
-        for way, alias in self._aliased():
-            if way in made or (alias and name.startswith("_")):
-                raise _NotPlain
-            made[way] = alias
-        if self._next().kind != "end":
-            raise _NotPlain
-        self._found += (_production(name, way, to, False) for way, to in made.items())
-
-    def _aliased(self) -> Iterator[tuple[Way, str | None]]:
-        seen: set[tuple[Way, str | None]] = set()
-        while True:
-            ways, alias = self._expansion(), None
-            if self._next().text == "->":
-                self._at += 1
-                alias = self._take("name").text
-            for way in ways:
-                if (way, alias) not in seen:
-                    seen.add((way, alias))
-                    yield way, alias
-            if self._next().text != "|":
-                return
-            self._at += 1
-
-    def _group(self) -> Ways:
-        ways = list(self._expansion())
-        while self._next().text == "|":
-            self._at += 1
-            ways += self._expansion()
-        self._expect(")")
-        return tuple(dict.fromkeys(ways))
-
-    def _expansion(self) -> Ways:
-        """The ways to make what stands in a row."""
-        row: list[Ways] = []
-        while self._next().kind == "name" or self._next().text == "(":
-            row.append(self._counted(self._one()))
-        if len(row) == 1:
-            return row[0]
-        ways = (sum(way, ()) for way in product(*row))
-        return tuple(dict.fromkeys(ways))
-
-    def _one(self) -> Ways:
-        token = self._take()
-        if token.text == "(":
-            return self._group()
-        name = token.text
-        is_term = name.lower() != name
-        if name not in self._regexps and name not in self._rules:
-            raise _NotPlain
-        self._used.append(name)
-        return ((Symbol(name, is_term, is_term and name.startswith("_")),),)
-
-    def _counted(self, ways: Ways) -> Ways:
-        """What stands once, perhaps, several times."""
-        token = self._next()
-        if token.kind == "times":
-            self._at += 1
-            least, most = token.times
-            if not least <= most <= _MOST:
-                raise _NotPlain
-            rows = (product(ways, repeat=n) for n in range(least, most + 1))
-            return tuple(dict.fromkeys(sum(way, ()) for row in rows for way in row))
-        if token.text in ("?", "*", "+"):
-            self._at += 1
-            if token.text != "?":
-                ways = ((self._several(ways),),)
-            return ways if token.text == "+" else tuple(dict.fromkeys((*ways, ())))
-        return ways
-
-    def _several(self, ways: Ways) -> Symbol:
-        """The rule of one or more of something, made for it."""
-        if () in ways:
-            raise _NotPlain
-        if ways not in self._repeated:
-            symbol = Symbol(f"__several_{len(self._repeated)}", False, False)
-            self._repeated[ways] = symbol
-            for way in (*ways, *((symbol, *way) for way in ways)):
-                self._found.append(_production(symbol.name, way, None, False))
-        return self._repeated[ways]
-
-    # --- tokens ---
-
-    def _next(self) -> _Token:
-        return self._tokens[self._at]
-
-    def _take(self, kind: str = "") -> _Token:
-        token = self._tokens[self._at]
-        if token.kind == "stop" or (kind and token.kind != kind):
-            raise _NotPlain
-        self._at += 1
-        return token
-
-    def _expect(self, text: str) -> None:
-        if self._take().text != text:
-            raise _NotPlain
-
-
-_MOST = 50
-"""Up to how many times Lark writes a repetition out."""
-
-
-def _together(patterns: Sequence[str]) -> str:
-    """One pattern for several: what can be longest first, as Lark has them."""
-    if len(patterns) == 1:
-        return patterns[0]
-    found = sorted(patterns, key=_longest_first)
-    return f"(?:{'|'.join(found)})"
-
-
-def _longest_first(pattern: str) -> tuple[int, int, int]:
-    least, most = re._parser.parse(pattern).getwidth()
-    return -most, -least, -len(pattern)
-
-
-def _pattern(regexp: str) -> str:
-    """A regular expression of the grammar as one of Python's."""
-    found = _REGEXP.fullmatch(regexp)
-    assert found is not None
-    pattern, flags = found.groups()
-    for flag in flags:
-        pattern = f"(?{flag}:{pattern})"
-    return pattern

@@ -21,7 +21,7 @@ from kille.dialogue.grammars import (
     GrammarError,
     Production,
     Symbol,
-    read,
+    read_grammar,
 )
 
 _WAYS = 24
@@ -31,7 +31,7 @@ _MOST_WORDS = 120
 """Words; no sentence of a tutor's has more, and a longer one is not parsed."""
 
 
-class Word(NamedTuple):
+class Token(NamedTuple):
     """A stretch of text, and the terminal of the grammar that it is."""
 
     terminal: str
@@ -42,7 +42,7 @@ class Tree(NamedTuple):
     """A part of a sentence: the rule that found it, what is in it, how many parts."""
 
     rule: str
-    children: tuple[Tree | Word, ...]
+    children: tuple[Tree | Token, ...]
     size: int
 
 
@@ -51,12 +51,12 @@ def parts(tree: Tree) -> list[Tree]:
     return [child for child in tree.children if isinstance(child, Tree)]
 
 
-def words(tree: Tree) -> list[Word]:
+def words(tree: Tree) -> list[Token]:
     """The words that stand in a part itself, not in parts of it."""
-    return [child for child in tree.children if isinstance(child, Word)]
+    return [child for child in tree.children if isinstance(child, Token)]
 
 
-Row = tuple[Tree | Word, ...]
+Row = tuple[Tree | Token, ...]
 Found = Mapping[int, list[Row]]
 """Where a stretch can end, and the ways to read it so far."""
 
@@ -76,7 +76,7 @@ class Grammar:
 
     def __init__(self, source: str, *starts: str) -> None:
         self.starts = starts or ("start",)
-        self._source = read(source, self.starts)
+        self._source = read_grammar(source, self.starts)
         self._between = self._source.between()
         self._expressions: dict[str, Expression] = {}
         self._initials: dict[str, str | None] = {}
@@ -221,7 +221,7 @@ class _Chart:
             return {}
         end, text = matched
         kept = not symbol.filter_out
-        return {end: [(Word(symbol.name, text),) if kept else ()]}
+        return {end: [(Token(symbol.name, text),) if kept else ()]}
 
     def _terminal(self, name: str, at: int) -> tuple[int, str] | None:
         """Where the next word begins if here is this terminal, and its text."""

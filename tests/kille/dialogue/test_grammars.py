@@ -1,4 +1,4 @@
-"""Grammars are read as Lark reads them, and what is not plain is left to Lark."""
+"""Grammars in Lark's notation are read, and what is no grammar is refused."""
 
 import re
 from itertools import count, groupby
@@ -7,35 +7,36 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.dialogue.grammars import GrammarError, by_lark, plainly, read
+from kille.dialogue.grammars import GrammarError, read_grammar
 from kille.dialogue.language import LANGUAGES, grammar_text
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.parsing import Grammar
 from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
 
 
-def productions(source):
-    """By rule; a rule made for a repetition stands as what it repeats."""
+def productions(text, starts=("start",)):
+    """The ways to make each rule; a rule made for a repetition stands as its parts."""
     by_name = {
         name: list(them)
         for name, them in groupby(
-            sorted(source.productions, key=lambda it: it.name), lambda it: it.name
+            sorted(read_grammar(text, starts).productions, key=lambda it: it.name),
+            lambda it: it.name,
         )
     }
 
-    def shown(symbol, within):
+    def shown(symbol):
         if not symbol.name.startswith("__"):
-            return symbol
-        if symbol.name == within:
-            return "itself"
-        return frozenset(
-            tuple(shown(it, symbol.name) for it in made.symbols)
+            return f"({symbol.name})" if symbol.filter_out else symbol.name
+        ways = {
+            " ".join(it.name for it in made.symbols if it.name != symbol.name)
             for made in by_name[symbol.name]
-        )
+        }
+        return f"{{{'|'.join(sorted(ways))}}}"
 
     return {
         name: [
-            (tuple(shown(it, name) for it in made.symbols), made.made, made.only_child)
+            " ".join(map(shown, made.symbols))
+            + (f" -> {made.made}" if made.made != name else "")
             for made in them
         ]
         for name, them in by_name.items()
@@ -43,39 +44,48 @@ def productions(source):
     }
 
 
-def same(text, starts):
-    own, larks = plainly(text, starts), by_lark(text, starts)
-    assert own is not None
-    assert productions(own) == productions(larks)
-    used = {s.name for made in own.productions for s in made.symbols if s.is_term}
-    assert used <= own.terminals.keys()
-    for it in used:
-        assert (
-            own.expression(it).pattern.pattern == larks.expression(it).pattern.pattern
-        )
-    assert [*own.ignored] == [*larks.ignored]
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_grammars_are_read_as_by_lark(language):
+def test_all_that_a_grammar_mentions_is_in_it(language):
     tutors = grammar_text(language)
-    same(tutors, ("start",))
     robots = tutors + robot_rules(lexicon(language), tutors)
-    same(robots, (CLOSELY, LOOSELY))
+    for text, starts in ((tutors, ("start",)), (robots, (CLOSELY, LOOSELY))):
+        source = read_grammar(text, starts)
+        rules = {made.name for made in source.productions}
+        for symbol in (it for made in source.productions for it in made.symbols):
+            assert symbol.name in (source.terminals if symbol.is_term else rules)
+        for terminal in source.terminals:
+            assert source.expression(terminal).pattern.pattern
 
 
-@pytest.mark.parametrize(
-    "rules",
-    [
-        "start: A b* | b A?\nb: A -> c | A A",
-        "start: (A | b)+ A~2\nb: A~1..3",
-        "start: A (b | A b)? -> two\n  | b b b\nb: A",
-        "start: _b (A | A)\n// a comment\n_b: A? A? A",
-        "start: A  // what is said\n\n\nunused: start",
-    ],
-)
-def test_small_grammars_are_read_as_by_lark(rules):
-    same(f"{rules}\nA: /a(?=b)/i | /aab/ | /ab?/\n%ignore / +/\n", ("start",))
+SMALL = {
+    "start: A b* | b A?\nb: A -> c | A A": {
+        "b": ["A -> c", "A A"],
+        "start": ["A {b}", "A", "b A", "b"],
+    },
+    "start: (A | b)+ A~2\nb: A~1..3": {
+        "b": ["A", "A A", "A A A"],
+        "start": ["{A|b} A A"],
+    },
+    "start: A (b | A b)? -> two\n  | b b b\nb: A": {
+        "b": ["A"],
+        "start": ["A b -> two", "A A b -> two", "A -> two", "b b b"],
+    },
+    "start: _b (A | A)\n// a comment\n_b: A? A? A": {
+        "_b": ["A A A -> None", "A A -> None", "A -> None"],
+        "start": ["_b A"],
+    },
+    "start: A  // what is said\n\n\nunused: start": {"start": ["A"]},
+    "start: _A b\nb: A\n_A: /b/": {"b": ["A"], "start": ["(_A) b"]},
+}
+
+
+@pytest.mark.parametrize(("rules", "found"), SMALL.items(), ids=SMALL)
+def test_rules_are_written_out(rules, found):
+    text = f"{rules}\nA: /a(?=b)/i | /aab/ | /ab?/\n%ignore / +/\n"
+    source = read_grammar(text, ["start"])
+    assert productions(text) == found
+    assert source.terminals["A"] == "(?:aab|ab?|(?i:a(?=b)))"
+    assert source.ignored == [" +"]
 
 
 @pytest.mark.parametrize(
@@ -89,9 +99,8 @@ def test_small_grammars_are_read_as_by_lark(rules):
         "%import common.WORD\nstart: WORD",
     ],
 )
-def test_what_is_not_plain_is_left_to_lark(text):
-    assert plainly(text, ["start"]) is None
-    assert read(text, ["start"]).productions
+def test_all_of_larks_notation_is_read(text):
+    assert read_grammar(text, ["start"]).productions
 
 
 @pytest.mark.parametrize(
@@ -132,26 +141,18 @@ MANY = {
 def test_a_rule_that_can_be_made_in_too_many_ways_is_refused(rule: str) -> None:
     text = f"start: x\n{rule}\nA: /a/\nB: /b/\n"
     with pytest.raises(GrammarError, match="can be made in more than 10,000 ways"):
-        read(text, ["start"])
+        read_grammar(text, ["start"])
 
 
 def test_alternatives_are_added_and_not_multiplied() -> None:
     words = " | ".join(["A"] * 3000)
     text = f"start: {words}\nA: /a/\n%ignore /(b|c)?(d|e)?/ // (A|B)?(A|B)?\n"
-    assert len(read(text, ["start"]).productions) == 1
+    assert len(read_grammar(text, ["start"]).productions) == 1
 
 
-def test_a_long_text_that_is_not_plain_is_left_to_lark_at_once(monkeypatch) -> None:
-    """Looking for a token further on, at each place anew, would take minutes."""
-    seen: list[int] = []
-
-    class Watched:
-        def match(self, text: str, at: int) -> None:
-            seen.append(at)
-
-    monkeypatch.setattr("kille.dialogue.grammars._TOKEN", Watched())
-    assert plainly("x" * 100_000, ["start"]) is None
-    assert seen == [0]
+def test_a_long_text_that_is_no_grammar_is_refused() -> None:
+    with pytest.raises(GrammarError):
+        read_grammar("x" * 100_000, ["start"])
 
 
 @pytest.mark.parametrize(
@@ -196,7 +197,7 @@ WORDS = st.recursive(
 def test_what_words_fit_begins_with_one_of_their_initials(data, words):
     """Except signs that are not ASCII, of which some count as ASCII letters."""
     rule = f"start: A{chr(10)}A: /{words}/i"
-    initials = read(rule, ["start"]).initials("A")
+    initials = read_grammar(rule, ["start"]).initials("A")
     text = data.draw(st.from_regex(re.compile(words, re.I), fullmatch=True))
     if text[:1].isascii() and text[:1].isalpha():
         assert initials is not None
@@ -206,7 +207,7 @@ def test_what_words_fit_begins_with_one_of_their_initials(data, words):
 @pytest.mark.parametrize("pattern", ["[ab]c", "(?!b)a", "a{0,1}b", "å", r"\w"])
 def test_initials_that_cannot_be_seen_at_once_are_unknown(pattern):
     rule = f"start: A | B{chr(10)}A: /{pattern}/i{chr(10)}B: /a/i | /{pattern}/i"
-    source = read(rule, ["start"])
+    source = read_grammar(rule, ["start"])
     assert source.initials("A") is None
     assert source.initials("B") is None
 
@@ -259,7 +260,7 @@ def test_repetitions_that_fill_the_memory_are_refused(counts: str) -> None:
 
 def test_a_mistake_at_which_lark_itself_fails_is_told():
     with pytest.raises(GrammarError, match=r"':'.* at line 2, column 5"):
-        by_lark("F://\nE:(E:", ["start"])
+        read_grammar("F://\nE:(E:", ["start"])
 
 
 def test_terminals_are_checked_before_a_dialogue_comes_to_them() -> None:
@@ -272,7 +273,7 @@ def test_terminals_are_checked_before_a_dialogue_comes_to_them() -> None:
 @pytest.mark.parametrize("opening", ["/", '"', ""])
 def test_a_grammar_with_many_backslashes_is_refused_at_once(opening):
     with pytest.raises(GrammarError, match="backslashes that follow another"):
-        by_lark(f"start: a\na: {opening}" + "\\" * 500, ["start"])
+        read_grammar(f"start: a\na: {opening}" + "\\" * 500, ["start"])
 
 
 def test_a_few_backslashes_are_read():
