@@ -449,11 +449,11 @@ def _npz(folder: Path) -> Reader:
 
 def _bag(suffix: str) -> Callable[[Path], Reader]:
     def made(folder: Path) -> Reader:
-        from kille.sensors.recordings import bagging
+        from kille.sensors.recordings import bag_writing
         from kille.sensors.sensor import SensorError
 
         path = folder / f"made{suffix}"
-        write = {".bag": bagging.write_bag, ".mcap": bagging.write_mcap}
+        write = {".bag": bag_writing.write_bag, ".mcap": bag_writing.write_mcap}
         write[suffix](path, _frames())
         read = _file(folder, f"a{suffix}", _recording)
         return Reader([path.read_bytes()], read, (SensorError,))
@@ -587,7 +587,7 @@ def _bundle(folder: Path) -> Reader:
 
 def _mesh(folder: Path) -> Reader:
     from kille.sensors.sensor import SensorError
-    from kille.sensors.synthetic.obj import load_scan
+    from kille.sensors.synthetic.obj_files import load_scan
 
     (folder / "a.png").write_bytes(_pictures()["png"])
     (folder / "a.mtl").write_text("newmtl a\nmap_Kd a.png\n")

@@ -27,13 +27,13 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "emulation"))
 
 import kille.sensors.kinect.capture as capturing  # noqa: E402
-import kille.sensors.kinect.developing as developing  # noqa: E402
+import kille.sensors.kinect.frame_decoding as developing  # noqa: E402
 from kille.sensors.kinect import open_kinect  # noqa: E402
 from kille.sensors.kinect.bayer import colour_of  # noqa: E402
 from kille.sensors.kinect.calibration import Calibration  # noqa: E402
 from kille.sensors.kinect.capture import KinectCapture, frame_of  # noqa: E402
+from kille.sensors.kinect.isochronous_transfers import IsoStream  # noqa: E402
 from kille.sensors.kinect.packets import Assembler  # noqa: E402
-from kille.sensors.kinect.pump import IsoStream  # noqa: E402
 from kille.sensors.kinect.registration import register_depth  # noqa: E402
 from kille.sensors.kinect.sensor import KinectSensor  # noqa: E402
 from kille.sensors.kinect.streams import COLOUR, DEPTH_11, HEADER, Mode  # noqa: E402

@@ -13,12 +13,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from kille.sensors.kinect.capture import KinectCapture
-from kille.sensors.recordings.converting import FORMATS, convert
-from kille.sensors.recordings.developing import raw_source
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import Recording
+from kille.sensors.recordings.conversion import FORMATS, convert
+from kille.sensors.recordings.fakenect_writing import FakenectWriter
+from kille.sensors.recordings.format_detection import open_recording
+from kille.sensors.recordings.playback import Recording
+from kille.sensors.recordings.raw_frames import raw_source
 from kille.sensors.recordings.recorder import Disk, Limits, record
-from kille.sensors.recordings.writing import FakenectWriter
 from kille.sensors.sources import open_sensor
 
 FRAMES = 30

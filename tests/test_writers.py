@@ -26,7 +26,7 @@ WRITERS = {
     "kille/interfaces/streams.py": "what the commands of kille complain of",
     "kille/interfaces/terminal.py": "what the commands of kille print",
     "kille/lab/people/typed_lines.py": "what people in a study are shown",
-    "kille/sensors/kinect/serving.py": "what it found when nobody is left to be told",
+    "kille/sensors/kinect/process_server.py": "what it found when nobody else is left",
 }
 """The modules that may write to a stream, and what it is that they write."""
 

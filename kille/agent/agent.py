@@ -170,7 +170,7 @@ class Agent:
     def do(self, command: str) -> str:
         """Change what there is to see, and look; what the robot then says, if anything.
 
-        Commands are those of `kille.sensors.stage`, and `look`, `point 2`,
+        Commands are those of `kille.sensors.stage_commands`, and `look`, `point 2`,
         `point 320 240`, `scene SENSOR`, `restart`. Pointing and restarting take no
         look.
         """

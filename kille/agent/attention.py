@@ -13,7 +13,7 @@ from kille.perception.segment import nearness, overlap, region_of
 from kille.scene import Frame, Look, Mask, Percept, Region
 from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.sources import open_sensor
-from kille.sensors.stage import perform
+from kille.sensors.stage_commands import perform
 
 _NUMBER = re.compile(r"[0-9]{1,6}")
 _SAME = 0.5  # overlap of a thing with itself in another look
@@ -109,7 +109,7 @@ class AttentiveSensor:
         return view.look.frame, things[number - 1].region
 
     def change(self, command: str) -> None:
-        """Change the scene, as `kille.sensors.stage.perform` does."""
+        """Change the scene, as `kille.sensors.stage_commands.perform` does."""
         perform(self.sensor, command)
         self.attention = Attention()
 

@@ -553,8 +553,8 @@ def _replay(options: argparse.Namespace) -> int:
 
 def _record(options: argparse.Namespace) -> int:
     from kille.interfaces.record import record_sensor
+    from kille.sensors.recordings.output_paths import check_new, check_replaceable
     from kille.sensors.recordings.recorder import Limits
-    from kille.sensors.recordings.replacing import check_new, check_replaceable
 
     may_write = check_replaceable if options.force else check_new
     limits = Limits(options.frames, options.seconds)
@@ -563,7 +563,7 @@ def _record(options: argparse.Namespace) -> int:
 
 def _convert(options: argparse.Namespace) -> int:
     from kille.interfaces.convert import convert_recording
-    from kille.sensors.recordings.replacing import check_new, check_replaceable
+    from kille.sensors.recordings.output_paths import check_new, check_replaceable
 
     may_write = check_replaceable if options.force else check_new
     return convert_recording(options.source, options.out, options.to, may_write)

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from kille.interfaces.amounts import in_bytes, in_frames, why_unwritten
 from kille.interfaces.terminal import FAILED, FINE, complain, console, labelled_bar
-from kille.sensors.recordings.converting import Format, convert, estimate, format_of
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import Recording
-from kille.sensors.recordings.replacing import check_file, check_other, home, whole
+from kille.sensors.recordings.conversion import Format, convert, estimate, format_of
+from kille.sensors.recordings.format_detection import open_recording
+from kille.sensors.recordings.output_paths import check_file, check_other, home, whole
+from kille.sensors.recordings.playback import Recording
 from kille.sensors.sensor import SensorError
 
 

@@ -13,7 +13,8 @@ from rich.status import Status
 from kille.interfaces.amounts import in_bytes, in_frames, why_unwritten
 from kille.interfaces.terminal import FAILED, FINE, complain, console
 from kille.sensors.kinect.capture import RawSource
-from kille.sensors.recordings.developing import raw_source
+from kille.sensors.recordings.output_paths import check_other, home, set_aside
+from kille.sensors.recordings.raw_frames import raw_source
 from kille.sensors.recordings.recorder import (
     Disk,
     Limits,
@@ -23,7 +24,6 @@ from kille.sensors.recordings.recorder import (
     check_room,
     record,
 )
-from kille.sensors.recordings.replacing import check_other, home, set_aside
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
 

@@ -14,8 +14,8 @@ from kille.nodes.topics import FRAMES, LOOKS
 from kille.perception.look import SCANS, Sighting, look
 from kille.perception.segment import region_of
 from kille.scene import Frame, Mask
+from kille.sensors.bus_sensor import Feed, Stream
 from kille.sensors.sensor import SensorError
-from kille.sensors.stream import Feed, Stream
 from ttr.aliases import former_names
 
 __getattr__ = former_names(__name__, {"Seeing": "PerceptionNode"})

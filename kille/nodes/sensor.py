@@ -11,9 +11,9 @@ from typing import Any
 from kille.bus import Bus, BusError, Camera, Facts, Image, Text, serve
 from kille.nodes.topics import FRAMES, PROBLEMS, STAGE
 from kille.scene import Frame
+from kille.sensors.bus_sensor import Feed
 from kille.sensors.sensor import Sensor, SensorError, Stage
-from kille.sensors.stage import perform
-from kille.sensors.stream import Feed
+from kille.sensors.stage_commands import perform
 from ttr.aliases import former_names
 
 __getattr__ = former_names(__name__, {"Sensing": "SensorNode"})
@@ -111,7 +111,7 @@ class SensorNode:
     # --- changes of the scene --------------------------------------------------------
 
     def _change(self, asked: Mapping[str, Any]) -> Facts:
-        """Do a command of `kille.sensors.stage`, or say what can be shown."""
+        """Do a command of `kille.sensors.stage_commands`, or say what can be shown."""
         try:
             return self._perform(str(asked.get("command", "")))
         except SensorError as error:

@@ -10,7 +10,7 @@ Here the dialogue also tells its information state, and answers programs.
 from __future__ import annotations
 
 from kille.bus import Bundle, Facts, Service, Text, Topic
-from kille.sensors.stream import CAMERA, COLOUR, DEPTH, Feed
+from kille.sensors.bus_sensor import CAMERA, COLOUR, DEPTH, Feed
 
 __all__ = [
     "CALLS",

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from urllib.parse import parse_qsl
 
 from kille.bus import BusError
+from kille.sensors.bus_sensor import COLOUR, Feed, Stream
 from kille.sensors.sensor import SensorError
-from kille.sensors.stream import COLOUR, Feed, Stream
 
 if TYPE_CHECKING:
     from kille.ros.bus import RosBus

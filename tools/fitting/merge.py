@@ -57,7 +57,7 @@ from kille.perception.surfaces.relief import (
     window_of,
 )
 from kille.scene import Frame
-from kille.sensors.synthetic import obj
+from kille.sensors.synthetic import obj_files
 from tools.fitting.piles import hide_middle, pile, tidy
 from ttr.safety.unforeseen_errors import run_guarded
 
@@ -236,7 +236,7 @@ def add_second(data: Path, first: Merger) -> None:
 
 
 def _meshes(data: Path) -> list[Path]:
-    return sorted(obj.find_meshes(data / "ycb_meshes").values())
+    return sorted(obj_files.find_meshes(data / "ycb_meshes").values())
 
 
 def _examples(frames: Iterable[Frame], rounds: Rounds = ()) -> list[Examples]:

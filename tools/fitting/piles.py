@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Depth, Frame
-from kille.sensors.synthetic import catalogue, obj
+from kille.sensors.synthetic import catalogue, obj_files
 from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import infrared_shadow, lost_edges
-from kille.sensors.synthetic.model import ToyModel
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.specimens import specimen
+from kille.sensors.synthetic.toy_model import ToyModel
 from tools.modelling.shapes import (
     Grid,
     box,
@@ -199,7 +199,9 @@ def a_manifold(chance: Chance, meshes: Sequence[Path]) -> ToyModel:
 
 
 def _scan(chance: Chance, meshes: Sequence[Path]) -> ToyModel:
-    return _drop(obj.load_scan(meshes[int(chance.integers(len(meshes)))]), chance, 0.35)
+    return _drop(
+        obj_files.load_scan(meshes[int(chance.integers(len(meshes)))]), chance, 0.35
+    )
 
 
 def _specimen(chance: Chance) -> ToyModel:

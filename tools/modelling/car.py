@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import ToyModel
+from kille.sensors.synthetic.toy_model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import Grid, box, curve, disc, lathe, move, quad, turn
 from tools.modelling.sheets import Sheet, assemble

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.sensors.synthetic.model import ToyModel
-from kille.sensors.synthetic.obj import texel_places
+from kille.sensors.synthetic.obj_files import texel_places
+from kille.sensors.synthetic.toy_model import ToyModel
 
 _MOST_DIGITS = 17  # of a float64
 

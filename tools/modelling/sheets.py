@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import (
+from kille.sensors.synthetic.toy_model import (
     TEXELS_PER_METRE,
     ToyModel,
     set_down,

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import ToyModel
+from kille.sensors.synthetic.toy_model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import Grid, ellipsoid, move, turn
 from tools.modelling.sheets import Sheet, assemble

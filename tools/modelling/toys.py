@@ -14,7 +14,7 @@ import cv2
 
 from kille.scene import Colour
 from kille.sensors import synthetic
-from kille.sensors.synthetic.model import ToyModel
+from kille.sensors.synthetic.toy_model import ToyModel
 from tools.modelling.boxes import book, shoe_box
 from tools.modelling.car import car
 from tools.modelling.clothing import cap, shoe

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic.model import ToyModel
+from kille.sensors.synthetic.toy_model import ToyModel
 from tools.modelling import drawing as draw
 from tools.modelling.shapes import (
     Grid,

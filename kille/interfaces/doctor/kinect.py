@@ -71,9 +71,9 @@ def _head(streams: Streams) -> str:
     """A remark on its motor; empty if the motor answers."""
     from kille.sensors.kinect.commands import BadReplyError
     from kille.sensors.kinect.devices import KinectModel
+    from kille.sensors.kinect.diagnosis import trouble
     from kille.sensors.kinect.motor import Tilt
     from kille.sensors.kinect.transport import TransportError
-    from kille.sensors.kinect.troubles import trouble
     from kille.sensors.sensor import SensorError
 
     if streams.kinect.model is not KinectModel.XBOX_1414:
@@ -88,7 +88,7 @@ def _head(streams: Streams) -> str:
 
 
 def _failed_kinect(part: str, error: Exception) -> Finding:
-    from kille.sensors.kinect.troubles import trouble
+    from kille.sensors.kinect.diagnosis import trouble
 
     state, remedy = trouble(error)
     return Finding(part, False, False, state, remedy)

@@ -180,9 +180,9 @@ def _table() -> tuple[Plan, ...]:
 
 def _meshes(data: str) -> tuple[Plan, ...]:
     from kille.lab.protocols import objects, variations
-    from kille.sensors.synthetic import obj
+    from kille.sensors.synthetic import obj_files
 
-    things = tuple(obj.find_meshes(Path(data).expanduser()))
+    things = tuple(obj_files.find_meshes(Path(data).expanduser()))
     if len(things) < 2:
         raise ExperimentError(f"{data}: it takes two meshes at least to tell apart")
     return (

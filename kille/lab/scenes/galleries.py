@@ -19,7 +19,7 @@ from kille.perception.look import look
 from kille.scene import Frame, Percept
 from kille.sensors.captures import description_of
 from kille.sensors.pictures import is_picture, read_colour, shrink_to_fit
-from kille.sensors.recordings.names import natural_order
+from kille.sensors.recordings.name_suggestions import natural_order
 from kille.sensors.sensor import SensorError
 
 LOOKING = 0.3

@@ -18,9 +18,9 @@ def open_kinect(name: str) -> KinectSensor:
     cannot be had: one line says what to do.
     """
     # USB, and what serves it, are only for those who ask for them.
+    from kille.sensors.kinect.diagnosis import explain_error
     from kille.sensors.kinect.sensor import KinectSensor
     from kille.sensors.kinect.transport import TransportError
-    from kille.sensors.kinect.troubles import explain_error
     from kille.sensors.sensor import SensorError
 
     try:
@@ -34,7 +34,7 @@ def usb_driver() -> Driver:
 
     A TransportError, now or when it is used first, if there is no USB to be had.
     """
-    from kille.sensors.kinect.process import ProcessDriver, can_be_used
+    from kille.sensors.kinect.process_driver import ProcessDriver, can_be_used
 
     if can_be_used():
         return ProcessDriver()

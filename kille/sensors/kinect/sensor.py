@@ -14,9 +14,10 @@ from kille.sensors.kinect.address import parse_address
 from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import KinectCapture
 from kille.sensors.kinect.commands import BadReplyError
-from kille.sensors.kinect.developing import calibration_for
 from kille.sensors.kinect.devices import Kinect, again, choose_kinect, kinect_name
+from kille.sensors.kinect.diagnosis import explain_error
 from kille.sensors.kinect.driver import Driver, Streams, driver_of
+from kille.sensors.kinect.frame_decoding import calibration_for
 from kille.sensors.kinect.motor import (
     SET_LIGHT,
     SET_TILT,
@@ -33,7 +34,6 @@ from kille.sensors.kinect.transport import (
     TransportBus,
     TransportError,
 )
-from kille.sensors.kinect.troubles import explain_error
 from kille.sensors.sensor import SensorError
 
 Seen = TypeVar("Seen")

@@ -13,15 +13,15 @@ from kille.scene import Frame
 from kille.sensors.kinect.camera import FrameStream, KinectCamera
 from kille.sensors.kinect.capture import KinectCapture, frame_of
 from kille.sensors.kinect.commands import BadReplyError
-from kille.sensors.kinect.developing import calibration_for, capture_of
 from kille.sensors.kinect.devices import Kinect
-from kille.sensors.kinect.head import KinectMotor
+from kille.sensors.kinect.diagnosis import no_pictures
+from kille.sensors.kinect.frame_decoding import calibration_for, capture_of
 from kille.sensors.kinect.motor import Tilt
+from kille.sensors.kinect.motor_control import KinectMotor
 from kille.sensors.kinect.packets import RawFrame, StreamCounts
 from kille.sensors.kinect.pairing import Pair, first_pair
 from kille.sensors.kinect.streams import DEPTH_11, Mode
 from kille.sensors.kinect.transport import TransportBus, TransportError
-from kille.sensors.kinect.troubles import no_pictures
 from kille.sensors.sensor import SensorError
 
 _KEPT = 4

@@ -11,8 +11,8 @@ from typing import Any
 
 from usb.core import USBError
 
-from kille.sensors.kinect import libusb, pump
-from kille.sensors.kinect.pump import IsoStream, UsbEventLoop
+from kille.sensors.kinect import isochronous_transfers, libusb
+from kille.sensors.kinect.isochronous_transfers import IsoStream, UsbEventLoop
 from kille.sensors.kinect.transport import (
     DeviceGoneError,
     KernelDriverError,
@@ -153,7 +153,7 @@ class UsbConnection:
         # All are asked to end before any is waited for.
         for stream in streams:
             stream.cancel()
-        until = time.monotonic() + pump.PATIENCE
+        until = time.monotonic() + isochronous_transfers.PATIENCE
         # Whatever interrupts a step, those behind it are taken: the last one first.
         with ExitStack() as stack:
             stack.callback(self._backend.close_device, self._handle)

@@ -1,12 +1,12 @@
 """Recordings: what was seen elsewhere or earlier, played as a sensor, and written.
 
-`opening` finds out by its content what lies at a path; each format has a module that
-reads it and, where it is written, one that writes it.
+`format_detection` tells the format of a path by its content; each format has a module
+that reads it and, where it is written, one that writes it.
 """
 
+from kille.sensors.recordings.format_detection import open_recording
 from kille.sensors.recordings.galleries import Gallery
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import Recording, RecordingOverError
+from kille.sensors.recordings.playback import Recording, RecordingOverError
 from ttr.aliases import former_names
 
 __getattr__ = former_names(__name__, {"RecordingOver": "RecordingOverError"})

@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from kille.sensors.recordings.images import OtherFormatError
+from kille.sensors.recordings.ros_images import OtherFormatError
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file
 from ttr.safety.limits import FRAMES
@@ -183,7 +183,7 @@ def _open_cut_bag(path: Path, usual: Typestore) -> AnyReader:
     from rosbags.highlevel import AnyReader
     from rosbags.rosbag2 import Reader
 
-    from kille.sensors.recordings.salvaging import (
+    from kille.sensors.recordings.cut_bags import (
         CutDatabase,
         UnindexedBag,
         UnindexedMcap,

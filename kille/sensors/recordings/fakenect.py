@@ -27,9 +27,9 @@ from kille.sensors.kinect.calibration import Calibration, CalibrationError
 from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture, frame_of
 from kille.sensors.kinect.motor import Tilt
 from kille.sensors.recordings.lenses import lens_from
-from kille.sensors.recordings.options import Options
+from kille.sensors.recordings.moments import Moment, RecordedMoments, remark_on
 from kille.sensors.recordings.pairing import pair_times
-from kille.sensors.recordings.reels import Moment, RecordedMoments, remark_on
+from kille.sensors.recordings.playback_options import Options
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file, parse_json, read_bytes, read_text
 from ttr.safety.limits import SETTINGS, TABLE, Limit

@@ -8,7 +8,11 @@ from functools import lru_cache
 
 from kille.scene import Frame
 from kille.sensors.captures import RATE, Shot
-from kille.sensors.recordings.names import comparable_name, first_names, suggest_name
+from kille.sensors.recordings.name_suggestions import (
+    comparable_name,
+    first_names,
+    suggest_name,
+)
 from kille.sensors.sensor import At, Beside, SensorError
 
 _KEPT_FRAMES = 16

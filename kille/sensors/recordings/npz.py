@@ -32,8 +32,8 @@ from kille.scene import Frame, Intrinsics
 from kille.sensors.captures import RATE
 from kille.sensors.pictures import clean_depth, freeze
 from kille.sensors.recordings.lenses import lens_from
-from kille.sensors.recordings.options import Options
-from kille.sensors.recordings.reels import Moment, RecordedMoments
+from kille.sensors.recordings.moments import Moment, RecordedMoments
+from kille.sensors.recordings.playback_options import Options
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file
 from ttr.safety.limits import ARRAYS, PICTURE

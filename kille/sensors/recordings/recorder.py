@@ -16,10 +16,10 @@ from queue import Queue
 from typing import Self
 
 from kille.sensors.kinect.capture import KinectCapture, RawSource
-from kille.sensors.recordings.developing import lens_of
-from kille.sensors.recordings.playing import RecordingOverError
-from kille.sensors.recordings.replacing import empty, home, is_empty
-from kille.sensors.recordings.writing import CAPTURE_BYTES, FakenectWriter
+from kille.sensors.recordings.fakenect_writing import CAPTURE_BYTES, FakenectWriter
+from kille.sensors.recordings.output_paths import empty, home, is_empty
+from kille.sensors.recordings.playback import RecordingOverError
+from kille.sensors.recordings.raw_frames import lens_of
 
 RESERVE = 200_000_000
 """Bytes that are left free on the disk."""

@@ -23,9 +23,9 @@ from kille.sensors.pictures import (
     write_picture,
 )
 from kille.sensors.recordings.lenses import lens_from
-from kille.sensors.recordings.options import Options
+from kille.sensors.recordings.moments import Moment, RecordedMoments, remark_on
 from kille.sensors.recordings.pairing import pair_times
-from kille.sensors.recordings.reels import Moment, RecordedMoments, remark_on
+from kille.sensors.recordings.playback_options import Options
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file, read_text
 from ttr.safety.limits import SETTINGS, TABLE

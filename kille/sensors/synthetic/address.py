@@ -9,7 +9,7 @@ from urllib.parse import unquote
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.faults import FAULTS
 from kille.sensors.synthetic.layout import SCENES
-from kille.sensors.synthetic.names import recognise_name
+from kille.sensors.synthetic.name_recognition import recognise_name
 
 
 @dataclass(frozen=True)

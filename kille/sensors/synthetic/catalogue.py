@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-from kille.sensors.synthetic.model import ToyModel
-from kille.sensors.synthetic.obj import load_model
+from kille.sensors.synthetic.obj_files import load_model
+from kille.sensors.synthetic.toy_model import ToyModel
 
 TOY_NAMES = (
     "apple",

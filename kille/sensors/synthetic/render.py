@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Mask
 from kille.sensors.synthetic.camera import FAR, HEIGHT, NEAR, WIDTH, SimulatedCamera
-from kille.sensors.synthetic.model import ToyModel
 from kille.sensors.synthetic.room import Room, room
+from kille.sensors.synthetic.toy_model import ToyModel
 
 _TO_LIGHT = np.array([-0.42, -0.50, 0.76]) / np.linalg.norm([-0.42, -0.50, 0.76])
 _AMBIENT, _FROM_ABOVE, _DIRECT = 0.50, 0.12, 0.62

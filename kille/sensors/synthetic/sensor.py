@@ -11,16 +11,16 @@ import numpy as np
 
 from kille.scene import Frame, Point
 from kille.sensors.sensor import At, Beside, SensorError
-from kille.sensors.stage import RELATIONS
-from kille.sensors.synthetic import catalogue, obj
+from kille.sensors.stage_commands import RELATIONS
+from kille.sensors.synthetic import catalogue, obj_files
 from kille.sensors.synthetic.address import SceneAddress, parse_address
 from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import degrade_colour, degrade_depth
 from kille.sensors.synthetic.layout import SCENES, jitter_pose, objection, poses_beside
-from kille.sensors.synthetic.model import ToyModel
-from kille.sensors.synthetic.names import recognise_name
+from kille.sensors.synthetic.name_recognition import recognise_name
 from kille.sensors.synthetic.render import Pose, PosedToy, RenderedScene, render_scene
 from kille.sensors.synthetic.specimens import specimen
+from kille.sensors.synthetic.toy_model import ToyModel
 
 FRAMES_PER_SECOND = 30.0
 _POSES, _FAULTS = 0, 1
@@ -44,7 +44,7 @@ class Synthetic:
     def __init__(self, address: SceneAddress, name: str = "synthetic") -> None:
         self._name = name
         self._address = address
-        self._meshes = obj.find_meshes(address.meshes) if address.meshes else {}
+        self._meshes = obj_files.find_meshes(address.meshes) if address.meshes else {}
         self._camera = SimulatedCamera()
         self._frames = 0
         self._changes = 0
@@ -191,14 +191,14 @@ class Synthetic:
     def _model(self, thing: str) -> ToyModel:
         mesh = self._meshes.get(thing)
         if mesh is not None:
-            return obj.load_scan(mesh)
+            return obj_files.load_scan(mesh)
         return specimen(thing, self._address.specimen)
 
     def _recognise(self, name: str) -> str:
         """The object that is meant; a path of a mesh makes it known by its name."""
         path = Path(name).expanduser()
         if "/" in name or path.suffix.lower() == ".obj":
-            found = obj.find_meshes(path)
+            found = obj_files.find_meshes(path)
             if len(found) > 1:
                 raise SensorError(f"{name} holds {len(found)} meshes: name one of them")
             self._meshes |= found

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from kille.scene import Colour
 from kille.sensors.synthetic import catalogue
-from kille.sensors.synthetic.model import ToyModel
+from kille.sensors.synthetic.toy_model import ToyModel
 
 _GROWN = {"apple": 15.0, "banana": 8.0, "teddy bear": 12.0}
 """By how many degrees the hue of what is not painted may be another."""

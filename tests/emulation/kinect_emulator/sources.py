@@ -8,7 +8,7 @@ import numpy as np
 
 from kille.sensors.kinect.calibration import IDENTITY, Calibration
 from kille.sensors.kinect.metric import millimetres
-from kille.sensors.recordings.developing import raw_source
+from kille.sensors.recordings.raw_frames import raw_source
 from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
 from kinect_emulator.calibration import LIKELY, Making

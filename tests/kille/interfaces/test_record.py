@@ -15,9 +15,9 @@ import cv2
 import numpy as np
 import pytest
 
-from kille.sensors.recordings.converting import FORMATS
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import Recording
+from kille.sensors.recordings.conversion import FORMATS
+from kille.sensors.recordings.format_detection import open_recording
+from kille.sensors.recordings.playback import Recording
 from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
 

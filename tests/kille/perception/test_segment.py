@@ -26,8 +26,8 @@ from kille.sensors.synthetic import open_synthetic
 from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.catalogue import TOY_NAMES
 from kille.sensors.synthetic.faults import FAULTS, degrade_depth
-from kille.sensors.synthetic.model import ToyModel
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
+from kille.sensors.synthetic.toy_model import ToyModel
 from tools.fitting.piles import a_bowl, lift_model, pile
 from tools.modelling.shapes import box, disc, lathe, move
 from tools.modelling.sheets import Sheet, assemble

@@ -24,10 +24,10 @@ from kille.bus import (
 )
 from kille.bus.pixels import encoding_of, pixels_of
 from kille.scene import Frame
+from kille.sensors.bus_sensor import Feed, Stream
 from kille.sensors.ros import feed_of
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
-from kille.sensors.stream import Feed, Stream
 
 FEED = Feed.of_topics("a/image", "a/camera_info", "a/depth")
 MOMENT = 33_000_000

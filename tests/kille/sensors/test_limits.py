@@ -17,7 +17,7 @@ from kille.perception.thumbnails import decode_picture as decoded_crop
 from kille.sensors.pictures import read_colour, read_depth, read_labels, shows_picture
 from kille.sensors.recordings import open_recording
 from kille.sensors.sensor import SensorError
-from kille.sensors.synthetic.obj import load_scan
+from kille.sensors.synthetic.obj_files import load_scan
 from ttr.safety.limits import Limit
 
 

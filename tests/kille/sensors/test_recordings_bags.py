@@ -16,15 +16,15 @@ from rosbags.rosbag1 import Writer
 from rosbags.typesys import Stores, get_typestore
 
 from kille.scene import Intrinsics
-from kille.sensors.recordings.images import (
+from kille.sensors.recordings.format_detection import open_recording
+from kille.sensors.recordings.playback import Recording
+from kille.sensors.recordings.ros_images import (
     COLOURS,
     OtherFormatError,
     colour_of,
     depth_of,
     kind_of,
 )
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import Recording
 from kille.sensors.sensor import SensorError
 
 TYPES = get_typestore(Stores.ROS1_NOETIC)

@@ -27,10 +27,11 @@ from kille.sensors.kinect.capture import (
     frame_of,
 )
 from kille.sensors.kinect.motor import Tilt
-from kille.sensors.recordings.developing import RawFrameSource, raw_source
 from kille.sensors.recordings.fakenect import parse_index_line
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import RawRecording, Recording
+from kille.sensors.recordings.fakenect_writing import CAPTURE_BYTES, FakenectWriter
+from kille.sensors.recordings.format_detection import open_recording
+from kille.sensors.recordings.playback import RawRecording, Recording
+from kille.sensors.recordings.raw_frames import RawFrameSource, raw_source
 from kille.sensors.recordings.recorder import (
     Disk,
     Limits,
@@ -40,7 +41,6 @@ from kille.sensors.recordings.recorder import (
     check_room,
     record,
 )
-from kille.sensors.recordings.writing import CAPTURE_BYTES, FakenectWriter
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
 

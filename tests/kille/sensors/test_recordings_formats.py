@@ -22,11 +22,11 @@ from rosbags.typesys import Stores, get_typestore
 
 from kille.scene import Frame, Intrinsics
 from kille.sensors.recordings import npz
-from kille.sensors.recordings.bagging import write_mcap
-from kille.sensors.recordings.converting import FORMATS, convert, estimate, format_of
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import Recording
-from kille.sensors.recordings.reels import Moment, RecordedMoments
+from kille.sensors.recordings.bag_writing import write_mcap
+from kille.sensors.recordings.conversion import FORMATS, convert, estimate, format_of
+from kille.sensors.recordings.format_detection import open_recording
+from kille.sensors.recordings.moments import Moment, RecordedMoments
+from kille.sensors.recordings.playback import Recording
 from kille.sensors.sensor import SensorError
 
 LENS = Intrinsics(50.0, 51.5, 15.5, 11.25)
@@ -52,7 +52,7 @@ def frames(count: int = 4, size: tuple[int, int] = (24, 32)) -> Iterator[Frame]:
 
 def recording(some: Iterator[Frame]) -> Recording:
     """A recording in memory."""
-    from kille.sensors.recordings.options import Options
+    from kille.sensors.recordings.playback_options import Options
 
     moments = [Moment(it.time, lambda it=it: it) for it in some]
     return Recording("memory", RecordedMoments("memory", moments), Options())

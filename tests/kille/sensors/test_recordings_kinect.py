@@ -11,8 +11,8 @@ from kille.sensors.kinect import sensor as driver
 from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import KinectCapture
 from kille.sensors.kinect.sensor import KinectSensor
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import RawRecording
+from kille.sensors.recordings.format_detection import open_recording
+from kille.sensors.recordings.playback import RawRecording
 from kille.sensors.recordings.recorder import (
     Disk,
     Limits,

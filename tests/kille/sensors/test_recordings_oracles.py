@@ -18,10 +18,10 @@ from kille.scene import Frame, Intrinsics
 from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture
 from kille.sensors.kinect.motor import Tilt
-from kille.sensors.recordings.bagging import write_bag, write_mcap
-from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import RawRecording, Recording
-from kille.sensors.recordings.writing import FakenectWriter
+from kille.sensors.recordings.bag_writing import write_bag, write_mcap
+from kille.sensors.recordings.fakenect_writing import FakenectWriter
+from kille.sensors.recordings.format_detection import open_recording
+from kille.sensors.recordings.playback import RawRecording, Recording
 
 LENS = Intrinsics(50.0, 51.5, 15.5, 11.25)
 

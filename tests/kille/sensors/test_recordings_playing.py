@@ -12,16 +12,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.scene import Frame, Intrinsics
-from kille.sensors.recordings.options import Options, split_options
+from kille.sensors.recordings.moments import Moment, RecordedMoments, remark_on
 from kille.sensors.recordings.pairing import pair_times
-from kille.sensors.recordings.playing import (
+from kille.sensors.recordings.playback import (
     PlaybackClock,
     Recording,
     RecordingOverError,
     due,
     latest,
 )
-from kille.sensors.recordings.reels import Moment, RecordedMoments, remark_on
+from kille.sensors.recordings.playback_options import Options, split_options
 from kille.sensors.sensor import SensorError
 
 TIMES = (100.0, 100.1, 100.25, 100.3)

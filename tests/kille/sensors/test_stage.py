@@ -8,7 +8,7 @@ import pytest
 
 from kille.scene import Frame
 from kille.sensors.sensor import At, Beside, SensorError
-from kille.sensors.stage import perform
+from kille.sensors.stage_commands import perform
 from kille.sensors.synthetic import open_synthetic
 
 

@@ -11,8 +11,8 @@ from kille.scene import Colour
 from kille.sensors.pictures import read_colour
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic import catalogue
-from kille.sensors.synthetic.model import ToyModel
-from kille.sensors.synthetic.obj import load_model
+from kille.sensors.synthetic.obj_files import load_model
+from kille.sensors.synthetic.toy_model import ToyModel
 from tools.modelling.obj_files import obj_text
 from tools.modelling.shapes import disc, ellipsoid, lathe
 from tools.modelling.sheets import Sheet, assemble

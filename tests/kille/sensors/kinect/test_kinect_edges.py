@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from kille.interfaces.doctor.kinect import plugged_in
 from kille.sensors.kinect import camera as cameras
-from kille.sensors.kinect import head as heads
+from kille.sensors.kinect import motor_control as heads
 from kille.sensors.kinect import sensor as sensors
 from kille.sensors.kinect.address import parse_address
 from kille.sensors.kinect.devices import Kinect as Found

@@ -164,7 +164,7 @@ def test_ctrl_c_while_it_closes_leaves_it_to_the_next(
 ) -> None:
     code = f"""
 from subprocess import Popen
-from kille.sensors.kinect.process import ProcessDriver
+from kille.sensors.kinect.process_driver import ProcessDriver
 owner, name = {moment.split(".")[0]}, {moment.split(".")[1]!r}
 done = getattr(owner, name)
 def interrupted(self, *given, **named):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kille.sensors.kinect import troubles, usb
+from kille.sensors.kinect import diagnosis, usb
 from kille.sensors.kinect.transport import (
     DeviceBusyError,
     KernelDriverError,
@@ -16,11 +16,11 @@ def test_a_kernel_driver_is_blamed_only_for_what_it_has(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """It is loaded on most computers, but moved aside by whoever opens the Kinect."""
-    monkeypatch.setattr(troubles, "driver_loaded", lambda: True)
-    assert troubles.explain_error("kinect", KernelDriverError("busy")).endswith(
-        troubles.UNLOAD
+    monkeypatch.setattr(diagnosis, "driver_loaded", lambda: True)
+    assert diagnosis.explain_error("kinect", KernelDriverError("busy")).endswith(
+        diagnosis.UNLOAD
     )
-    assert troubles.trouble(DeviceBusyError("busy")).state == "another program has it"
+    assert diagnosis.trouble(DeviceBusyError("busy")).state == "another program has it"
 
 
 def test_what_libusb_cannot_do_here_is_told() -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kille.sensors.recordings.developing import raw_source
+from kille.sensors.recordings.raw_frames import raw_source
 from kille.sensors.sources import open_sensor
 from kinect_emulator import netpbm
 from kinect_emulator.kinect import Kinect

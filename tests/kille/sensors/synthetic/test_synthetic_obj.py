@@ -11,7 +11,7 @@ import pytest
 
 from kille.sensors.sensor import At, SensorError
 from kille.sensors.synthetic import open_synthetic
-from kille.sensors.synthetic.obj import find_meshes, load_scan
+from kille.sensors.synthetic.obj_files import find_meshes, load_scan
 
 PLATE = """mtllib plate.mtl
 v -0.1 0 0

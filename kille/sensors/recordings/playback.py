@@ -10,8 +10,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Protocol
 
 from kille.scene import Frame
-from kille.sensors.recordings.options import Options
-from kille.sensors.recordings.reels import Moment, RecordedMoments
+from kille.sensors.recordings.moments import Moment, RecordedMoments
+from kille.sensors.recordings.playback_options import Options
 from kille.sensors.sensor import SensorError
 
 if TYPE_CHECKING:

@@ -16,14 +16,18 @@ from kille.sensors.captures import (
 )
 from kille.sensors.pictures import is_picture, shows_picture
 from kille.sensors.recordings.bag_files import is_bag
-from kille.sensors.recordings.bags import open_bag
+from kille.sensors.recordings.bag_reading import open_bag
 from kille.sensors.recordings.fakenect import is_fakenect, open_fakenect
 from kille.sensors.recordings.galleries import Gallery
-from kille.sensors.recordings.names import first_names, natural_order, suggest_name
+from kille.sensors.recordings.moments import Moment, RecordedMoments
+from kille.sensors.recordings.name_suggestions import (
+    first_names,
+    natural_order,
+    suggest_name,
+)
 from kille.sensors.recordings.npz import is_npz, open_npz
-from kille.sensors.recordings.options import Options, split_options
-from kille.sensors.recordings.playing import RawRecording, Recording
-from kille.sensors.recordings.reels import Moment, RecordedMoments
+from kille.sensors.recordings.playback import RawRecording, Recording
+from kille.sensors.recordings.playback_options import Options, split_options
 from kille.sensors.recordings.tum import is_tum, open_tum
 from kille.sensors.sensor import Sensor, SensorError
 

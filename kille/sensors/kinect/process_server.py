@@ -1,4 +1,4 @@
-"""The process that reads a Kinect for another one; see `.process`."""
+"""The process that reads a Kinect for another one; see `.process_driver`."""
 
 from __future__ import annotations
 
@@ -20,10 +20,15 @@ from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import KinectCapture, frame_of
 from kille.sensors.kinect.channel import Channel
 from kille.sensors.kinect.commands import BadReplyError
-from kille.sensors.kinect.developing import calibration_for, capture_of
 from kille.sensors.kinect.devices import Kinect
+from kille.sensors.kinect.frame_decoding import calibration_for, capture_of
 from kille.sensors.kinect.packets import StreamCounts
-from kille.sensors.kinect.process import PICTURE, ROOM, RequestResult, SharedPictures
+from kille.sensors.kinect.process_driver import (
+    PICTURE,
+    ROOM,
+    RequestResult,
+    SharedPictures,
+)
 from kille.sensors.kinect.session import StreamSession
 from kille.sensors.kinect.streams import COLOUR, INFRARED
 from kille.sensors.kinect.transport import (

@@ -13,17 +13,17 @@ from pathlib import Path
 
 from kille.scene import Frame, Intrinsics
 from kille.sensors.recordings.bag_files import Bag, Stamp, explain_errors, open_bag_file
-from kille.sensors.recordings.images import (
+from kille.sensors.recordings.moments import Moment, RecordedMoments
+from kille.sensors.recordings.name_suggestions import first_names, suggest_name
+from kille.sensors.recordings.pairing import pair_times
+from kille.sensors.recordings.playback_options import Options
+from kille.sensors.recordings.ros_images import (
     OtherFormatError,
     colour_of,
     depth_of,
     kind_of,
     lens_of,
 )
-from kille.sensors.recordings.names import first_names, suggest_name
-from kille.sensors.recordings.options import Options
-from kille.sensors.recordings.pairing import pair_times
-from kille.sensors.recordings.reels import Moment, RecordedMoments
 from kille.sensors.sensor import SensorError
 
 IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from kille.scene import Intrinsics
 from kille.sensors.recordings.lenses import lens_from
-from kille.sensors.recordings.names import suggest_name
+from kille.sensors.recordings.name_suggestions import suggest_name
 from kille.sensors.sensor import SensorError
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from kille.sensors.recordings.opening import is_recording
+from kille.sensors.recordings.format_detection import is_recording
 from kille.sensors.sensor import SensorError
 
 _OURS = re.compile(

@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import TypeVar
 
 from kille.sensors.kinect.devices import Kinect, KinectModel, kinects
+from kille.sensors.kinect.diagnosis import no_motor
 from kille.sensors.kinect.motor import GET_STATE, STATE_LENGTH
 from kille.sensors.kinect.transport import (
     Connection,
@@ -15,7 +16,6 @@ from kille.sensors.kinect.transport import (
     TransportBus,
     TransportError,
 )
-from kille.sensors.kinect.troubles import no_motor
 from kille.sensors.sensor import SensorError
 
 _RARELY = 1.0

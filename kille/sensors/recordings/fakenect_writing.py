@@ -21,7 +21,7 @@ from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture
 from kille.sensors.kinect.motor import Tilt
 from kille.sensors.recordings.fakenect import BYTES, DEVICE, HEADS, INDEX, TILT
-from kille.sensors.recordings.reels import after
+from kille.sensors.recordings.moments import after
 
 SUFFIXES = {"r": "ppm", "d": "pgm", "a": "dump"}
 CAPTURE_BYTES = sum(BYTES[kind] + len(HEADS[kind]) for kind in "rd")

@@ -10,14 +10,14 @@ from pathlib import Path
 from kille.scene import Frame
 from kille.sensors.kinect.calibration import IDENTITY
 from kille.sensors.kinect.capture import COLOUR_CAMERA, KinectCapture
-from kille.sensors.recordings.bagging import write_bag, write_mcap, write_ros2
+from kille.sensors.recordings.bag_writing import write_bag, write_mcap, write_ros2
 from kille.sensors.recordings.capture_folders import write_captures
-from kille.sensors.recordings.developing import develop_frame
+from kille.sensors.recordings.fakenect_writing import FakenectWriter
+from kille.sensors.recordings.moments import Moment, after
 from kille.sensors.recordings.npz import write_npz
-from kille.sensors.recordings.playing import Recording
-from kille.sensors.recordings.reels import Moment, after
+from kille.sensors.recordings.playback import Recording
+from kille.sensors.recordings.raw_frames import develop_frame
 from kille.sensors.recordings.tum import write_tum
-from kille.sensors.recordings.writing import FakenectWriter
 from kille.sensors.sensor import SensorError
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from kille.scene import Colour
 from kille.sensors.pictures import read_colour
 from kille.sensors.sensor import SensorError
-from kille.sensors.synthetic.model import (
+from kille.sensors.synthetic.toy_model import (
     TEXELS_PER_METRE,
     ToyModel,
     set_down,

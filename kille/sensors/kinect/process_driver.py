@@ -2,9 +2,9 @@
 
 USB has to be answered thirty times a second, whatever else the robot's program does. A
 thread of the same process has to share the interpreter's lock: two threads that compute
-in Python make it lose half of the frames. So a second process, `.serving`, has libusb
-and puts frames together. Both talk over a pair of sockets without a name; frames lie in
-memory that both have mapped. When the robot's process ends, however it does, the
+in Python make it lose half of the frames. So a second process, `.process_server`, has
+libusb and puts frames together. Both talk over a pair of sockets without a name; frames
+lie in memory that both have mapped. When the robot's process ends, however it does, the
 sockets are closed, and the other process switches the camera off and ends too.
 """
 
@@ -58,7 +58,7 @@ _DEATH = 1.0
 
 _BEGIN = (
     "import sys; sys.path[:] = sys.argv[3:]; "
-    "from kille.sensors.kinect.serving import serve; "
+    "from kille.sensors.kinect.process_server import serve; "
     "serve(int(sys.argv[1]), int(sys.argv[2]))"
 )
 """Imports what this process would import, and nothing of the folder it is run in."""
