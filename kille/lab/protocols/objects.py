@@ -30,8 +30,8 @@ from kille.lab.protocols.teaching import (
     share_right,
 )
 from kille.lab.results import Cell, Figure, Progress, Result, Table, silent
-from kille.lab.scenes.lessons import Lesson
 from kille.lab.scenes.shown_things import LOOKING, OnTable, cut_out, each_shown
+from kille.lab.scenes.stills import Lesson
 from kille.lab.theories.candidates import Make, Methods
 from kille.sensors.synthetic.catalogue import TOY_NAMES
 

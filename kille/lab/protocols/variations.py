@@ -21,8 +21,8 @@ from kille.lab.protocols.teaching import (
     taught,
 )
 from kille.lab.results import Cell, Figure, Progress, Result, Table, silent
-from kille.lab.scenes.lessons import Lesson
 from kille.lab.scenes.shown_things import LOOKING, OnTable, each_shown
+from kille.lab.scenes.stills import Lesson
 from kille.lab.theories.candidates import Make, Methods
 from kille.sensors.synthetic.catalogue import TOY_NAMES
 

@@ -10,7 +10,7 @@ a camera has taken.
 """
 
 from kille.lab.scenes.checking import faults
-from kille.lab.scenes.occasions import Occasion
-from kille.lab.scenes.scene import SETTINGS, WHOLE, Scene, opened
+from kille.lab.scenes.occasions import Occasion, Scene
+from kille.lab.scenes.scene import SETTINGS, WHOLE, opened
 
 __all__ = ["SETTINGS", "WHOLE", "Occasion", "Scene", "faults", "opened"]

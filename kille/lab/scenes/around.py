@@ -11,13 +11,20 @@ from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
 
-from kille.lab.scenes.occasions import Occasion
-from kille.lab.scenes.places import MIDDLE, Astray, beside, related, rounded
+from kille.lab.scenes.occasions import Occasion, Scene
+from kille.lab.scenes.places import (
+    MIDDLE,
+    Astray,
+    beside,
+    related,
+    rounded,
+    shown_alone,
+)
 from kille.lab.worlds.worlds import FRONTS, STEP, Thing, World
 
 
 @dataclass(frozen=True)
-class Around:
+class Around(Scene):
     """A landmark in the middle, and a target that is put at places on rings round it.
 
     Where it `turns`, the landmark faces another way each time.
@@ -25,34 +32,22 @@ class Around:
     Source: Dobnik and de Graaf 2017, section 4.2.
     """
 
-    start: World
     rings: tuple[float, ...]
     points: int
     spread: float
     turns: bool
     astray: Astray
 
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """What kinds of things there are."""
-        return tuple(it.kind for it in self.start.things)
-
     def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
         """The two things, one by one; or the target at each of the places."""
         if kind == "relation":
             return [self._put(*place, new, chance) for place in self._places()]
-        return [self._alone(kind, x) for x in (1, 2)]
+        return [shown_alone(self.start, kind, x) for x in (1, 2)]
 
     def _places(self) -> Iterator[tuple[float, float]]:
         for ring in self.rings:
             for point in range(self.points):
                 yield ring, 2 * math.pi * point / self.points
-
-    def _alone(self, kind: str, x: int) -> Occasion:
-        world = self.start.cleared().moved(x, MIDDLE).pointed(x)
-        thing = world.thing(x)
-        group = thing.colour if kind == "adjective" else thing.kind
-        return Occasion(kind, world, x, group=group)
 
     def _put(self, ring: float, bearing: float, new: bool, chance: Random) -> Occasion:
         right, away = beside(MIDDLE, ring, bearing)

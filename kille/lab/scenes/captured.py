@@ -12,7 +12,7 @@ from typing import Any
 from kille.lab.errors import StudyError
 from kille.lab.scenes.galleries import Gallery, open_gallery
 from kille.lab.scenes.labelled import Scenes, open_scenes
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE
 from kille.lab.scenes.theatre import Capture, Picture, Theatre
 from kille.lab.settings import unknown
@@ -21,22 +21,16 @@ from kille.sensors.captures import Shot
 
 
 @dataclass(frozen=True)
-class Captured:
+class Captured(Scene):
     """Pictures, or frames, of things: some are taught, and others kept for later.
 
     What is `labelled` in them may be in frames that another seed draws.
     """
 
-    start: World
     taught: tuple[Occasion, ...]
     kept: tuple[Occasion, ...]
     theatre: Theatre = field(compare=False)
     labelled: tuple[str, ...] = ()
-
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """What kinds of things there are."""
-        return tuple(dict.fromkeys(it.kind for it in self.start.things))
 
     def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
         """Each of them once."""

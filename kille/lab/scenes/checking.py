@@ -10,7 +10,8 @@ from urllib.parse import quote
 from kille.lab.errors import StudyError
 from kille.lab.results import ExperimentError
 from kille.lab.scenes.occasions import KINDS as WORDS
-from kille.lab.scenes.scene import SETTINGS, Scene, opened
+from kille.lab.scenes.occasions import Scene
+from kille.lab.scenes.scene import SETTINGS, opened
 from kille.lab.settings import Wrong, filled, no_folder, unknown
 from kille.lab.study import Named, Run, Study
 from kille.sensors.sensor import SensorError

@@ -9,8 +9,15 @@ from itertools import product
 from random import Random
 from typing import Any
 
-from kille.lab.scenes.occasions import Occasion
-from kille.lab.scenes.places import BEARINGS, Astray, beside, related, rounded
+from kille.lab.scenes.occasions import Occasion, Scene
+from kille.lab.scenes.places import (
+    BEARINGS,
+    Astray,
+    beside,
+    related,
+    rounded,
+    word_group,
+)
 from kille.lab.worlds.perception import oddness
 from kille.lab.worlds.vocabulary import SIDES
 from kille.lab.worlds.worlds import FRONTS, SIDE, Thing, World
@@ -20,22 +27,16 @@ SPOTS = list(product(range(SIDE), range(SIDE)))
 
 
 @dataclass(frozen=True)
-class Drawn:
+class Drawn(Scene):
     """A table on which some of the things that there are are laid each time.
 
     The things of each kind that are `taught` come first.
     """
 
-    start: World
     taught: tuple[int, ...]
     kept: tuple[int, ...]
     in_view: int
     astray: Astray
-
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """What kinds of things there are."""
-        return tuple(dict.fromkeys(it.kind for it in self.start.things))
 
     def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
         """An occasion for each thing, laid with others; or one for each side."""
@@ -55,8 +56,7 @@ class Drawn:
             world = world.moved(number, spot)
         world = world.pointed(x)
         seen = self.astray.seen(world, world.in_view, chance)
-        thing = world.thing(x)
-        group = thing.colour if kind == "adjective" else thing.kind
+        group = word_group(kind, world.thing(x))
         return Occasion(kind, world, x, seen=seen, group=group, hard=oddness(world, x))
 
     def _stood(self, side: str, pool: Sequence[int], chance: Random) -> Occasion:

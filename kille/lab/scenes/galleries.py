@@ -10,16 +10,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-
 from kille.lab.progress import Steps
 from kille.lab.results import ExperimentError, Progress
-from kille.lab.scenes.lessons import Lesson
-from kille.perception.look import look
-from kille.scene import Frame, Percept
+from kille.lab.scenes.stills import Lesson, look_at_picture
+from kille.scene import Percept
 from kille.sensors.captures import description_of
-from kille.sensors.pictures import is_picture, read_colour, shrink_to_fit
-from kille.sensors.recordings.name_suggestions import natural_order
+from kille.sensors.pictures import is_picture, read_colour
+from kille.sensors.recordings.names import natural_order
 from kille.sensors.sensor import SensorError
 
 LOOKING = 0.3
@@ -27,23 +24,6 @@ LOOKING = 0.3
 
 Categories = Mapping[str, Sequence[Path]]
 """Pictures by category."""
-
-_LARGEST = (640, 480)
-
-
-@dataclass(frozen=True)
-class Still:
-    """A sensor that always sees the same frame."""
-
-    now: Frame
-    name: str = "still"
-
-    def frame(self) -> Frame:
-        """The frame."""
-        return self.now
-
-    def close(self) -> None:
-        """Nothing is to be let go of."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,12 +53,7 @@ class Gallery:
     def percept(self, path: Path) -> Percept:
         """What is seen of a picture in one scan: the one thing that it shows."""
         if path not in self.seen:
-            colour = shrink_to_fit(read_colour(path), _LARGEST)
-            still = Still(Frame(colour, None, None, 0.0, {}))
-            found = look(still, scans=1).percepts
-            everything = np.ones(colour.shape[:2], bool)
-            found = found or look(still, scans=1, pointed=everything).percepts
-            self.seen[path] = found[0]
+            self.seen[path] = look_at_picture(path).percepts[0]
         return self.seen[path]
 
     def lessons(self, chosen: Categories) -> list[Lesson]:

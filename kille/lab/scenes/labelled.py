@@ -11,10 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kille.lab.results import ExperimentError
-from kille.lab.scenes.galleries import Still
-from kille.lab.scenes.lessons import Lesson
-from kille.perception.look import look
-from kille.scene import Frame
+from kille.lab.scenes.stills import Lesson, look_at_outlined
 from kille.sensors.captures import Shot, description_of, is_sequence, read_sequence
 
 
@@ -34,7 +31,11 @@ class Scenes:
         """Each thing in each frame, pointed at, and its name."""
         if scene not in self.seen:
             frames = [shot.read() for shot in self.shots[scene]]
-            self.seen[scene] = [it for frame in frames for it in _pointed(frame)]
+            self.seen[scene] = [
+                (look_at_outlined(frame, name).percepts[0], name)
+                for frame in frames
+                for name in frame.outlines
+            ]
         return self.seen[scene]
 
 
@@ -103,11 +104,3 @@ def known(scenes: Scenes, split: Split) -> set[str]:
     """What is taught, of the things that are asked for."""
     taught = {thing for scene in split.teach for thing in scenes.things(scene)}
     return taught & scenes.things(split.ask)
-
-
-def _pointed(frame: Frame) -> list[Lesson]:
-    still = Still(frame)
-    return [
-        (look(still, scans=1, pointed=mask).percepts[0], name)
-        for name, mask in frame.outlines.items()
-    ]

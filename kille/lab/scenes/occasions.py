@@ -6,6 +6,7 @@ with. Scenes give them in rounds, and a phase of a study brings them in an order
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import zip_longest
@@ -82,6 +83,25 @@ class Occasion:
     def looked(self) -> Occasion:
         """The same, looked at once more."""
         return self.at(self.world.glance + 1)
+
+
+@dataclass(frozen=True)
+class Scene(ABC):
+    """What there is to talk of in a run; `start` has all things as the run begins."""
+
+    start: World
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """What kinds of things there are."""
+        return tuple(dict.fromkeys(it.kind for it in self.start.things))
+
+    @abstractmethod
+    def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
+        """An occasion for each thing, or place, that words of a kind may be said of.
+
+        Those that are `new` are kept from all the others.
+        """
 
 
 def ordered(

@@ -9,7 +9,7 @@ from random import Random
 
 from kille.lab.scenes.occasions import Occasion
 from kille.lab.worlds.vocabulary import SIDES
-from kille.lab.worlds.worlds import STEP, Place, World
+from kille.lab.worlds.worlds import STEP, Place, Thing, World
 
 MIDDLE: Place = (4.5, 4.5)
 """The middle of the table."""
@@ -72,6 +72,17 @@ def side(world: World, x: int, y: int) -> tuple[str, float]:
     fits = {side: math.cos(bearing - way) for side, way in BEARINGS.items()}
     best = max(fits, key=lambda it: fits[it])
     return best, 1.0 - fits[best]
+
+
+def shown_alone(start: World, kind: str, x: int) -> Occasion:
+    """The occasion to say what x is or which colour it has: nothing else is there."""
+    world = start.cleared().moved(x, MIDDLE).pointed(x)
+    return Occasion(kind, world, x, group=word_group(kind, world.thing(x)))
+
+
+def word_group(kind: str, thing: Thing) -> str:
+    """The word that a thing is an example of: its adjective of colour, or its noun."""
+    return thing.colour if kind == "adjective" else thing.kind
 
 
 def related(

@@ -10,7 +10,7 @@ from random import Random
 from typing import Any
 from urllib.parse import quote
 
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE, rounded, side
 from kille.lab.scenes.theatre import Staged, Stand, Theatre, laid
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
@@ -24,23 +24,17 @@ _TRIES = 6
 
 
 @dataclass(frozen=True)
-class Rendered:
+class Rendered(Scene):
     """A rendered table: each kind by itself, or a target round a landmark.
 
     Specimens of each kind that are taught come before those that are kept.
     """
 
-    start: World
     source: str
     each: int
     new: int
     pair: tuple[str, str]
     theatre: Theatre = field(compare=False)
-
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """What kinds of things there are."""
-        return tuple(it.kind for it in self.start.things)
 
     def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
         """Every specimen of each kind, or the target at each place where it can be."""

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 from random import Random
-from typing import Protocol
 
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.occasions import Scene
 from kille.lab.settings import Setting, Settings, filled
 from kille.lab.study import Run, Study
-from kille.lab.worlds.worlds import COLOURS, FRONTS, KINDS, World
+from kille.lab.worlds.worlds import COLOURS, FRONTS, KINDS
 
 WHOLE = frozenset({"rendered", "pictures", "captures"})
 """The kinds of scenes that the whole robot sees."""
@@ -95,27 +94,6 @@ SETTINGS: Mapping[str, Settings] = {
     },
 }
 """What may be set of scenes, kind by kind."""
-
-
-class Scene(Protocol):
-    """What there is to talk of in a run."""
-
-    @property
-    def start(self) -> World:
-        """All things that there are, as the run begins."""
-        ...
-
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """What kinds of things there are."""
-        ...
-
-    def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
-        """An occasion for each thing, or place, that words of a kind may be said of.
-
-        Those that are `new` are kept from all the others.
-        """
-        ...
 
 
 def opened(study: Study, run: Run) -> Scene:

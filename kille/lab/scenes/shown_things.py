@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from kille.lab.progress import Steps
-from kille.lab.scenes.lessons import Lesson
+from kille.lab.scenes.stills import Lesson
 from kille.perception.look import SCANS, look
 from kille.scene import Colour, Percept
 from kille.sensors.sensor import At

@@ -16,8 +16,8 @@ from random import Random
 from typing import Any
 
 from kille.lab.errors import StudyError
-from kille.lab.scenes.occasions import Occasion
-from kille.lab.scenes.places import MIDDLE, rounded
+from kille.lab.scenes.occasions import Occasion, Scene
+from kille.lab.scenes.places import MIDDLE, rounded, shown_alone
 from kille.lab.scenes.published_judgements import read
 from kille.lab.settings import unknown
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
@@ -35,32 +35,19 @@ _OTHERWISE = ("between", "touching", "in", "inside", "against")
 
 
 @dataclass(frozen=True)
-class Statements:
+class Statements(Scene):
     """Statements of people, some of which are `taught` and others `kept` for later."""
 
-    start: World
     taught: tuple[tuple[str, Place], ...]
     kept: tuple[tuple[str, Place], ...]
-
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """What kinds of things there are."""
-        return tuple(it.kind for it in self.start.things)
 
     def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
         """All the statements, in an order of chance; or the two things one by one."""
         if kind != "relation":
-            return [self._alone(kind, x) for x in (1, 2)]
+            return [shown_alone(self.start, kind, x) for x in (1, 2)]
         some = list(self.kept if new else self.taught)
         chance.shuffle(some)
         return [self._stated(*it) for it in some]
-
-    def _alone(self, kind: str, x: int) -> Occasion:
-        world = self.start.cleared().moved(x, MIDDLE).pointed(x)
-        thing = world.thing(x)
-        return Occasion(
-            kind, world, x, group=thing.colour if kind == "adjective" else thing.kind
-        )
 
     def _stated(self, word: str, place: Place) -> Occasion:
         world = self.start.moved(2, MIDDLE).moved(1, place).pointed(1)

@@ -17,17 +17,14 @@ import numpy as np
 
 from kille.agent.attention import Attention, View
 from kille.lab.errors import StudyError
-from kille.lab.scenes.galleries import Still
 from kille.lab.scenes.occasions import Occasion
-from kille.perception.look import Sighting, look
+from kille.lab.scenes.stills import look_at_outlined, look_at_picture
+from kille.perception.look import Sighting
 from kille.perception.segment import overlap
 from kille.scene import Frame, Look
 from kille.sensors.captures import Shot, description_of, read_sequence
-from kille.sensors.pictures import read_colour, shrink_to_fit
 from kille.sensors.sensor import At
 from kille.sensors.synthetic import Synthetic, open_synthetic
-
-_LARGEST = (640, 480)
 
 PICTURES, FRAMES = 400, 60
 """How many looks are kept: those at pictures are small, and those at frames are not."""
@@ -144,18 +141,10 @@ def _of_frame(view: Capture | Staged) -> Look:
             frame = _shots(folder)[number].read()
         case Staged(source, stands):
             frame, name = laid(source, stands).frame(), stands[-1].name
-    return look(Still(frame), scans=1, pointed=frame.outlines[name])
+    return look_at_outlined(frame, name)
 
 
-@lru_cache(PICTURES)
-def _of_picture(path: Path) -> Look:
-    """The look at a picture, all of which is meant where nothing is made out."""
-    colour = shrink_to_fit(read_colour(path), _LARGEST)
-    still = Still(Frame(colour, None, None, 0.0, {}))
-    seen = look(still, scans=1)
-    if seen.percepts:
-        return seen
-    return look(still, scans=1, pointed=np.ones(colour.shape[:2], bool))
+_of_picture = lru_cache(PICTURES)(look_at_picture)
 
 
 @lru_cache(64)
