@@ -13,15 +13,12 @@ from itertools import dropwhile
 from kille.dialogue.language import Sentence, Utterance, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import claims, is_denial, predicate_at, value_at
+from kille.lab.worlds.sayings import QUESTION_ACTS
 from kille.lab.worlds.vocabulary import vocabulary
 from ttr import RecordType
 
-QUESTIONS = {
-    "ask_name": "noun",
-    "ask_quality": "adjective",
-    "ask_place": "relation",
-    "ask_find": "reference",
-}
+QUESTIONS = {act: kind for kind, act in QUESTION_ACTS.items()}
+QUESTIONS["ask_find"] = "reference"
 """The moves that ask for a word of a kind, or for a thing."""
 
 

@@ -21,10 +21,10 @@ from kille.lab.theories.meanings import meanings_of
 from kille.lab.tutors import SETTINGS
 from kille.lab.tutors.beliefs import Manner
 from kille.lab.tutors.own import maker_of
-from kille.lab.tutors.place_words import Placing, Speaker, person, rated
 from kille.lab.tutors.scripted import scripted
 from kille.lab.tutors.several import Several
 from kille.lab.tutors.simulated import Simulated as SimulatedTutor
+from kille.lab.tutors.spatial_judges import Placing, Speaker, person, rated
 from kille.lab.tutors.tutor import Tutor
 from kille.lab.tutors.words import Words
 from kille.lab.worlds.worlds import COLOURS

@@ -9,8 +9,7 @@ what people have said of places. rendered: a simulated camera. pictures, capture
 a camera has taken.
 """
 
-from kille.lab.scenes.checking import faults
+from kille.lab.scenes.kinds import SETTINGS, WHOLE, faults, opened
 from kille.lab.scenes.occasions import Occasion, Scene
-from kille.lab.scenes.scene import SETTINGS, WHOLE, opened
 
 __all__ = ["SETTINGS", "WHOLE", "Occasion", "Scene", "faults", "opened"]

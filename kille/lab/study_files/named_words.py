@@ -14,8 +14,7 @@ from kille.lab.scenes.statements import Statements
 from kille.lab.settings import Wrong, unknown
 from kille.lab.study import Named, Phase, Study
 from kille.lab.study_files.problems import Trouble
-from kille.lab.tutors.place_words import Speaker, rated
-from kille.lab.tutors.spatial_judges import Person
+from kille.lab.tutors.spatial_judges import Person, Speaker, rated
 from kille.lab.tutors.words import Words
 from kille.lab.worlds.worlds import COLOURS, KINDS
 

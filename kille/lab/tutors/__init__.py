@@ -5,5 +5,5 @@ people: speaks as people's data have it. keyboard: a person types. several: some
 others take turns, and may disagree. own: a class or function of one's own makes him.
 """
 
-from kille.lab.tutors.checking import faults as faults
 from kille.lab.tutors.kinds import SETTINGS as SETTINGS
+from kille.lab.tutors.kinds import faults as faults

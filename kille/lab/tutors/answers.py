@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kille.lab.robots.replies import Reply
-from kille.lab.tutors.beliefs import ACTS, Holding
+from kille.lab.tutors.beliefs import Holding
 from kille.lab.tutors.tutor import Says
+from kille.lab.worlds.sayings import LESSON_ACTS
 
 _WANTED = {
     "admit_name": "noun",
@@ -52,7 +53,7 @@ def _example(holding: Holding, word: str) -> Says | None:
         if is_other and words.called(thing.kind) == word:
             phrase = words.described(thing, "adjective")
             text = words.lesson("noun", word, target=phrase)
-            return Says(text, ACTS["noun"], of=thing)
+            return Says(text, LESSON_ACTS["noun"], of=thing)
     return None
 
 
@@ -71,7 +72,7 @@ def _telling(holding: Holding, reply: Reply) -> Says | None:
     about = replace(about, kind=kind)
     if not holding.has_word(about):
         return None
-    return Says(holding.words.lesson(kind, holding.held(about)), ACTS[kind])
+    return Says(holding.words.lesson(kind, holding.held(about)), LESSON_ACTS[kind])
 
 
 def _placing(holding: Holding, reply: Reply) -> Says | None:

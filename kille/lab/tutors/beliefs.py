@@ -10,15 +10,12 @@ from functools import cached_property
 
 from kille.dialogue.beliefs import knows
 from kille.lab.scenes.occasions import Occasion
-from kille.lab.tutors.place_words import Speaker
+from kille.lab.tutors.spatial_judges import Speaker
 from kille.lab.tutors.tutor import Asked, Says, Task
 from kille.lab.tutors.words import Words
-from kille.lab.worlds.sayings import Phrase
+from kille.lab.worlds.sayings import LESSON_ACTS, Phrase
 from kille.lab.worlds.worlds import STEP, Thing
 from ttr import Record
-
-ACTS = {"noun": "instruct", "adjective": "describe", "relation": "relate"}
-"""The moves that teach words, by their kinds."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +137,7 @@ class Holding:
         occasion = self.task.occasion
         kind, word = occasion.kind, self.held(occasion)
         text = self.words.lesson(kind, word, self.beside(s))
-        return Says(text, ACTS[kind], of=occasion.landmark)
+        return Says(text, LESSON_ACTS[kind], of=occasion.landmark)
 
     def correction(self, s: Record) -> Says:
         """What is so instead of what the robot said."""

@@ -20,6 +20,7 @@ from kille.lab.tutors.openings import Situation, by_side, leads, situation
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glanced, number_of, seen
 from kille.lab.worlds.sayings import (
+    LESSON_ACTS,
     NOTHING,
     THIS,
     Claim,
@@ -209,8 +210,8 @@ def _part(content: RecordType, label: str) -> RecordType:
 
 def _teaching(claim: Claim) -> str:
     """The move that teaches a claim."""
-    kind = "" if claim.sign is None else str(claim.sign.kind)
-    return {"noun": "instruct", "adjective": "describe"}.get(kind, "relate")
+    assert claim.sign is not None
+    return LESSON_ACTS[claim.sign.kind]
 
 
 def _choosing(language: str, world: World, asked: str) -> Options:

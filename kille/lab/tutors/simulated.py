@@ -15,6 +15,7 @@ from kille.lab.scenes.occasions import KINDS, Occasion
 from kille.lab.tutors.answers import answer
 from kille.lab.tutors.beliefs import Holding, Manner
 from kille.lab.tutors.tutor import Asked, Move, Says, Shows, Task, Turns, Waits
+from kille.lab.worlds.sayings import QUESTION_ACTS
 
 FEEDBACK = ("none", "confirm", "correct", "both")
 """What he says of answers: whether they are right, what is right instead, or both."""
@@ -27,8 +28,6 @@ LOOKS = 2
 
 BY = {"both": ("adjective", "noun"), "noun": ("noun",), "colour": ("adjective",)}
 """The kinds of the words by which he asks for a thing, by what a phase says of it."""
-
-_QUESTIONS = {"noun": "ask_name", "adjective": "ask_quality", "relation": "ask_place"}
 
 
 @dataclass(frozen=True)
@@ -83,7 +82,7 @@ class _Doing:
         reply = yield Shows(occasion)
         yield from self._orienting(reply)
         asked = self._holding.asked(occasion)
-        text, act = self._words.question(occasion.kind), _QUESTIONS[occasion.kind]
+        text, act = self._words.question(occasion.kind), QUESTION_ACTS[occasion.kind]
         return (yield from self._until_clear(Says(text, act, asked)))
 
     def _orienting(self, reply: Reply) -> Turns:

@@ -1,18 +1,30 @@
-"""Simulated people who say how a target stands to a landmark.
+"""Simulated people who say how a target stands to a landmark, and in which frame.
 
-A person says "near" or "close" at some places and elsewhere one of four directions, the
-likelier the better it fits: by the square of the cosine, as in the paper's discussion
-of spatial templates. In the landmark's own frame of reference left, right, front and
-behind are those of the landmark. They are our assumptions, not measured on people.
+A `Person` says "near" or "close" at some places and elsewhere one of four directions,
+the likelier the better it fits: by the square of the cosine, as in the paper's
+discussion of spatial templates. In the landmark's own frame of reference left, right,
+front and behind are those of the landmark. They are our assumptions, not measured on
+people. Who is `Rated` speaks as people have rated words on a grid: the likelier, by the
+square of the rating. A `Speaker` is a tutor who speaks of places as one of them does.
+
+Source: Logan and Sadler 1996, A computational analysis of the apprehension of spatial
+relations.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from random import Random
+from typing import Protocol
 
 import numpy as np
+
+from kille.lab.scenes.published_judgements import read
+from kille.lab.worlds.vocabulary import PLACES
 
 _SIDES: Mapping[str, float] = {
     "to the right of": 0.0,
@@ -69,17 +81,161 @@ class Person:
         chances = self.chances(place, front)
         return str(chance.choice(list(chances), p=list(chances.values())))
 
+    def shifted(self, by: float) -> Person:
+        """Who speaks of closeness more often, by so much in log-odds."""
+        return Person(_shifted(self.inside, by), _shifted(self.outside, by))
+
+
+def _shifted(share: float, by: float) -> float:
+    share = min(max(share, 1e-6), 1 - 1e-6)
+    return 1 / (1 + math.exp(-(math.log(share / (1 - share)) + by)))
+
+
+def born(habit: float, chance: np.random.Generator) -> Person:
+    """A person whose habit differs from the usual by this deviation of log-odds."""
+    return Person().shifted(habit * chance.normal())
+
+
+def person(inside: float, outside: float, habit: float, chance: Random) -> Person:
+    """Who speaks of closeness so often, give or take a deviation of log-odds."""
+    return Person(inside, outside).shifted(habit * chance.gauss(0, 1))
+
 
 def answer(degrees: Mapping[str, float]) -> str:
     """The likeliest word, the first of equals; none where there is none."""
     return max(degrees, key=lambda word: degrees[word], default="")
 
 
-def born(habit: float, chance: np.random.Generator) -> Person:
-    """A person whose habit differs from the usual by this deviation of log-odds."""
-    by = habit * chance.normal()
-    return Person(_moved(_INSIDE, by), _moved(_OUTSIDE, by))
+# --- people's ratings ---------------------------------------------------------------
+
+HEADINGS = {"right": 0.0, "away": math.pi / 2, "left": math.pi, "towards": -math.pi / 2}
+"""Where a thing faces, in radians counter-clockwise from right."""
+
+_CALLED = {
+    "behind of": "behind",
+    "left": "to the left of",
+    "right": "to the right of",
+    "above": "behind",
+    "below": "in front of",
+    "near to": "near",
+    "next to": "next to",
+    "far from": "far from",
+}
+"""How words are called here that people judged on an upright plane, seen from above."""
 
 
-def _moved(share: float, by: float) -> float:
-    return 1 / (1 + math.exp(-(math.log(share / (1 - share)) + by)))
+SIDES = frozenset(PLACES)
+"""The words that must be rated for somebody to speak so."""
+
+
+SELDOM = 0.01
+"""Words that are said with no more chance than that, all together, hardly ever are."""
+
+
+class Placing(Protocol):
+    """How likely each word is said of a place, in the viewer's frame or the landmark's.
+
+    A place is in metres right and away of the landmark; `front` is where that faces.
+    """
+
+    def chances(self, place: Place, front: float | None = None) -> dict[str, float]:
+        """The words and their chances, which sum to 1."""
+        ...
+
+
+@dataclass(frozen=True)
+class Rated:
+    """Who says words as people have rated them of places on a grid."""
+
+    words: Mapping[str, Sequence[tuple[Place, float]]]
+
+    def chances(self, place: Place, front: float | None = None) -> dict[str, float]:
+        """By the square of the rating at the nearest place that was rated."""
+        place = _turned(place, front)
+        weights = {
+            word: min((math.dist(at, place), it) for at, it in rated)[1] ** 2
+            for word, rated in self.words.items()
+        }
+        whole = math.fsum(weights.values())
+        return {word: weight / whole for word, weight in weights.items()}
+
+
+def _turned(place: Place, front: float | None) -> Place:
+    """A place as the landmark itself has it, right and ahead: see `Person.chances`."""
+    if front is None:
+        return place
+    right, away = place
+    bearing, far = (
+        front - math.atan2(away, right) - math.pi / 2,
+        math.hypot(right, away),
+    )
+    return far * math.cos(bearing), far * math.sin(bearing)
+
+
+@lru_cache(8)
+def rated(folder: Path) -> Rated:
+    """The ratings in a folder of judgements on an upright plane."""
+    words: dict[str, list[tuple[Place, float]]] = {}
+    for word, judged in read(folder).words.items():
+        if word in _CALLED:
+            places = [((it.x.offset[0], it.x.offset[2]), it.degree) for it in judged]
+            words[_CALLED[word]] = places
+    return Rated(words)
+
+
+# --- tutors -------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Speaker:
+    """Who speaks of places so, in the landmark's own frame in this share of cases.
+
+    He `draws` a word by its chances, or says the likeliest; `only` these words are his,
+    or all where none is named. Where these are hardly ever said he says nothing.
+    """
+
+    placing: Placing
+    own: float = 0.0
+    draws: bool = False
+    only: tuple[str, ...] = ()
+
+    def says(self, place: Place, front: str, chance: Random) -> str:
+        """A word for a place beside what faces that way, if any."""
+        heading = HEADINGS.get(front) if self.frame(chance) == "landmark" else None
+        chances = self._chances(place, heading)
+        if not chances:
+            return ""
+        drawn = chance.choices(list(chances), list(chances.values()))[0]
+        return drawn if self.draws else answer(chances)
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The words that he may say of places."""
+        every = (_CALLED.get(it, it) for it in self.placing.chances((0.1, 0.0)))
+        return tuple(it for it in every if not self.only or it in self.only)
+
+    def frame(self, chance: Random) -> str:
+        """In whose frame he speaks now: that of the `viewer` or the `landmark`."""
+        return "landmark" if chance.random() < self.own else "viewer"
+
+    def accepts(self, place: Place, front: str) -> frozenset[str]:
+        """The words that he may well say there: with a chance of .15 or more."""
+        viewed = self._chances(place)
+        if front not in HEADINGS:
+            return frozenset(it for it, p in viewed.items() if p >= ACCEPTED)
+        headed = self._chances(place, HEADINGS[front])
+        mixed = {
+            it: (1 - self.own) * viewed.get(it, 0.0) + self.own * headed.get(it, 0.0)
+            for it in (*viewed, *headed)
+        }
+        return frozenset(it for it, p in mixed.items() if p >= ACCEPTED)
+
+    def _chances(self, place: Place, front: float | None = None) -> dict[str, float]:
+        """The chances of his own words, as these are called here."""
+        chances = self.placing.chances(place, front)
+        called = {_CALLED.get(word, word): p for word, p in chances.items()}
+        if not self.only:
+            return called
+        own = {word: p for word, p in called.items() if word in self.only}
+        whole = math.fsum(own.values())
+        return {word: p / whole for word, p in own.items()} if whole > SELDOM else {}

@@ -6,26 +6,24 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import record_type, sign
-from kille.lab.worlds.sayings import NOTHING, THIS, Claim, Matter, Phrase, Saying
+from kille.dialogue.meanings import sign
+from kille.lab.worlds.sayings import (
+    LESSON_ACTS,
+    NOTHING,
+    QUESTION_ACTS,
+    THIS,
+    Claim,
+    Phrase,
+    Saying,
+    about_word,
+    facing,
+    perspective,
+)
 from kille.lab.worlds.vocabulary import vocabulary
-from kille.lab.worlds.worlds import COLOURS, KINDS, Thing
-from ttr import Record, rectype
+from kille.lab.worlds.worlds import Thing
+from ttr import Record
 
 __all__ = ["Words"]
-
-_SIDES = {
-    "to the left of": "left",
-    "to the right of": "right",
-    "behind": "behind",
-    "in front of": "in front",
-}
-_SWEDISH = {
-    "near": "nära",
-    "close to": "intill",
-    "next to": "bredvid",
-    "far from": "långt från",
-}
 
 
 @dataclass(frozen=True)
@@ -46,14 +44,7 @@ class Words:
         """What he calls a kind, a colour or a place; others, in English, call it so."""
         if name in self.calls:
             return self.calls[name]
-        known = vocabulary(self.language)
-        if name in _SIDES:
-            return str(known.relations[_SIDES[name]].form)
-        if name in KINDS:
-            return str(known.nouns[name].form)
-        if name in COLOURS:
-            return str(known.adjectives[name].form)
-        return _SWEDISH.get(name, name) if self.language == "sv" else name
+        return vocabulary(self.language).form_of(name)
 
     def sign(self, kind: str, word: str) -> Record:
         """The sign of a word."""
@@ -80,8 +71,7 @@ class Words:
         target: Phrase = THIS,
     ) -> str:
         """That a word is true of this thing, or of one thing beside another."""
-        act = {"noun": "instruct", "adjective": "describe", "relation": "relate"}[kind]
-        return self._claiming(act, kind, word, landmark, target)
+        return self._claiming(LESSON_ACTS[kind], kind, word, landmark, target)
 
     def correction(self, kind: str, word: str, landmark: Phrase | None = None) -> str:
         """That, instead of what was said, a word is true of this thing."""
@@ -95,8 +85,7 @@ class Words:
 
     def question(self, kind: str) -> str:
         """What this thing is, what colour it is, or where."""
-        acts = {"noun": "ask_name", "adjective": "ask_quality", "relation": "ask_place"}
-        return Saying(self.language, acts[kind], Claim(None, THIS)).text
+        return Saying(self.language, QUESTION_ACTS[kind], Claim(None, THIS)).text
 
     def finding(self, phrase: Phrase) -> str:
         """Which thing a phrase is for."""
@@ -112,21 +101,13 @@ class Words:
 
     def facing(self, front: str, phrase: Phrase) -> str:
         """Which way a thing faces."""
-        content = rectype(
-            {
-                **dict(record_type(f"Faces{front.capitalize()}").fields),
-                "target": phrase.meaning,
-            }
-        )
-        return Saying(self.language, "orient", Matter(content, phrase.signs)).text
+        return Saying(self.language, "orient", facing(front, phrase)).text
 
     def perspective(self, of: str) -> str:
         """Whose perspective is meant: that of the `viewer`, or of the `landmark`."""
-        about = Matter(record_type(f"By{of.capitalize()}"))
-        return Saying(self.language, "take_frame", about).text
+        return Saying(self.language, "take_frame", perspective(of)).text
 
     def forgetting(self, kind: str, word: str) -> str:
         """That a word is to be forgotten."""
-        known = self.sign(kind, word)
-        about = Matter(rectype(word=known.meaning), (known,))
+        about = about_word(self.sign(kind, word))
         return Saying(self.language, "forget_word", about).text

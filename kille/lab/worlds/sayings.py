@@ -24,6 +24,16 @@ from ttr import Rec, Record, RecordType, record, rectype
 TEMPLATES = {"noun": "Naming", "adjective": "Having", "relation": "Relation"}
 """What a claim means, by the kind of its word."""
 
+LESSON_ACTS = {"noun": "instruct", "adjective": "describe", "relation": "relate"}
+"""The moves that teach words, by their kinds."""
+
+QUESTION_ACTS = {
+    "noun": "ask_name",
+    "adjective": "ask_quality",
+    "relation": "ask_place",
+}
+"""The moves that ask for words, by their kinds."""
+
 SLOTS = {"a_word": "noun", "so": "adjective", "relation": "relation"}
 """The kind of word that a slot of a claim is for."""
 
@@ -182,15 +192,16 @@ def _about(
         case []:
             return [Matter()]
         case ["word"]:
-            return (Matter(rectype(word=it.meaning), (it,)) for it in known.all)
+            return map(about_word, known.all)
         case ["counted"]:
             return (Matter(rectype(counted=it.meaning), (it,)) for it in nouns)
         case ["front", "the_target"]:
             return _facing(language, world)
         case ["the_landmark"]:
-            return (_perspective(Phrase("", (noun,))) for noun in nouns)
+            phrases = (Phrase("", (noun,)) for noun in nouns)
+            return (perspective("landmark", phrase) for phrase in phrases)
         case ["by"]:
-            return [Matter(record_type("ByViewer")), Matter(record_type("ByLandmark"))]
+            return [perspective("viewer"), perspective("landmark")]
     return ()
 
 
@@ -199,15 +210,26 @@ def _facing(language: str, world: World) -> Iterator[Matter]:
     for x in world.in_view:
         front = world.thing(x).front or "left"
         for phrase in phrases_of(language, world, x):
-            faces = record_type(f"Faces{front.capitalize()}")
-            content = merge_of(faces, rectype(target=phrase.meaning))
-            yield Matter(content, phrase.signs)
+            yield facing(front, phrase)
 
 
-def _perspective(phrase: Phrase) -> Matter:
-    """That places are meant as this thing sees them."""
-    content = merge_of(record_type("ByLandmark"), rectype(landmark=phrase.meaning))
+def facing(front: str, phrase: Phrase) -> Matter:
+    """That a thing faces this way: `left`, `towards` …"""
+    faces = named(f"Faces{front.capitalize()}")
+    return Matter(merge_of(faces, rectype(target=phrase.meaning)), phrase.signs)
+
+
+def perspective(side: str, phrase: Phrase = NOTHING) -> Matter:
+    """That places are as the `viewer` has them, or the `landmark` of a phrase."""
+    content = named(f"By{side.capitalize()}")
+    if phrase is not NOTHING:
+        content = merge_of(content, rectype(landmark=phrase.meaning))
     return Matter(content, phrase.signs)
+
+
+def about_word(sign: Record) -> Matter:
+    """That it is a word that is talked of, as in "Forget cup"."""
+    return Matter(rectype(word=sign.meaning), (sign,))
 
 
 def _plainly(slot: str) -> str:

@@ -22,6 +22,14 @@ SIDES = {
 }
 """Where a thing may be: how far to the right, and how far ahead."""
 
+PLACES = {
+    "to the left of": "left",
+    "to the right of": "right",
+    "behind": "behind",
+    "in front of": "in front",
+}
+"""The sides by what they are called in studies."""
+
 _SWEDISH = {
     "cup": "kopp",
     "mug": "mugg",
@@ -46,6 +54,12 @@ _SWEDISH = {
     "behind": "bakom",
     "in front": "framför",
 }
+_SWEDISH_DISTANCES = {
+    "near": "nära",
+    "close to": "intill",
+    "next to": "bredvid",
+    "far from": "långt från",
+}
 _ENGLISH = {
     "left": "to the left of",
     "right": "to the right of",
@@ -55,11 +69,15 @@ _ENGLISH = {
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """The signs for what there is in a world, by what they are called here."""
+    """The signs for what there is in a world, by what they are called here.
+
+    `distances` are words for places that are no sides: they have no signs of their own.
+    """
 
     nouns: Mapping[str, Record]
     adjectives: Mapping[str, Record]
     relations: Mapping[str, Record]
+    distances: Mapping[str, str]
 
     @property
     def all(self) -> tuple[Record, ...]:
@@ -71,6 +89,20 @@ class Vocabulary:
     def colours(self) -> tuple[Record, ...]:
         """The adjectives for colours, which are known without lessons."""
         return tuple(self.adjectives[name] for name in COLOURS)
+
+    def form_of(self, name: str) -> str:
+        """What a kind, a colour or a place is called; its name, if none of these.
+
+        >>> vocabulary("sv").form_of("mug"), vocabulary("sv").form_of("near")
+        ('mugg', 'nära')
+        """
+        if name in PLACES:
+            return str(self.relations[PLACES[name]].form)
+        if name in KINDS:
+            return str(self.nouns[name].form)
+        if name in COLOURS:
+            return str(self.adjectives[name].form)
+        return self.distances.get(name, name)
 
     def noun_of(self, world: World, number: int) -> Record:
         """The noun for a thing."""
@@ -123,4 +155,5 @@ def _vocabulary(types: DialogueTypes, language: str) -> Vocabulary:
         signs("noun", *KINDS),
         signs("adjective", *COLOURS, *SIZES.values()),
         signs("relation", *SIDES),
+        _SWEDISH_DISTANCES if language == "sv" else {},
     )

@@ -12,8 +12,7 @@ from kille.lab import tutors as kinds
 from kille.lab.errors import StudyError
 from kille.lab.playing import play
 from kille.lab.study import Named, Phase, Run, Study, Theory
-from kille.lab.tutors.place_words import HEADINGS, Rated, Speaker, rated
-from kille.lab.tutors.spatial_judges import Person
+from kille.lab.tutors.spatial_judges import HEADINGS, Person, Rated, Speaker, rated
 
 LESSONS = (Phase("lessons", "teach", {"rounds": 4}),)
 MISLED = Named("other", "simulated", {"calls": {"mug": "cup", "cup": "mug"}})
