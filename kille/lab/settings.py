@@ -9,10 +9,31 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-Wrong = tuple[tuple[str, ...], str]
-"""The setting in which something is wrong, by the names that lead to it; and what."""
+Key = tuple[str | int, ...]
+"""The names that lead to a value, and the numbers of the tables in a list."""
+
+
+class Problem(NamedTuple):
+    """What is wrong with a study, or probably not meant.
+
+    `key` leads to the value that is to be changed; `at` is where the mistake is, if it
+    is in another file.
+    """
+
+    key: Key
+    what: str
+    at: str = ""
+
+    def within(self, *outer: str | int) -> Problem:
+        """The same problem, of a value that is inside of another one.
+
+        >>> Problem(("kind",), "there is no such kind").within("tutors", "ann").key
+        ('tutors', 'ann', 'kind')
+        """
+        return self._replace(key=(*outer, *self.key))
+
 
 _SORTS: Mapping[type, str] = {
     str: "a text",
@@ -126,22 +147,25 @@ def filled(given: Mapping[str, Any], declared: Settings) -> dict[str, Any]:
 
 def unfit(
     given: Mapping[str, object], declared: Settings, what: str
-) -> Iterator[tuple[str, str]]:
-    """What is wrong with settings: the key, or nothing where one is missing, and why.
+) -> Iterator[Problem]:
+    """What is wrong with settings; what is missing has no key.
 
-    >>> list(unfit({"erors": 0.1}, {"errors": Setting(float, 0.0)}, "a tutor"))
-    [('erors', 'a tutor has no erors: did you mean errors?')]
+    >>> [it] = unfit({"erors": 0.1}, {"errors": Setting(float, 0.0)}, "a tutor")
+    >>> it.key, it.what
+    (('erors',), 'a tutor has no erors: did you mean errors?')
     """
     meant = set(given)
     for key, value in given.items():
         if key not in declared:
             meant.add(near(key, declared, "{}"))
-            yield key, f"{what} has no {key}: {unknown(key, declared)}"
+            told = f"{what} has no {key}: {unknown(key, declared)}"
+            yield Problem((key,), told)
         elif why := declared[key].unfit(value):
-            yield key, f"{key} of {what}: {why}"
+            yield Problem((key,), f"{key} of {what}: {why}")
     for key, one in declared.items():
         if one.needed and key not in meant:
-            yield "", f"{what} needs {key}: {one.about or 'write ' + key + ' = …'}"
+            told = f"{what} needs {key}: {one.about or f'write {key} = …'}"
+            yield Problem((), told)
 
 
 def near(name: str, known: Collection[str], told: str) -> str:

@@ -19,7 +19,7 @@ from random import Random
 from kille.lab import scenes
 from kille.lab.scenes import Scene
 from kille.lab.scenes.occasions import KINDS, ORDERS, Occasion, ordered
-from kille.lab.settings import Setting, Settings, Wrong, filled, unknown
+from kille.lab.settings import Problem, Setting, Settings, filled, unknown
 from kille.lab.study import Named, Phase, Run, Study
 from kille.lab.tutors.tutor import Task
 
@@ -78,15 +78,15 @@ _LACKING = {
 """What cannot be talked of in front of scenes of a kind."""
 
 
-def faults(phase: Phase, study: Study) -> Iterator[Wrong]:
+def faults(phase: Phase, study: Study) -> Iterator[Problem]:
     """What is wrong with a phase in this study: its tutors and scenes do not fit."""
     key = ("what",) if "what" in phase.settings else ("do",)
     for scene in study.scenes.values():
-        yield from ((key, it) for it in _unfit(phase, scene))
-    yield from ((("to",), it) for it in _of_change(phase, study))
+        yield from (Problem(key, it) for it in _unfit(phase, scene))
+    yield from (Problem(("to",), it) for it in _of_change(phase, study))
     if phase.settings.get("turns") and "rounds" in phase.settings:
         told = "rounds and turns both say how much comes: write one of them"
-        yield ("turns",), told
+        yield Problem(("turns",), told)
 
 
 def _unfit(phase: Phase, scene: Named) -> Iterator[str]:

@@ -15,7 +15,7 @@ from kille.lab.errors import StudyError
 from kille.lab.results import ExperimentError
 from kille.lab.scenes.occasions import KINDS as WORDS
 from kille.lab.scenes.occasions import Scene
-from kille.lab.settings import Setting, Settings, Wrong, filled, no_folder, unknown
+from kille.lab.settings import Problem, Setting, Settings, filled, no_folder, unknown
 from kille.lab.study import Named, Run, Study
 from kille.lab.worlds.worlds import COLOURS, FRONTS, KINDS
 from kille.sensors.sensor import SensorError
@@ -142,7 +142,7 @@ def _maker(kind: str) -> Callable[..., Scene]:
 # --- what is wrong with a scene -------------------------------------------------------
 
 
-def faults(named: Named, study: Study) -> Iterator[Wrong]:
+def faults(named: Named, study: Study) -> Iterator[Problem]:
     """What is wrong with a scene in this study: its data are not there, or too few."""
     if named.kind not in SETTINGS:
         return
@@ -154,33 +154,35 @@ def faults(named: Named, study: Study) -> Iterator[Wrong]:
         scene = opened(study, Run("", "", named.name, 0))
         yield from _empty(scene, named, study)
     except (ExperimentError, SensorError) as error:
-        yield (), str(error)
+        yield Problem((), str(error))
     except StudyError as error:
-        yield from (((), it) for it in error.faults)
+        yield from (Problem((), it) for it in error.faults)
 
 
-def _unfit(named: Named) -> Iterator[Wrong]:
+def _unfit(named: Named) -> Iterator[Problem]:
     """What is wrong with what is set of a scene."""
     if named.kind == "rendered":
         yield from _unrendered(named)
     set_ = filled(named.settings, SETTINGS[named.kind])
     if "target" in set_ and set_["target"] == set_["landmark"]:
         told = f"both target and landmark are the {set_['target']}: name two kinds"
-        yield ("target" if "target" in named.settings else "landmark",), told
+        key = "target" if "target" in named.settings else "landmark"
+        yield Problem((key,), told)
     for key in ("kinds", "hues", "rings"):
         if named.kind in ("drawn", "around") and key in set_ and not set_[key]:
-            yield (key,), f"{key} of {named.name} is empty: name some, or leave it out"
+            told = f"{key} of {named.name} is empty: name some, or leave it out"
+            yield Problem((key,), told)
 
 
-def _without_data(named: Named, study: Study) -> Iterator[Wrong]:
+def _without_data(named: Named, study: Study) -> Iterator[Problem]:
     folder = named.settings.get("folder")
     if folder is None:
         return
     if told := no_folder(study.folder / os.path.expanduser(folder)):
-        yield ("folder",), told
+        yield Problem(("folder",), told)
 
 
-def _empty(scene: Scene, named: Named, study: Study) -> Iterator[Wrong]:
+def _empty(scene: Scene, named: Named, study: Study) -> Iterator[Problem]:
     """Phases that are of what is new, where nothing is kept for later."""
     for phase in study.phases:
         if phase.settings.get("of") != "new":
@@ -188,7 +190,8 @@ def _empty(scene: Scene, named: Named, study: Study) -> Iterator[Wrong]:
         kind = WORDS[phase.settings.get("what", "nouns")]
         if not scene.round(kind, True, Random(0)):
             told = f"nothing is kept in {named.name} for the phase {phase.name}, which"
-            yield ("new",), f"{told} is of what is new: {_keeping(named)}"
+            told = f"{told} is of what is new: {_keeping(named)}"
+            yield Problem(("new",), told)
 
 
 def _keeping(named: Named) -> str:
@@ -201,7 +204,7 @@ def _keeping(named: Named) -> str:
     return f"write new = {set_['new'] + 1}"
 
 
-def _unrendered(named: Named) -> Iterator[Wrong]:
+def _unrendered(named: Named) -> Iterator[Problem]:
     """What cannot be rendered, of the things that a scene names, and how."""
     from kille.sensors.synthetic import open_synthetic
     from kille.sensors.synthetic.catalogue import NAMES
@@ -211,8 +214,9 @@ def _unrendered(named: Named) -> Iterator[Wrong]:
     things += [(key, set_[key]) for key in ("target", "landmark")]
     for key, name in things:
         if name not in NAMES:
-            yield (key,), f"there is no {name} to be rendered: {unknown(name, NAMES)}"
+            told = f"there is no {name} to be rendered: {unknown(name, NAMES)}"
+            yield Problem((key,), told)
     try:
         open_synthetic(f"synthetic:empty?faults={quote(set_['faults'])}").close()
     except SensorError as error:
-        yield ("faults",), str(error)
+        yield Problem(("faults",), str(error))

@@ -5,24 +5,22 @@ A mistake is one line: where it is, what it is, and what to do.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from kille.lab import scenes, tutors
 from kille.lab.errors import StudyError
 from kille.lab.protocols import phases
-from kille.lab.settings import Wrong
+from kille.lab.settings import Key, Problem
 from kille.lab.study import Run, Study, Theory
 from kille.lab.study_files.consent import unallowed
-from kille.lab.study_files.dialogue_length import unreached
 from kille.lab.study_files.file import data_of, study_of, text_of
-from kille.lab.study_files.lines import Key
-from kille.lab.study_files.misheard_words import misheard
-from kille.lab.study_files.named_words import names_in, unsaid
-from kille.lab.study_files.problems import Trouble, told
-from kille.lab.study_files.shape import faults
+from kille.lab.study_files.phases import unreached
+from kille.lab.study_files.problems import told
+from kille.lab.study_files.shape import STUDY, faults
 from kille.lab.study_files.theory_trials import troubles
-from kille.lab.study_files.valid_part import UNKNOWN, sound
+from kille.lab.study_files.words import misheard, names_in, unsaid
 from ttr.safety.consent import OWN_FOLDER, Consent
 
 
@@ -47,26 +45,26 @@ def check(study: Study) -> tuple[str, ...]:
     return told(_troubles(study), study.source, study.file)
 
 
-def _troubles(study: Study) -> Iterator[Trouble]:
+def _troubles(study: Study) -> Iterator[Problem]:
     """What a study must not use; or else what is wrong with its parts."""
     refused = [*unallowed(study)]
     yield from refused or _tried(study)
 
 
-def _tried(study: Study) -> Iterator[Trouble]:
+def _tried(study: Study) -> Iterator[Problem]:
     """What is wrong with the parts of a study, and with how they fit together."""
     known = [it.kind for it in study.scenes.values() if it.kind != UNKNOWN]
     eyes = {"whole" if kind in scenes.WHOLE else "simulated" for kind in known}
     of_theories = [*_of_theories(study.theories, eyes)]
     yield from of_theories
     for name, tutor in study.tutors.items():
-        yield from _at(("tutors", name), tutors.faults(tutor, study))
+        yield from (it.within("tutors", name) for it in tutors.faults(tutor, study))
     for number, phase in enumerate(study.phases):
-        yield from _at(("phases", number), phases.faults(phase, study))
+        yield from (it.within("phases", number) for it in phases.faults(phase, study))
     opened = {}
     for name, scene in study.scenes.items():
-        if wrong := [*_at(("scenes", name), scenes.faults(scene, study))]:
-            yield from wrong
+        if wrong := [*scenes.faults(scene, study)]:
+            yield from (it.within("scenes", name) for it in wrong)
         elif scene.kind != UNKNOWN:
             opened[name] = scenes.opened(study, Run("", "", name, 0))
     yield from unreached(study, opened)
@@ -79,11 +77,64 @@ def _tried(study: Study) -> Iterator[Trouble]:
 
 def _of_theories(
     theories: Mapping[str, Theory], eyes: Collection[str]
-) -> Iterator[Trouble]:
+) -> Iterator[Problem]:
     for name, theory in theories.items():
         for it in troubles(theory, eyes) if theory.mode != UNKNOWN else ():
-            yield it._replace(key=("theories", name, *it.key))
+            yield it.within("theories", name)
 
 
-def _at(key: Key, what: Iterable[Wrong]) -> Iterator[Trouble]:
-    return (Trouble((*key, *inner), it) for inner, it in what)
+# --- what is left of a study with mistakes ------------------------------------------
+
+UNKNOWN = "unknown"
+"""The kind, or mode, of what is written wrongly, of which nothing else is told."""
+
+STAND_INS: Mapping[str, Mapping[str, str]] = {
+    "theories": {"mode": UNKNOWN},
+    "tutors": {"kind": UNKNOWN},
+    "scenes": {"kind": UNKNOWN},
+    "phases": {"do": "rest"},
+}
+"""What takes the place of what is written wrongly, but named or counted by others."""
+
+PLAIN: Mapping[str, Any] = {
+    "title": "",
+    "about": "",
+    "turns": STUDY["turns"].most,
+    "seeds": 1,
+}
+"""What takes the place of wrong values; so many turns that all phases are reached."""
+
+
+def sound(data: Mapping[str, Any], wrong: Collection[Key]) -> Mapping[str, Any]:
+    """A study without what is written wrongly, so that the rest of it can be tried."""
+    left = {key: _sound(data, key, wrong) for key in ("theories", "tutors", "scenes")}
+    phases = data.get("phases")
+    named = [
+        STAND_INS["phases"]
+        if not isinstance(one, dict) or _is_wrong(("phases", number), wrong)
+        else one
+        for number, one in enumerate(phases if isinstance(phases, list) else ())
+    ]
+    plain = {
+        key: stand_in if (key,) in wrong else data[key]
+        for key, stand_in in PLAIN.items()
+        if key in data
+    }
+    return {"title": "", "seeds": 1, **plain, **left, "phases": named}
+
+
+def _sound(
+    data: Mapping[str, Any], table: str, wrong: Collection[Key]
+) -> Mapping[str, Any]:
+    """What is left of a table of named things."""
+    given = data.get(table)
+    found: dict[str, Any] = {}
+    for name, one in given.items() if isinstance(given, dict) else ():
+        is_wrong = _is_wrong((table, name), wrong)
+        found[name] = STAND_INS[table] if is_wrong else one
+    return found
+
+
+def _is_wrong(key: Key, wrong: Collection[Key]) -> bool:
+    """Whether something is wrong with what has this key, or in it."""
+    return any(it[: len(key)] == key for it in wrong)

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from kille.dialogue.sources import FILES
 from kille.lab.errors import StudyError
+from kille.lab.settings import Key, Problem
 from kille.lab.study import Study, Theory
-from kille.lab.study_files.lines import Key
-from kille.lab.study_files.problems import Trouble, told
+from kille.lab.study_files.problems import told
 from ttr.safety.consent import NotAllowedError, check_called
 
 
@@ -28,7 +28,7 @@ def check_allowed(study: Study) -> None:
         raise StudyError(told(found, study.source, study.file))
 
 
-def unallowed(study: Study) -> Iterator[Trouble]:
+def unallowed(study: Study) -> Iterator[Problem]:
     """What a study must not use; nothing of one that was made in Python."""
     consent = study.consent
     if consent is None:
@@ -83,8 +83,8 @@ def _ending(path: str) -> str:
     return ending if ending in {Path(it).suffix for it in FILES} else ".ttr"
 
 
-def _refused(key: Key, check: Callable[[str], None], name: str) -> Iterator[Trouble]:
+def _refused(key: Key, check: Callable[[str], None], name: str) -> Iterator[Problem]:
     try:
         check(name)
     except NotAllowedError as error:
-        yield Trouble(key, error.message)
+        yield Problem(key, error.message)

@@ -16,10 +16,9 @@ from kille.dialogue.parsing import Grammar
 from kille.dialogue.sources import FILES, STRATEGIES
 from kille.dialogue.strategies import strategy
 from kille.lab.own_code import why
-from kille.lab.settings import no_folder, unknown
+from kille.lab.settings import Key, Problem, no_folder, unknown
 from kille.lab.study import Theory
-from kille.lab.study_files.lines import Key, line_of, lines_of
-from kille.lab.study_files.problems import Trouble
+from kille.lab.study_files.problems import line_of, lines_of
 from kille.lab.theories.games import language_of
 from kille.lab.theories.meanings import meanings_of
 from ttr import TTRError
@@ -53,19 +52,19 @@ _ODD = (ValueError, TypeError, AttributeError, LookupError)
 """What becomes of tables that are not what a lexicon is made of."""
 
 
-def of_language(theory: Theory) -> Iterator[Trouble]:
+def of_language(theory: Theory) -> Iterator[Problem]:
     """What is wrong with the grammar and the lexicon in a theory's own folder."""
     if theory.grammar is None:
         return
     if told := no_folder(theory.grammar):
         hint = ": name the folder that it is in" if theory.grammar.is_file() else ""
-        yield Trouble(_KEY, f"{told}{hint}")
+        yield Problem(_KEY, f"{told}{hint}")
         return
     own = [theory.grammar / file.format(theory.language) for file in FILES]
     if not any(file.is_file() for file in (*own, theory.grammar / STRATEGIES)):
         names = " or ".join(file.name for file in own)
         told = f"expected {names} in {theory.grammar}, found neither"
-        yield Trouble(_KEY, f"{told}{_others(theory)}")
+        yield Problem(_KEY, f"{told}{_others(theory)}")
         return
     grammar, words = own
     wrong = [*_of_lexicon(theory, words)] if words.is_file() else []
@@ -75,7 +74,7 @@ def of_language(theory: Theory) -> Iterator[Trouble]:
         yield from _of_grammar(theory, grammar, texts)
 
 
-def of_strategies(theory: Theory) -> Iterator[Trouble]:
+def of_strategies(theory: Theory) -> Iterator[Problem]:
     """What is wrong with a file of strategies in a theory's own folder."""
     if theory.grammar is None or not (theory.grammar / STRATEGIES).is_file():
         return
@@ -83,7 +82,7 @@ def of_strategies(theory: Theory) -> Iterator[Trouble]:
         strategy(theory.mode, theory.wording, language_of(theory))
     except (OSError, *_ODD) as error:
         told = f"these strategies cannot be used: {why(error)}"
-        yield Trouble(_KEY, told, f"{theory.grammar / STRATEGIES}:1")
+        yield Problem(_KEY, told, f"{theory.grammar / STRATEGIES}:1")
 
 
 def _others(theory: Theory) -> str:
@@ -95,51 +94,51 @@ def _others(theory: Theory) -> str:
     return ""
 
 
-def _of_grammar(theory: Theory, file: Path, texts: Iterable[str]) -> Iterator[Trouble]:
+def _of_grammar(theory: Theory, file: Path, texts: Iterable[str]) -> Iterator[Problem]:
     language = language_of(theory)
     try:
         grammar = Grammar(grammar_text(language))
         grammar.check_terminals()
         grammar.parse("a")
     except (OSError, UnicodeDecodeError) as error:
-        yield Trouble(_KEY, why_unread(file.name, error), f"{file}:1")
+        yield Problem(_KEY, why_unread(file.name, error), f"{file}:1")
         return
     except GrammarError as error:
         what = str(error).partition("\n")[0]
         at = f"{file}:{_line_in(error)}"
-        yield Trouble(_KEY, f"this grammar does not read: {what}", at)
+        yield Problem(_KEY, f"this grammar does not read: {what}", at)
         return
     for text in texts:
         try:
             understand(text, language, types=meanings_of(theory))
         except GrammarError as error:
             told = f"this grammar cannot be used for “{text}”: {error}"
-            yield Trouble(_KEY, told, f"{file}:1")
+            yield Problem(_KEY, told, f"{file}:1")
             return
         except (TTRError, *_ODD) as error:
             told = f"this grammar makes of “{text}” what tutor.ttr has no type for: "
-            yield Trouble(_KEY, f"{told}{error}", f"{file}:1")
+            yield Problem(_KEY, f"{told}{error}", f"{file}:1")
             return
 
 
-def _of_lexicon(theory: Theory, file: Path) -> Iterator[Trouble]:
+def _of_lexicon(theory: Theory, file: Path) -> Iterator[Problem]:
     packaged, at = lexicon(theory.language), f"{file}:1"
     try:
         own = lexicon(language_of(theory), theory.wording or "paper")
     except tomllib.TOMLDecodeError as error:
         where = f"{file}:{_line_in(error)}"
-        yield Trouble(_KEY, f"this lexicon is no TOML: {error}", where)
+        yield Problem(_KEY, f"this lexicon is no TOML: {error}", where)
     except (OSError, UnicodeDecodeError) as error:
-        yield Trouble(_KEY, why_unread(file.name, error), at)
+        yield Problem(_KEY, why_unread(file.name, error), at)
     except KeyError as error:
         told = f"this lexicon lacks {error.args[0]}, which that of the package has"
-        yield Trouble(_KEY, told, at)
+        yield Problem(_KEY, told, at)
     except _ODD as error:
-        yield Trouble(_KEY, f"this lexicon does not read: {error}", at)
+        yield Problem(_KEY, f"this lexicon does not read: {error}", at)
     else:
         lines = lines_of(read_text(file, SETTINGS))
         for key, what in _of_wordings(own, packaged):
-            yield Trouble(_KEY, what, f"{file}:{line_of(lines, key)}")
+            yield Problem(_KEY, what, f"{file}:{line_of(lines, key)}")
 
 
 def _of_wordings(own: Lexicon, packaged: Lexicon) -> Iterator[tuple[Key, str]]:

@@ -10,9 +10,8 @@ from kille.lab.own_code import line_in
 from kille.lab.results import ExperimentError
 from kille.lab.scenes import Occasion
 from kille.lab.scenes.theatre import Staged, Stand, Theatre
-from kille.lab.settings import no_file, shown, unknown
+from kille.lab.settings import Problem, no_file, shown, unknown
 from kille.lab.study import Theory
-from kille.lab.study_files.problems import Trouble
 from kille.lab.theories.classifiers import NAMES, learners_of, words_of
 from kille.lab.worlds.worlds import World
 from kille.perception.objects import ObjectMemory
@@ -20,24 +19,24 @@ from kille.perception.relations import RelationMemory
 from kille.scene import Configuration, Percept
 
 
-def of_learners(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+def of_learners(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """What is wrong with what judges the words, whether `simulated` or `whole`."""
     for kind in theory.learners:
         for seen in sorted(eyes):
             yield from _of_learner(kind, theory, seen)
 
 
-def _of_learner(kind: str, theory: Theory, seen: str) -> Iterator[Trouble]:
+def _of_learner(kind: str, theory: Theory, seen: str) -> Iterator[Problem]:
     name = theory.learners[kind]
     known = tuple(NAMES[seen][kind])
     key = ("learners", kind)
     path, colon, _ = name.rpartition(":")
     if name not in known and (not colon or known == ("default",)):
         told = f"nothing named {shown(name)} judges {kind}s {_SEEN[seen]}"
-        yield Trouble(key, f"{told}: {_meant(name, known)}")
+        yield Problem(key, f"{told}: {_meant(name, known)}")
         return
     if path.endswith(".py") and (why_not := no_file(Path(path))):
-        yield Trouble(key, why_not)
+        yield Problem(key, why_not)
         return
     alone = Theory("", learners={kind: name}, consent=theory.consent)
     try:
@@ -52,7 +51,7 @@ def _of_learner(kind: str, theory: Theory, seen: str) -> Iterator[Trouble]:
             _try_relation(relations)
     except ExperimentError as error:
         line = line_in(path, error.__cause__)
-        yield Trouble(key, str(error), f"{path}:{line}" if line else "")
+        yield Problem(key, str(error), f"{path}:{line}" if line else "")
 
 
 def _try_noun(objects: ObjectMemory) -> None:

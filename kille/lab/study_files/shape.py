@@ -11,10 +11,16 @@ from kille.dialogue.meanings import KINDS
 from kille.dialogue.strategies import MODES, WORDINGS
 from kille.lab import scenes, tutors
 from kille.lab.protocols import phases
-from kille.lab.settings import Setting, Settings, near, shown, unfit, unknown
+from kille.lab.settings import (
+    Problem,
+    Setting,
+    Settings,
+    near,
+    shown,
+    unfit,
+    unknown,
+)
 from kille.lab.study import MAIN_MEASURES, PERSON
-from kille.lab.study_files.lines import Key
-from kille.lab.study_files.problems import Trouble
 
 MOST_SEEDS = 100_000
 """Dialogues of one theory, tutor and scene; the power of any test is 1 long before."""
@@ -64,25 +70,22 @@ THEORY: Settings = {
 LEARNERS: Settings = {kind: Setting() for kind in KINDS}
 
 
-def faults(data: Mapping[str, Any]) -> Iterator[Trouble]:
+def faults(data: Mapping[str, Any]) -> Iterator[Problem]:
     """What is wrong with how a study is written."""
-    for key, what in _faults(data):
-        yield Trouble(key, what)
-
-
-def _faults(data: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
     shape = dict(data)
     if not isinstance(shape.get("seeds", []), list):
         shape["seeds"] = (
             [min(shape["seeds"], 1)] if _is_count(data) else [data["seeds"]]
         )
-    for key, what in unfit(shape, STUDY, "a study"):
-        told = key in STUDY and STUDY[key].needed
-        yield (key,) if key else (), f"{what}: {STUDY[key].about}" if told else what
+    for it in unfit(shape, STUDY, "a study"):
+        key = str(it.key[0]) if it.key else ""
+        is_needed = key in STUDY and STUDY[key].needed
+        hint = f": {STUDY[key].about}" if is_needed else ""
+        yield it._replace(what=f"{it.what}{hint}")
     if _is_count(data):
         yield from _wrong_count(data["seeds"])
     for what in _wrong_contrasts(data):
-        yield ("contrasts",), what
+        yield Problem(("contrasts",), what)
     yield from _each(data, "theories", _wrong_theory)
     kinds = (
         ("tutors", "kind of tutor", tutors.SETTINGS),
@@ -93,8 +96,8 @@ def _faults(data: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
     phases = data.get("phases")
     for number, phase in enumerate(phases if isinstance(phases, list) else []):
         if isinstance(phase, dict):
-            for inner, what in _wrong_phase(f"phase {number + 1}", phase):
-                yield ("phases", number, *inner), what
+            for it in _wrong_phase(f"phase {number + 1}", phase):
+                yield it.within("phases", number)
 
 
 def _is_count(data: Mapping[str, Any]) -> bool:
@@ -103,12 +106,13 @@ def _is_count(data: Mapping[str, Any]) -> bool:
     return isinstance(seeds, int) and not isinstance(seeds, bool)
 
 
-def _wrong_count(seeds: int) -> Iterator[tuple[Key, str]]:
+def _wrong_count(seeds: int) -> Iterator[Problem]:
     if seeds == 0:
-        yield ("seeds",), "there is no seed, so nothing to play: write seeds = 20"
+        told = "there is no seed, so nothing to play: write seeds = 20"
+        yield Problem(("seeds",), told)
     elif seeds > MOST_SEEDS:
         told = f"so many as {seeds} are more than anybody plays: write {MOST_SEEDS}"
-        yield ("seeds",), f"{told} at most, or a list of seeds"
+        yield Problem(("seeds",), f"{told} at most, or a list of seeds")
 
 
 def _wrong_contrasts(data: Mapping[str, Any]) -> Iterator[str]:
@@ -130,73 +134,73 @@ def _wrong_contrasts(data: Mapping[str, Any]) -> Iterator[str]:
                 )
 
 
-Wrong = Callable[[str, Mapping[str, Any]], Iterator[tuple[Key, str]]]
+Check = Callable[[str, Mapping[str, Any]], Iterator[Problem]]
+"""What is wrong with something of this name, as it is written."""
 
 
-def _each(
-    data: Mapping[str, Any], table: str, wrong: Wrong
-) -> Iterator[tuple[Key, str]]:
+def _each(data: Mapping[str, Any], table: str, check: Check) -> Iterator[Problem]:
     """What is wrong with each thing of a table of named things."""
     named = data.get(table)
     if not isinstance(named, dict):
         return
     if not named:
-        yield (table,), f"there is nothing in {table}: write [{table}.NAME]"
+        yield Problem((table,), f"there is nothing in {table}: write [{table}.NAME]")
     for name, one in named.items():
         if not re.fullmatch(r"[^/\s]([^/]*[^/\s])?", name) or not name.isprintable():
-            yield (table, name), f"{name!r} is no name: expected a word without a slash"
+            told = f"{name!r} is no name: expected a word without a slash"
+            yield Problem((table, name), told)
         if not isinstance(one, dict):
-            yield (table, name), f"{name} of {table} is a table: write [{table}.{name}]"
+            told = f"{name} of {table} is a table: write [{table}.{name}]"
+            yield Problem((table, name), told)
             continue
-        for key, what in wrong(name, one):
-            yield (table, name, *key), what
+        for it in check(name, one):
+            yield it.within(table, name)
 
 
-def _wrong_theory(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
-    for key, what in unfit(given, THEORY, f"the theory {name}"):
-        yield (key,), what
+def _wrong_theory(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
+    yield from unfit(given, THEORY, f"the theory {name}")
     types = given.get("meanings")
     for key, value in types.items() if isinstance(types, dict) else ():
         if not isinstance(value, str):
             told = f'a type is written as a text, {key} = "[…]", found {shown(value)}'
-            yield ("meanings", key), told
+            yield Problem(("meanings", key), told)
     learners = given.get("learners")
     if isinstance(learners, dict):
-        for key, what in unfit(learners, LEARNERS, f"learners of {name}"):
-            yield ("learners", key), what
+        for it in unfit(learners, LEARNERS, f"learners of {name}"):
+            yield it.within("learners")
 
 
-def _wrong_phase(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+def _wrong_phase(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
     called = given.get("name", "")
     if why := Setting().unfit(called):
-        yield ("name",), f"name of {name}: {why}"
+        yield Problem(("name",), f"name of {name}: {why}")
     elif not called.isprintable():
-        yield ("name",), f"name of {name}: expected one line, found {called!r}"
+        told = f"name of {name}: expected one line, found {called!r}"
+        yield Problem(("name",), told)
     yield from _of_kind("do", "phase to do", phases.SETTINGS)(name, given)
 
 
-def _of_kind(key_of_kind: str, what: str, known: Mapping[str, Settings]) -> Wrong:
+def _of_kind(key_of_kind: str, what: str, known: Mapping[str, Settings]) -> Check:
     """What is wrong with something whose kind says what may be set of it."""
 
-    def wrong(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+    def check(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
         kind = given.get(key_of_kind)
         if kind is None:
             slip = near(key_of_kind, [*given], "{}")
             found = f", and has {slip}" if slip else ""
             told = f"{name} needs {key_of_kind}{found}: {_one_of(known)}"
-            yield (slip,) if slip else (), told
+            yield Problem((slip,) if slip else (), told)
             return
         if not isinstance(kind, str) or kind not in known:
             meant = near(str(kind), known, "did you mean {}? ")
             told = f"{name}: there is no {what} {shown(kind)}: {meant}{_one_of(known)}"
-            yield (key_of_kind,), told
+            yield Problem((key_of_kind,), told)
             return
         own = {key: it for key, it in given.items() if key not in APART[key_of_kind]}
         named = f'{name} ({key_of_kind} = "{kind}")'
-        for key, why in unfit(own, known[kind], named):
-            yield (key,) if key else (), why
+        yield from unfit(own, known[kind], named)
 
-    return wrong
+    return check
 
 
 APART = {"kind": ("kind",), "do": ("do", "name")}

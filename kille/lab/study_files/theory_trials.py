@@ -16,12 +16,10 @@ from kille.dialogue.tutoring import hear, tutoring
 from kille.lab.errors import TheoryError
 from kille.lab.own_code import line_in, why
 from kille.lab.results import ExperimentError
-from kille.lab.settings import no_file
+from kille.lab.settings import Key, Problem, no_file
 from kille.lab.study import PERSON, Theory
 from kille.lab.study_files.languages import of_language, of_strategies
 from kille.lab.study_files.learners import of_learners
-from kille.lab.study_files.lines import Key
-from kille.lab.study_files.problems import Trouble
 from kille.lab.theories.games import (
     changed,
     game_of,
@@ -44,7 +42,7 @@ _OWN = ("meanings", "rules", "without", "learners")
 """What a theory may have of its own that fails only when it is played."""
 
 
-def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """All that is wrong with a theory that is `simulated`, or of the `whole` robot."""
     if theory.mode == PERSON:
         yield from _of_person(theory)
@@ -55,10 +53,10 @@ def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
         yield from _of_all_else(theory, eyes)
 
 
-def _of_all_else(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+def _of_all_else(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """What is wrong with a theory whose meanings can be read."""
     found = [*of_strategies(theory)] or [
-        Trouble(("strategy", *key), it) for key, it in unsettable(theory)
+        it.within("strategy") for it in unsettable(theory)
     ]
     found += of_learners(theory, eyes)
     found += of_language(theory)
@@ -69,22 +67,22 @@ def _of_all_else(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
         yield from _tried(theory if simulated else replace(theory, learners={}))
 
 
-def _of_person(theory: Theory) -> Iterator[Trouble]:
+def _of_person(theory: Theory) -> Iterator[Problem]:
     for key in ("strategy", "learners", "rules", "without", "grammar", "meanings"):
         if getattr(theory, key):
             told = f"{theory.name} is played by a person, who has no {key}"
-            yield Trouble((key,), told)
+            yield Problem((key,), told)
 
 
 # --- meanings -------------------------------------------------------------------------
 
 
-def _of_meanings(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+def _of_meanings(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """What is wrong with meanings of one's own, or else with what is made of them."""
     key: Key = ("meanings",)
     own = theory.meanings
     if isinstance(own, str) and (told := no_file(Path(own))):
-        yield Trouble(key, told)
+        yield Problem(key, told)
         return
     try:
         if isinstance(own, str) and (failing := [*_failing(key, Path(own), theory)]):
@@ -97,15 +95,15 @@ def _of_meanings(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
         yield from found if isinstance(own, str) else _inline(own, error)
     except Exception as error:
         told = f"the games cannot be made of it: {why(error)}"
-        yield Trouble(key, told, f"{own}:1" if isinstance(own, str) else "")
+        yield Problem(key, told, f"{own}:1" if isinstance(own, str) else "")
 
 
-def _inline(types: Mapping[str, str], error: TTRError) -> Iterator[Trouble]:
+def _inline(types: Mapping[str, str], error: TTRError) -> Iterator[Problem]:
     """Mistakes in types that stand in the study, each at the type where it is."""
     for one in error.errors if isinstance(error, MistakesError) else (error,):
         line = one.span.text if one.span else one.message
         hint = f" ({one.hint})" if one.hint else ""
-        yield Trouble(_key_of(types, line), f"{one.message}{hint}")
+        yield Problem(_key_of(types, line), f"{one.message}{hint}")
 
 
 def _key_of(types: Mapping[str, str], told: str) -> Key:
@@ -117,7 +115,7 @@ def _key_of(types: Mapping[str, str], told: str) -> Key:
 # --- rules ----------------------------------------------------------------------------
 
 
-def _of_rules(theory: Theory) -> Iterator[Trouble]:
+def _of_rules(theory: Theory) -> Iterator[Problem]:
     if not (theory.rules or theory.without):
         return
     key: Key = ("rules",) if theory.rules else ("without",)
@@ -126,7 +124,7 @@ def _of_rules(theory: Theory) -> Iterator[Trouble]:
         if failing := [*_failing(key, Path(theory.rules), theory)] if of_file else []:
             yield from failing
             return
-        if wanting := [Trouble(("without",), it) for it in absent(theory)]:
+        if wanting := [Problem(("without",), it) for it in absent(theory)]:
             yield from wanting
             return
         types = meanings_of(theory)
@@ -135,25 +133,25 @@ def _of_rules(theory: Theory) -> Iterator[Trouble]:
         wrong = (it for it in errors if not _is_moot(it, packaged))
         yield from (_of_fault(key, it) for it in wrong)
     except TheoryError as error:
-        yield Trouble(key, error.message, error.at)
+        yield Problem(key, error.message, error.at)
     except TTRError as error:
         yield from _of_error(key, error)
 
 
-def _of_error(key: Key, error: TTRError) -> Iterator[Trouble]:
+def _of_error(key: Key, error: TTRError) -> Iterator[Problem]:
     for one in error.errors if isinstance(error, MistakesError) else (error,):
         hint = f" ({one.hint})" if one.hint else ""
-        yield Trouble(key, f"{one.message}{hint}", _place(one.span))
+        yield Problem(key, f"{one.message}{hint}", _place(one.span))
 
 
-def _failing(key: Key, file: Path, theory: Theory) -> Iterator[Trouble]:
+def _failing(key: Key, file: Path, theory: Theory) -> Iterator[Problem]:
     """What a theory file claims of itself and does not hold."""
     consent = theory.consent or OWN_FOLDER
     report = check(load(file, allow=consent.folders))
     for failure in report.failures:
         because = f", {failure.why}" if failure.why else ""
         told = f"{failure.check.text} does not hold: found {failure.found}{because}"
-        yield Trouble(key, told, _place(failure.check.span))
+        yield Problem(key, told, _place(failure.check.span))
     yield from (_of_fault(key, it) for it in report.faults if _is_error(it))
 
 
@@ -166,9 +164,9 @@ def _is_moot(fault: Fault, packaged: Collection[Rule]) -> bool:
     return fault.sort in NEVER and fault.rule in packaged
 
 
-def _of_fault(key: Key, fault: Fault) -> Trouble:
+def _of_fault(key: Key, fault: Fault) -> Problem:
     hint = f": {fault.hint}" if fault.hint else ""
-    return Trouble(key, f"{fault.message}{hint}", _place(fault.span))
+    return Problem(key, f"{fault.message}{hint}", _place(fault.span))
 
 
 def _place(span: Span | None) -> str:
@@ -197,7 +195,7 @@ _SAID = {
 """The number of a thing that is pointed at, and what is said of it, by the language."""
 
 
-def _tried(theory: Theory) -> Iterator[Trouble]:
+def _tried(theory: Theory) -> Iterator[Problem]:
     """Why the theory fails at a few sentences, whatever code of its own raises."""
     world = World(_THINGS)
     text = ""
@@ -216,7 +214,7 @@ def _tried(theory: Theory) -> Iterator[Trouble]:
         if isinstance(theory.meanings, Mapping):
             key = _key_of(theory.meanings, str(cause))
         where = f"fails at “{text}”" if text else "cannot begin"
-        yield Trouble(key, f"tried out, it {where}: {_why(cause, theory)}")
+        yield Problem(key, f"tried out, it {where}: {_why(cause, theory)}")
 
 
 def _why(error: BaseException, theory: Theory) -> str:

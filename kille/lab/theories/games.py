@@ -14,7 +14,7 @@ from kille.agent.agent import Agent
 from kille.dialogue.sources import language_in
 from kille.dialogue.strategies import strategy
 from kille.lab.errors import TheoryError
-from kille.lab.settings import Setting, shown, unknown
+from kille.lab.settings import Problem, Setting, shown, unknown
 from kille.lab.study import Theory
 from kille.lab.theories.classifiers import learners_of, words_of
 from kille.lab.theories.meanings import meanings_of
@@ -106,12 +106,12 @@ def strategy_of(theory: Theory) -> Record:
     plain = strategy(theory.mode, theory.wording, language_of(theory))
     wrong = next(unsettable(theory), None)
     if wrong is not None:
-        raise TheoryError(wrong[1])
+        raise TheoryError(wrong.what)
     return replace(plain, dict(_numbers(theory.strategy)))
 
 
-def unsettable(theory: Theory) -> Iterator[tuple[tuple[str, ...], str]]:
-    """What the strategy cannot be set to: the names that lead to it, and why."""
+def unsettable(theory: Theory) -> Iterator[Problem]:
+    """What the strategy cannot be set to, and why."""
     yield from _unsettable(
         theory.strategy, strategy(theory.mode, theory.wording, language_of(theory)), ()
     )
@@ -119,25 +119,24 @@ def unsettable(theory: Theory) -> Iterator[tuple[tuple[str, ...], str]]:
 
 def _unsettable(
     given: Mapping[str, Any], known: Record, outer: tuple[str, ...]
-) -> Iterator[tuple[tuple[str, ...], str]]:
+) -> Iterator[Problem]:
     for name, value in given.items():
         here = (*outer, name)
         path = ".".join(here)
         if name not in known:
-            yield here, f"a strategy has no {path}: {unknown(name, tuple(known))}"
+            told = f"a strategy has no {path}: {unknown(name, tuple(known))}"
+            yield Problem(here, told)
         elif isinstance(value, dict) and isinstance(known[name], Record):
             yield from _unsettable(value, known[name], here)
         elif isinstance(known[name], str):
-            yield (
-                here,
-                f"the {name} of a strategy is that of the theory: write it there",
-            )
+            told = f"the {name} of a strategy is that of the theory: write it there"
+            yield Problem(here, told)
         elif isinstance(known[name], Record):
             inner = ", ".join(known[name])
             told = f"is a table of {inner}, found {shown(value)}"
-            yield here, f"{path} of a strategy {told}"
+            yield Problem(here, f"{path} of a strategy {told}")
         elif why := _NUMBERS.get(here[0], _CHANCE).unfit(value):
-            yield here, f"{path} of a strategy: {why}"
+            yield Problem(here, f"{path} of a strategy: {why}")
 
 
 _CHANCE = Setting(float, most=2.0)

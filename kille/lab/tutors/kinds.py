@@ -14,9 +14,9 @@ from typing import Any
 from kille.lab.errors import StudyError
 from kille.lab.results import ExperimentError
 from kille.lab.settings import (
+    Problem,
     Setting,
     Settings,
-    Wrong,
     no_file,
     no_folder,
     shown,
@@ -83,7 +83,7 @@ SETTINGS: Mapping[str, Settings] = {
 """What may be set of tutors, kind by kind."""
 
 
-def faults(named: Named, study: Study) -> Iterator[Wrong]:
+def faults(named: Named, study: Study) -> Iterator[Problem]:
     """What is wrong with a tutor in this study, each with the setting it is in."""
     match named.kind:
         case "scripted":
@@ -99,8 +99,8 @@ def faults(named: Named, study: Study) -> Iterator[Wrong]:
             yield from _at("of", _of_several(named, study))
 
 
-def _at(key: str, what: Iterator[str]) -> Iterator[Wrong]:
-    return (((key,), it) for it in what)
+def _at(key: str, what: Iterator[str]) -> Iterator[Problem]:
+    return (Problem((key,), it) for it in what)
 
 
 def _of_script(name: str, study: Study) -> Iterator[str]:
@@ -130,11 +130,11 @@ def _of_people(name: str, study: Study) -> Iterator[str]:
         yield str(error)
 
 
-def _of_calls(named: Named) -> Iterator[Wrong]:
+def _of_calls(named: Named) -> Iterator[Problem]:
     for one, called in named.settings.get("calls", {}).items():
         if not isinstance(called, str):
             told = f'a {one} is called a text, as in {{ {one} = "cup" }}'
-            yield ("calls", one), f"{told}, and not {shown(called)}"
+            yield Problem(("calls", one), f"{told}, and not {shown(called)}")
 
 
 def _of_several(named: Named, study: Study) -> Iterator[str]:
@@ -151,11 +151,12 @@ def _of_several(named: Named, study: Study) -> Iterator[str]:
 # --- tutors of one's own --------------------------------------------------------------
 
 
-def _of_own(named: Named, study: Study) -> Iterator[Wrong]:
+def _of_own(named: Named, study: Study) -> Iterator[Problem]:
     """Why a tutor of one's own cannot be made, if he cannot."""
     settings = named.settings.get("settings", {})
     if taken := [it for it in ("name", "words") if it in settings]:
-        yield ("settings", taken[0]), f"{taken[0]} is not to be set: the study gives it"
+        told = f"{taken[0]} is not to be set: the study gives it"
+        yield Problem(("settings", taken[0]), told)
         return
     given = {"name": named.name, "words": _words(study), **settings}
     yield from _at("make", _of_made(named.settings["make"], given, study))

@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from kille.lab.scenes import opened
+from kille.lab.settings import Problem
 from kille.lab.study import Run, Study
-from kille.lab.study_files.problems import Trouble, told
+from kille.lab.study_files.problems import told
 from kille.lab.study_files.warnings import phases, scenes, theories, tutors
 
 
@@ -20,7 +21,7 @@ def doubts(study: Study) -> tuple[str, ...]:
     return told(_doubts(study), study.source, study.file)
 
 
-def _doubts(study: Study) -> Iterator[Trouble]:
+def _doubts(study: Study) -> Iterator[Problem]:
     seen = {name: opened(study, Run("", "", name, 0)) for name in study.scenes}
     yield from theories.doubts(study)
     yield from tutors.doubts(study, seen)

@@ -6,17 +6,16 @@ from collections.abc import Iterator, Mapping
 from random import Random
 
 from kille.lab.scenes import Scene
+from kille.lab.settings import Problem
 from kille.lab.study import PERSON, Study
-from kille.lab.study_files.dialogue_length import begins
-from kille.lab.study_files.named_words import SPEAKING
-from kille.lab.study_files.problems import Trouble
-from kille.lab.study_files.warnings.topics import TEACHING, is_plain, kind_of, kinds_of
+from kille.lab.study_files.phases import TEACHING, begins, is_plain, kind_of, kinds_of
 from kille.lab.study_files.warnings.tutors import lines_of
+from kille.lab.study_files.words import SPEAKING
 
 _ASKING = ("ask", "practise", "find")
 
 
-def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """What is probably not meant in the phases of a study."""
     yield from _unmeasured(study)
     if any(theory.mode != PERSON for theory in study.theories.values()):
@@ -27,7 +26,7 @@ def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
     yield from _cut_short(study, opened)
 
 
-def _unmeasured(study: Study) -> Iterator[Trouble]:
+def _unmeasured(study: Study) -> Iterator[Problem]:
     """That nothing is asked to which an answer is right or wrong."""
     asked = any(phase.do in _ASKING for phase in study.phases)
     kinds = {tutor.kind for tutor in study.tutors.values()}
@@ -37,10 +36,10 @@ def _unmeasured(study: Study) -> Iterator[Trouble]:
     marks = {line.mark for it in scripts for line in lines_of(it, study)}
     if "S>" not in marks:
         told = 'nothing is asked, so that no answers are measured: write do = "ask"'
-        yield Trouble(("phases",), told)
+        yield Problem(("phases",), told)
 
 
-def _untaught(study: Study) -> Iterator[Trouble]:
+def _untaught(study: Study) -> Iterator[Problem]:
     """Phases in which a robot needs words of a kind of which none is ever taught."""
     taught = {kind_of(it) for it in study.phases if it.do in TEACHING}
     if any(it.settings.get("colours") != "taught" for it in study.scenes.values()):
@@ -49,10 +48,10 @@ def _untaught(study: Study) -> Iterator[Trouble]:
         for kind in kinds_of(phase) if phase.do in ("ask", "find") else ():
             if kind not in taught:
                 told = f"{phase.name} asks for {kind}s, which no phase teaches"
-                yield Trouble(("phases", number), told)
+                yield Problem(("phases", number), told)
 
 
-def _nameless(study: Study) -> Iterator[Trouble]:
+def _nameless(study: Study) -> Iterator[Problem]:
     """The first phase about places before which no nouns are taught.
 
     Whoever has no noun for a landmark cannot say where something is.
@@ -65,11 +64,11 @@ def _nameless(study: Study) -> Iterator[Trouble]:
         if kind_of(phase) == "relation":
             told = f"no nouns are taught before {phase.name}, and without those of the"
             told += " landmarks the robot says of nothing where it is"
-            yield Trouble(("phases", number), told)
+            yield Problem(("phases", number), told)
             return
 
 
-def _faceless(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+def _faceless(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """Phases that say which way things face, where nothing has a front."""
     for number, phase in enumerate(study.phases):
         for name, scene in opened.items() if phase.do == "align" else ():
@@ -77,10 +76,10 @@ def _faceless(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
             things = [it.world.thing(x) for it in shown for x in it.world.in_view]
             if not any(thing.front for thing in things):
                 told = f"nothing in {name} has a front, so that nothing is said in"
-                yield Trouble(("phases", number), f"{told} {phase.name}")
+                yield Problem(("phases", number), f"{told} {phase.name}")
 
 
-def _known_before(study: Study) -> Iterator[Trouble]:
+def _known_before(study: Study) -> Iterator[Problem]:
     """Phases of what is new in which that has been taught before.
 
     Who asks for what is not new as well knows that there are two sorts of things.
@@ -96,14 +95,14 @@ def _known_before(study: Study) -> Iterator[Trouble]:
         kind = kind_of(phase)
         if phase.do == "ask" and kind in before.keys() - both:
             told = f"what is new in {phase.name} has been taught in {before[kind]}"
-            yield Trouble(("phases", number, "of"), told)
+            yield Problem(("phases", number, "of"), told)
         if phase.do in TEACHING:
             before.setdefault(kind, phase.name)
 
 
-def _cut_short(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+def _cut_short(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """That dialogues end before all is done."""
     needed = max((begins(study, scene)[-1] for scene in opened.values()), default=0)
     if needed > study.turns:
         told = f"a dialogue takes {needed} turns at least, and ends after {study.turns}"
-        yield Trouble(("turns",), f"{told}: write turns = {needed} or more")
+        yield Problem(("turns",), f"{told}: write turns = {needed} or more")

@@ -8,13 +8,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from kille.lab.scenes import SETTINGS, Scene
 from kille.lab.scenes.captured import Captured
 from kille.lab.scenes.statements import Statements
-from kille.lab.settings import filled
+from kille.lab.settings import Problem, filled
 from kille.lab.study import Named, Study
-from kille.lab.study_files.problems import Trouble
-from kille.lab.study_files.warnings.topics import TEACHING, kind_of
+from kille.lab.study_files.phases import TEACHING, kind_of
 
 
-def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """What is probably not meant in the scenes of a study."""
     for name, scene in study.scenes.items():
         pictured = scene.kind in ("pictures", "statements")
@@ -23,18 +22,18 @@ def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
             *(_fewer(scene, opened[name], study) if pictured else ()),
             *_less_in_view(scene, study),
         )
-        for key, what in found:
-            yield Trouble(("scenes", name, key), what)
+        yield from (it.within("scenes", name) for it in found)
 
 
-def _unshifted(scene: Named, study: Study) -> Iterator[tuple[str, str]]:
+def _unshifted(scene: Named, study: Study) -> Iterator[Problem]:
     """A landmark that moves when it is not asked about."""
     asked = [it for it in study.phases if it.settings.get("of") == "new"]
     if scene.settings.get("shift") and "relation" not in map(kind_of, asked):
-        yield "shift", 'the landmark moves for relations of = "new", which none are'
+        told = 'the landmark moves for relations of = "new", which none are'
+        yield Problem(("shift",), told)
 
 
-def _fewer(scene: Named, opened: Scene, study: Study) -> Iterator[tuple[str, str]]:
+def _fewer(scene: Named, opened: Scene, study: Study) -> Iterator[Problem]:
     """Words of which the data have fewer examples than are to be taught and kept."""
     taught, kept = (Counter(it) for it in _examples(opened))
     set_ = filled(scene.settings, SETTINGS[scene.kind])
@@ -43,7 +42,7 @@ def _fewer(scene: Named, opened: Scene, study: Study) -> Iterator[tuple[str, str
         for key, found in (("each", taught[word]), ("new", kept[word])):
             if found < set_[key] and (key == "each" or is_asked):
                 told = f"of {word} there are {found} only, and not {key} = {set_[key]}"
-                yield key if key in scene.settings else "folder", told
+                yield Problem((key if key in scene.settings else "folder",), told)
 
 
 def _examples(opened: Scene) -> tuple[Sequence[str], Sequence[str]]:
@@ -56,7 +55,7 @@ def _examples(opened: Scene) -> tuple[Sequence[str], Sequence[str]]:
     return (), ()
 
 
-def _less_in_view(scene: Named, study: Study) -> Iterator[tuple[str, str]]:
+def _less_in_view(scene: Named, study: Study) -> Iterator[Problem]:
     """Phases in which fewer things are in view than there should be."""
     if scene.kind != "drawn":
         return
@@ -68,7 +67,5 @@ def _less_in_view(scene: Named, study: Study) -> Iterator[tuple[str, str]]:
         things = len(set_["kinds"]) * set_[of]
         if "in_view" in scene.settings and things < set_["in_view"]:
             told = f"{things} things only are in view in the phase {phase.name}"
-            yield (
-                "in_view",
-                f"{told}: there are no more, by kinds and {of} = {set_[of]}",
-            )
+            told = f"{told}: there are no more, by kinds and {of} = {set_[of]}"
+            yield Problem(("in_view",), told)

@@ -7,31 +7,31 @@ from dataclasses import replace
 from itertools import pairwise
 
 from kille.lab.scenes import WHOLE
+from kille.lab.settings import Problem
 from kille.lab.study import PERSON, Study, Theory
-from kille.lab.study_files.problems import Trouble
-from kille.lab.study_files.warnings.topics import is_plain, kinds_in
+from kille.lab.study_files.phases import is_plain, kinds_in
 from kille.lab.theories import strategy_of
 from kille.lab.theories.classifiers import WORDS
 
 
-def doubts(study: Study) -> Iterator[Trouble]:
+def doubts(study: Study) -> Iterator[Problem]:
     """What is probably not meant in the theories of a study."""
     yield from _alike(study)
     for name, theory in study.theories.items():
         if theory.mode == PERSON:
             continue
-        for key, what in (*_disordered(theory), *_idle(theory, study)):
-            yield Trouble(("theories", name, *key), what)
+        for it in (*_disordered(theory), *_idle(theory, study)):
+            yield it.within("theories", name)
 
 
-def _alike(study: Study) -> Iterator[Trouble]:
+def _alike(study: Study) -> Iterator[Problem]:
     """Theories that are the same as one before them."""
     before: list[Theory] = []
     for name, theory in study.theories.items():
         same = [it.name for it in before if _bare(it) == _bare(theory)]
         if same and theory.mode != PERSON:
             told = f"{name} is the same theory as {same[0]}: they will not differ"
-            yield Trouble(("theories", name), told)
+            yield Problem(("theories", name), told)
         before.append(theory)
 
 
@@ -50,17 +50,17 @@ def _bare(theory: Theory) -> tuple[object, ...]:
     return bare, strategy_of(theory) if theory.mode != PERSON else PERSON
 
 
-def _disordered(theory: Theory) -> Iterator[tuple[tuple[str, ...], str]]:
+def _disordered(theory: Theory) -> Iterator[Problem]:
     """Bands that begin below weaker ones, and so take their place."""
     bands = strategy_of(theory).bands
     for stronger, weaker in pairwise(("sure", "think", "likely")):
         if bands[stronger] < bands[weaker]:
             told = f"bands.{stronger} = {bands[stronger]:g} is below bands.{weaker} = "
             told += f"{bands[weaker]:g}, in whose place it is then"
-            yield ("strategy", "bands", stronger), told
+            yield Problem(("strategy", "bands", stronger), told)
 
 
-def _idle(theory: Theory, study: Study) -> Iterator[tuple[tuple[str, ...], str]]:
+def _idle(theory: Theory, study: Study) -> Iterator[Problem]:
     """Learners that judge nothing in the study."""
     kinds = kinds_in(study)
     for kind, name in theory.learners.items():
@@ -68,10 +68,11 @@ def _idle(theory: Theory, study: Study) -> Iterator[tuple[tuple[str, ...], str]]
             continue
         key = ("learners", kind)
         if is_plain(study) and kind not in kinds:
-            yield key, f"no phase is about {kind}s, so that {name} judges nothing"
+            told = f"no phase is about {kind}s, so that {name} judges nothing"
+            yield Problem(key, told)
         elif kind == "adjective" and name not in WORDS and not _taught(study):
             told = f"{name} judges no colours, as the robot knows them beforehand"
-            yield key, f'{told}: write colours = "taught" for the scenes'
+            yield Problem(key, f'{told}: write colours = "taught" for the scenes')
 
 
 def _taught(study: Study) -> bool:

@@ -8,10 +8,10 @@ from itertools import zip_longest
 
 from kille.dialogue.tutoring import hear
 from kille.lab.scenes import Scene
+from kille.lab.settings import Problem
 from kille.lab.study import PERSON, Named, Study
-from kille.lab.study_files.named_words import SPEAKING, names_in, words_of
-from kille.lab.study_files.problems import Trouble
-from kille.lab.study_files.warnings.topics import TEACHING, kind_of
+from kille.lab.study_files.phases import TEACHING, kind_of
+from kille.lab.study_files.words import SPEAKING, names_in, words_of
 from kille.lab.theories import language_of
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.tutors.words import Words
@@ -19,35 +19,36 @@ from kille.lab.worlds.worlds import KINDS
 from ttr.dialogues.stories import Line, read_stories
 
 
-def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
+def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """What is probably not meant in the tutors of a study."""
     for name, tutor in study.tutors.items():
         if tutor.kind in SPEAKING:
             found = (*_unused(tutor, study, opened), *_speechless(tutor, study, opened))
-            for key, what in found:
-                yield Trouble(("tutors", name, key), what)
+            yield from (it.within("tutors", name) for it in found)
         if tutor.kind == "scripted":
             yield from _of_script(tutor, study)
 
 
 def _unused(
     tutor: Named, study: Study, opened: Mapping[str, Scene]
-) -> Iterator[tuple[str, str]]:
+) -> Iterator[Problem]:
     """What is set and never comes to bear."""
     does = {phase.do for phase in study.phases}
     if "feedback" in tutor.settings and not does & {"practise", "talk"}:
         told = "feedback makes no difference: no phase is practise or talk"
-        yield "feedback", told
+        yield Problem(("feedback",), told)
     there = names_in(study, opened).noun
     for name in tutor.settings.get("calls", ()):
         if name in KINDS and name not in there:
-            yield "calls", f"there is no {name} in any scene that he could call so"
+            told = f"there is no {name} in any scene that he could call so"
+            yield Problem(("calls",), told)
     if tutor.settings.get("frame", "viewer") in ("viewer", 0):
         return
     for scene in study.scenes.values():
         if _is_frontless(scene):
             told = f"the landmark of {scene.name} has no front"
-            yield "frame", f"{told}, so that he speaks there as a viewer always"
+            told = f"{told}, so that he speaks there as a viewer always"
+            yield Problem(("frame",), told)
 
 
 def _is_frontless(scene: Named) -> bool:
@@ -57,7 +58,7 @@ def _is_frontless(scene: Named) -> bool:
 
 def _speechless(
     tutor: Named, study: Study, opened: Mapping[str, Scene]
-) -> Iterator[tuple[str, str]]:
+) -> Iterator[Problem]:
     """Phases for which he has no word, and in which he says nothing."""
     vocabulary = tutor.settings.get("vocabulary", ())
     if not vocabulary:
@@ -72,7 +73,8 @@ def _speechless(
             there = getattr(names, kind_of(phase))
             if not any(_has_one(words, vocabulary, there) for words in spoken):
                 told = f"he has no word for the {kind_of(phase)}s of {name}"
-                yield "vocabulary", f"{told}, and says nothing in {phase.name}"
+                told = f"{told}, and says nothing in {phase.name}"
+                yield Problem(("vocabulary",), told)
 
 
 def _has_one(words: Words, own: Iterable[str], there: Iterable[str]) -> bool:
@@ -89,18 +91,18 @@ def lines_of(tutor: Named, study: Study) -> tuple[Line, ...]:
     return tuple(line for story in read_stories(path) for line in story.lines)
 
 
-def _of_script(tutor: Named, study: Study) -> Iterator[Trouble]:
+def _of_script(tutor: Named, study: Study) -> Iterator[Problem]:
     key = ("tutors", tutor.name, "file")
     lines = lines_of(tutor, study)
     for line in lines:
         if line.mark in ("S~", "="):
             told = f"what {line.mark} expects is not measured: write S> and all of it"
-            yield Trouble(key, told, line.place)
+            yield Problem(key, told, line.place)
     for line, after in zip_longest(lines, lines[1:]):
         is_expected = after is not None and after.mark[0] == "S"
         if line.mark == "U>" and not is_expected and (lost := _lost(line.text, study)):
             told = f"{lost} does not understand “{line.text}”"
-            yield Trouble(key, told, line.place)
+            yield Problem(key, told, line.place)
 
 
 def _lost(text: str, study: Study) -> str:

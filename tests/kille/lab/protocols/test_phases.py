@@ -5,6 +5,7 @@ import pytest
 from kille.lab import scenes
 from kille.lab.protocols import phases
 from kille.lab.protocols.phases import tasks
+from kille.lab.settings import Problem
 from kille.lab.study import Named, Phase, Run, Study, Theory
 
 
@@ -72,10 +73,10 @@ def test_orders_are_the_same_for_all():
 def test_who_goes_on_must_be_there():
     study = made(("change_tutor", {"to": "Cy"}))
     (told,) = phases.faults(study.phases[0], study)
-    assert told == (("to",), "there is no tutor Cy: there is Ann, Bo")
+    assert told == Problem(("to",), "there is no tutor Cy: there is Ann, Bo")
     study = made(("change_tutor", {"to": "ann"}))
     (told,) = phases.faults(study.phases[0], study)
-    assert told == (("to",), "there is no tutor ann: did you mean Ann?")
+    assert told == Problem(("to",), "there is no tutor ann: did you mean Ann?")
     alone = made(("swap", {}), tutors=("Ann",))
     assert list(phases.faults(alone.phases[0], alone))
 
@@ -84,12 +85,12 @@ def test_what_a_scene_lacks_is_told(tmp_path):
     one = Named("s", "drawn", {"kinds": ["cup"], "each": 3})
     study = made(*((do, {"what": "relations"}) for do in ("teach", "ask")), scene=one)
     assert not list(phases.faults(study.phases[0], study))
-    ((key, told),) = phases.faults(study.phases[1], study)
+    ((key, told, _),) = phases.faults(study.phases[1], study)
     assert key == ("what",)
     assert told.startswith("there is one kind of thing in s, and the robot does not ")
     seen = Named("s", "pictures", {"folder": str(tmp_path)})
     study = made(("find", {}), scene=seen)
-    ((key, told),) = phases.faults(study.phases[0], study)
+    ((key, told, _),) = phases.faults(study.phases[0], study)
     assert key == ("do",)
     assert told == "find cannot be done with s, which is pictures"
 
@@ -101,7 +102,7 @@ def test_what_a_scene_lacks_is_told(tmp_path):
 def test_what_is_alone_in_view_is_not_to_be_found(kind, more):
     """It would be found whatever is said: a success of nobody's."""
     study = made(("find", {}), scene=Named("s", kind))
-    ((_, told),) = phases.faults(study.phases[0], study)
+    ((_, told, _),) = phases.faults(study.phases[0], study)
     assert told == (
         "one thing at a time is in view in s, and is found whatever is asked for: "
         f"write {more}"
@@ -111,7 +112,7 @@ def test_what_is_alone_in_view_is_not_to_be_found(kind, more):
     cup = Named("s", "drawn", {"in_view": 2, "kinds": ["cup"], "each": 2})
     assert not list(phases.faults(study.phases[0], made(scene=cup)))
     study = made(("find", {"of": "new"}), scene=cup)
-    ((_, told),) = phases.faults(study.phases[0], study)
+    ((_, told, _),) = phases.faults(study.phases[0], study)
     assert told.startswith("one thing at a time")
     assert told.endswith("write new = 4 and in_view = 4")
 
@@ -119,7 +120,9 @@ def test_what_is_alone_in_view_is_not_to_be_found(kind, more):
 def test_how_much_comes_is_said_once():
     study = made(("teach", {"rounds": 2, "turns": 4}))
     assert list(phases.faults(study.phases[0], study)) == [
-        (("turns",), "rounds and turns both say how much comes: write one of them")
+        Problem(
+            ("turns",), "rounds and turns both say how much comes: write one of them"
+        )
     ]
 
 

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from kille.lab import scenes
 from kille.lab.scenes.labelled import open_scenes
 from kille.lab.scenes.occasions import ORDERS, Occasion, ordered
+from kille.lab.settings import Problem
 from kille.lab.study import Named, Phase, Run, Study
 from kille.lab.worlds.worlds import STEP
 
@@ -194,14 +195,14 @@ def test_a_folder_that_is_not_there_is_told(tmp_path):
     named = Named("s", "pictures", {"folder": "none"})
     study = Study("t", {}, {}, {"s": named}, (), (1,), folder=tmp_path)
     assert list(scenes.faults(named, study)) == [
-        (("folder",), f"there is no folder {tmp_path / 'none'}")
+        Problem(("folder",), f"there is no folder {tmp_path / 'none'}")
     ]
     (tmp_path / "nine").mkdir()
     (tmp_path / "none").write_text("")
-    ((_, told),) = scenes.faults(named, study)
+    ((_, told, _),) = scenes.faults(named, study)
     assert told == f"{tmp_path / 'none'} is a file, not a folder"
     (tmp_path / "none").unlink()
-    ((_, told),) = scenes.faults(named, study)
+    ((_, told, _),) = scenes.faults(named, study)
     assert told.endswith("none: did you mean nine?")
 
 
@@ -211,7 +212,7 @@ def faulty(kind, *phases, at=None, **set_):
     made = tuple(Phase(do, do, its) for do, its in phases)
     settings = {} if at is None else {"folder": at}
     study = Study("t", {}, {}, {"s": named}, made, (1,), **settings)
-    return [told for _, told in scenes.faults(named, study)]
+    return [it.what for it in scenes.faults(named, study)]
 
 
 NEW = ("ask", {"of": "new"})
@@ -299,7 +300,7 @@ def test_a_thing_stands_beside_another():
     named = Named("s", "around", {"target": "car"})
     study = Study("t", {}, {}, {"s": named}, (), (1,))
     assert list(scenes.faults(named, study)) == [
-        (("target",), "both target and landmark are the car: name two kinds")
+        Problem(("target",), "both target and landmark are the car: name two kinds")
     ]
 
 

@@ -16,10 +16,10 @@ from kille.dialogue.strategies import strategy
 from kille.lab import scenes, tutors
 from kille.lab.errors import StudyError
 from kille.lab.protocols import phases
-from kille.lab.settings import Setting, unfit
+from kille.lab.settings import Key, Setting, unfit
 from kille.lab.study import Run, Study
 from kille.lab.study_files import checked, parsed, read
-from kille.lab.study_files.lines import Key, line_of, lines_of
+from kille.lab.study_files.problems import line_of, lines_of
 from kille.lab.study_files.shape import LEARNERS, THEORY
 from kille.lab.study_files.shape import STUDY as STUDY_KEYS
 from kille.lab.theories.classifiers import NAMES

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from kille.lab import tutors as kinds
 from kille.lab.errors import StudyError
 from kille.lab.playing import play
+from kille.lab.settings import Problem
 from kille.lab.study import Named, Phase, Run, Study, Theory
 from kille.lab.tutors.spatial_judges import HEADINGS, Person, Rated, Speaker, rated
 
@@ -412,7 +413,7 @@ def test_what_makes_no_tutor_is_told(tmp_path, make, why):
     (tmp_path / "gone.py").write_text("import sys\nsys.exit(3)\n")
     named = Named("me", "own", {"make": make})
     study = Study("t", {}, {"me": named}, {}, (), (1,), folder=tmp_path)
-    ((key, told),) = kinds.faults(named, study)
+    ((key, told, _),) = kinds.faults(named, study)
     assert key == ("make",)
     assert told.startswith(why)
 
@@ -423,14 +424,14 @@ def test_settings_that_a_tutor_of_ones_own_does_not_take_are_told(tmp_path):
     make = {"make": "own.py:Shouting"}
     assert not list(kinds.faults(Named("me", "own", make), study))
     wrong = Named("me", "own", {**make, "settings": {"time": 2}})
-    ((_, told),) = kinds.faults(wrong, study)
+    ((_, told, _),) = kinds.faults(wrong, study)
     assert told == (
         "own.py:Shouting cannot be called with name, words and its settings: "
         "got an unexpected keyword argument 'time'"
     )
     named = Named("me", "own", {**make, "settings": {"name": "you"}})
     assert list(kinds.faults(named, study)) == [
-        (("settings", "name"), "name is not to be set: the study gives it")
+        Problem(("settings", "name"), "name is not to be set: the study gives it")
     ]
 
 
@@ -467,15 +468,15 @@ def test_what_is_not_there_is_told(tmp_path):
         *kinds.faults(Named("H", "scripted", {"file": "~no-such-user/a.dlg"}), study),
     ]
     assert found == [
-        (("file",), f"there is no file {tmp_path / 'none.dlg'}"),
-        (("folder",), f"there is no folder {tmp_path / 'none'}"),
-        (("of",), "there is no tutor Bo: there is Ann"),
-        (("of",), "Ann alone is not several: name another tutor, too"),
-        (
+        Problem(("file",), f"there is no file {tmp_path / 'none.dlg'}"),
+        Problem(("folder",), f"there is no folder {tmp_path / 'none'}"),
+        Problem(("of",), "there is no tutor Bo: there is Ann"),
+        Problem(("of",), "Ann alone is not several: name another tutor, too"),
+        Problem(
             ("calls", "mug"),
             'a mug is called a text, as in { mug = "cup" }, and not 3',
         ),
-        (("file",), f"there is no file {tmp_path / '~no-such-user/a.dlg'}"),
+        Problem(("file",), f"there is no file {tmp_path / '~no-such-user/a.dlg'}"),
     ]
 
 
@@ -496,7 +497,7 @@ def test_lines_that_nobody_could_play_are_told(tmp_path, line, told):
     (tmp_path / "a.dlg").write_text(f"--- a\nU> Hello.\n{line}\n")
     named = Named("S", "scripted", {"file": "a.dlg"})
     study = Study("t", {}, {}, {"table": TABLE}, (), (1,), folder=tmp_path)
-    ((key, found),) = kinds.faults(named, study)
+    ((key, found, _),) = kinds.faults(named, study)
     assert key == ("file",)
     assert found.startswith(f"{tmp_path / 'a.dlg'}:3: {told}")
 
@@ -508,7 +509,7 @@ def test_nothing_is_laid_or_removed_by_a_script_before_the_robots_own_eyes(tmp_p
     study = Study("t", {}, {}, {"table": TABLE}, (), (1,), folder=tmp_path)
     assert not list(kinds.faults(named, study))
     study = Study("t", {}, {}, seen, (), (1,), folder=tmp_path)
-    ((_, told),) = kinds.faults(named, study)
+    ((_, told, _),) = kinds.faults(named, study)
     assert told.endswith(": write look, restart, point 2")
 
 

@@ -1,22 +1,31 @@
-"""Words that a study names: whether there is anything that they could be said of."""
+"""The words of a study: is there anything to say them of, and are they understood?
+
+What nobody understands is never learned, and a word that is heard as another is never
+answered as the tutor has it: both would count as mistakes of the theory.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
+from kille.dialogue.grammars import GrammarError
+from kille.dialogue.language import understand
+from kille.dialogue.meanings import value_at
 from kille.lab.results import ExperimentError
 from kille.lab.scenes import Scene
 from kille.lab.scenes.captured import Captured
 from kille.lab.scenes.occasions import KINDS as WORDS
 from kille.lab.scenes.statements import Statements
-from kille.lab.settings import Wrong, unknown
+from kille.lab.settings import Problem, shown, unknown
 from kille.lab.study import Named, Phase, Study
-from kille.lab.study_files.problems import Trouble
+from kille.lab.theories.games import language_of
 from kille.lab.tutors.spatial_judges import Person, Speaker, rated
 from kille.lab.tutors.words import Words
-from kille.lab.worlds.worlds import COLOURS, KINDS
+from kille.lab.worlds.sayings import Phrase
+from kille.lab.worlds.worlds import COLOURS, KINDS, Thing
 
 SPEAKING = ("simulated", "people")
 """The tutors of whom it is known what they say."""
@@ -74,37 +83,38 @@ def _once(names: Iterable[str]) -> tuple[str, ...]:
 # --- what is said of nothing ----------------------------------------------------------
 
 
-def unsaid(study: Study, names: Names) -> Iterator[Trouble]:
+def unsaid(study: Study, names: Names) -> Iterator[Problem]:
     """Words in settings of tutors and phases that are said of nothing, ever."""
     for name, tutor in study.tutors.items():
         if tutor.kind in SPEAKING:
-            for key, what in _of_tutor(tutor, study, names):
-                yield Trouble(("tutors", name, *key), what)
+            for it in _unsaid_of(tutor, study, names):
+                yield it.within("tutors", name)
     if any(it.kind not in (*SPEAKING, "several") for it in study.tutors.values()):
         return
     for number, phase in enumerate(study.phases):
         for what in _unforgettable(phase, study, names):
-            yield Trouble(("phases", number, "words"), what)
+            yield Problem(("phases", number, "words"), what)
 
 
-def _of_tutor(tutor: Named, study: Study, names: Names) -> Iterator[Wrong]:
+def _unsaid_of(tutor: Named, study: Study, names: Names) -> Iterator[Problem]:
     things = _once([*names.noun, *names.adjective, *KINDS])
     known = _once([*things, *names.relation])
     for name in tutor.settings.get("calls", {}):
         if name not in known:
             told = f"there is nothing that others call {name}: {unknown(name, known)}"
-            yield ("calls", name), told
+            yield Problem(("calls", name), told)
     vocabulary = tutor.settings.get("vocabulary", ())
     forms = _forms(things, [tutor], study)
     wrong = [it for it in vocabulary if it not in known and it not in forms]
     for word in wrong:
         told = f"there is nothing of which {tutor.name} could say {word}"
-        yield ("vocabulary",), f"{told}: {unknown(word, known)}"
+        yield Problem(("vocabulary",), f"{told}: {unknown(word, known)}")
     there = _once([*names.noun, *names.adjective, *names.relation])
     own = {*there, *_forms(there, [tutor], study)}
     if vocabulary and not wrong and not own & {*vocabulary}:
         told = f"of all that {tutor.name} has words for, nothing is in these scenes"
-        yield ("vocabulary",), f"{told}: there is {', '.join(names.noun)}"
+        told = f"{told}: there is {', '.join(names.noun)}"
+        yield Problem(("vocabulary",), told)
 
 
 def _unforgettable(phase: Phase, study: Study, names: Names) -> Iterator[str]:
@@ -136,3 +146,59 @@ def words_of(language: str, tutor: Named) -> Words:
     """The words of a tutor, less what he calls by something that is no text."""
     calls = tutor.settings.get("calls", {})
     return Words(language, {k: it for k, it in calls.items() if isinstance(it, str)})
+
+
+# --- what is misheard -----------------------------------------------------------------
+
+_KINDS = ("noun", "adjective", "relation")
+
+
+def misheard(study: Study, names: Names) -> Iterator[Problem]:
+    """Words that are heard as others, or not at all, by the language of a theory."""
+    for tutor in study.tutors.values():
+        if tutor.kind in SPEAKING:
+            yield from _misheard_of(tutor, study, names)
+
+
+def _misheard_of(tutor: Named, study: Study, names: Names) -> Iterator[Problem]:
+    theories = [*study.theories.values()]
+    languages = {language_of(theory): theory for theory in theories[::-1]}
+    for language, theory in languages.items():
+        words = words_of(theory.language, tutor)
+        for kind, name in _names_by_kind(names):
+            word = words.called(name)
+            try:
+                heard = _heard(kind, word, language, theory.language)
+            except GrammarError as error:
+                what = f"this grammar cannot be used for lessons in {shown(word)}"
+                yield Problem(("theories", theory.name, "grammar"), f"{what}: {error}")
+                break
+            if word not in heard:
+                key = ("tutors", tutor.name, "calls", name)
+                told = _told(word, name, next(iter(heard), ""))
+                yield Problem(key, f"to {theory.name} {tutor.name} says {told}")
+
+
+def _names_by_kind(names: Names) -> Iterator[tuple[str, str]]:
+    return ((kind, name) for kind in _KINDS for name in getattr(names, kind))
+
+
+def _told(word: str, name: str, heard: str) -> str:
+    found = f"which is heard as {shown(heard)}" if heard else "which is not understood"
+    other = heard if heard and heard.casefold() == word.casefold() else "…"
+    hint = f"write calls = {{ {shown(name)} = {shown(other)} }}"
+    return f"{shown(word)}, {found}: {hint}"
+
+
+@lru_cache(4096)
+def _heard(kind: str, word: str, language: str, plain: str) -> Sequence[str]:
+    """The words of a kind that a lesson in this word is heard to be of."""
+    words = Words(plain)
+    text = words.lesson(kind, word, _beside(words) if kind == "relation" else None)
+    readings = [it.type for one in understand(text, language) for it in one.readings]
+    signs = [it for said in readings for it in value_at(said, "signs")]
+    return tuple(dict.fromkeys(str(it.form) for it in signs if it.kind == kind))
+
+
+def _beside(words: Words) -> Phrase:
+    return words.described(Thing("car", "red"), "adjective")
