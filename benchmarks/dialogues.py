@@ -16,24 +16,26 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 
-from kille.lab.tutors.exploring import tutoring
+from kille.lab.tutors.exploring import exploring_tutor
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING
-from kille.lab.worlds.robot_profiles import ROBOTS, Robot
+from kille.lab.worlds.robot_profiles import ROBOTS, RobotProfile
 from ttr.testing import ALL, Report, Suite
 
 BATCH = 40
 """How many dialogues there are in one world."""
 
 
-def played(robot: Robot, count: int, options: argparse.Namespace) -> Iterator[Report]:
+def played(
+    robot: RobotProfile, count: int, options: argparse.Namespace
+) -> Iterator[Report]:
     """What comes of so many dialogues with a robot, in one world after the other."""
     checked = () if options.plain else (*OF_TUTORING, *ALL)
     for number, left in enumerate(range(count, 0, -BATCH)):
         seed = options.seed + len(ROBOTS) * number + ROBOTS.index(robot)
         yield Suite(
             robot.game(seed),
-            tutoring(robot.language),
+            exploring_tutor(robot.language),
             # What no dialogue of one robot applied may be for another: told below.
             properties=tuple(one for one in checked if one.name != "P6"),
             roles=roles_in(robot.language),

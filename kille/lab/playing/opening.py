@@ -20,11 +20,11 @@ from kille.lab.theories import agent_of, game_of, language_of
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.tutors import SETTINGS
 from kille.lab.tutors.beliefs import Manner
-from kille.lab.tutors.own import maker_of
-from kille.lab.tutors.scripted import scripted
+from kille.lab.tutors.own import load_maker
+from kille.lab.tutors.scripted import read_script
 from kille.lab.tutors.several import Several
 from kille.lab.tutors.simulated import Simulated as SimulatedTutor
-from kille.lab.tutors.spatial_judges import Placing, Speaker, person, rated
+from kille.lab.tutors.spatial_judges import Placing, Speaker, draw_speaker, read_ratings
 from kille.lab.tutors.tutor import Tutor
 from kille.lab.tutors.words import Words
 from kille.lab.worlds.worlds import COLOURS
@@ -52,10 +52,10 @@ def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
     set_ = filled(named.settings, SETTINGS[named.kind])
     match named.kind:
         case "scripted":
-            return scripted(name, study.folder / os.path.expanduser(set_["file"]))
+            return read_script(name, study.folder / os.path.expanduser(set_["file"]))
         case "own":
             words = Words(theory.language)
-            make = maker_of(set_["make"], study.folder, study.consent)
+            make = load_maker(set_["make"], study.folder, study.consent)
             return make(name=name, words=words, **set_["settings"])
         case "keyboard":
             return Keyboard(name, theory.language)
@@ -100,5 +100,5 @@ def _simulated(
 
 def _placing(study: Study, set_: Mapping[str, Any], chance: Random) -> Placing:
     if "folder" in set_:
-        return rated(study.folder / os.path.expanduser(set_["folder"]))
-    return person(set_["inside"], set_["outside"], set_["habit"], chance)
+        return read_ratings(study.folder / os.path.expanduser(set_["folder"]))
+    return draw_speaker(set_["inside"], set_["outside"], set_["habit"], chance)

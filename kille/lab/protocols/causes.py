@@ -15,7 +15,13 @@ from math import cos, pi, sin
 import numpy as np
 
 from kille.lab.measures.statistics import kappa
-from kille.lab.tutors.spatial_judges import ACCEPTED, Person, Place, answer, born
+from kille.lab.tutors.spatial_judges import (
+    ACCEPTED,
+    Person,
+    Place,
+    draw_person,
+    likeliest_word,
+)
 from kille.perception.learners import Learner
 from kille.scene import Configuration
 
@@ -107,14 +113,14 @@ def played(
     chance: np.random.Generator,
 ) -> Measured:
     """One run of the protocol: 48 lessons and 32 questions."""
-    tutor, other = born(cause.habit, chance), born(cause.habit, chance)
+    tutor, other = draw_person(cause.habit, chance), draw_person(cause.habit, chance)
     learner = make()
     for key, scene in enumerate(scenes(cause, ROUNDS, chance, 0.0)):
         word = _said(tutor, scene.true, cause.tutor, chance)
         learner.learn_one(scene.seen, word, key=key)
     way = chance.uniform(-pi, pi)
     asked = list(scenes(cause, _TESTS, chance, cause.shift, way))
-    answers = [answer(learner.predict_proba_one(it.seen)) for it in asked]
+    answers = [likeliest_word(learner.predict_proba_one(it.seen)) for it in asked]
     judged = [
         [_said(judge, it.true, cause.judges, chance) for it in asked]
         for judge in (tutor, other)

@@ -16,7 +16,7 @@ import numpy as np
 
 from kille.lab.measures.statistics import kappa
 from kille.lab.results import Cell, Progress, Table
-from kille.lab.tutors.spatial_judges import ACCEPTED, Person, Place, answer
+from kille.lab.tutors.spatial_judges import ACCEPTED, Person, Place, likeliest_word
 from kille.perception.relations.configurations import configuration
 from kille.perception.segment import segment
 from kille.scene import Configuration, Frame, Region
@@ -74,7 +74,7 @@ def _answers(
     """What a learner says of the questions that was taught these words."""
     for key, (it, word) in enumerate(zip(taught, words, strict=True)):
         learner.learn_one(it.seen, word, key=key)
-    return [answer(learner.predict_proba_one(it.seen)) for it in asked]
+    return [likeliest_word(learner.predict_proba_one(it.seen)) for it in asked]
 
 
 def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[_Seen]:

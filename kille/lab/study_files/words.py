@@ -22,7 +22,7 @@ from kille.lab.scenes.statements import Statements
 from kille.lab.settings import Problem, shown, unknown
 from kille.lab.study import Named, Phase, Study
 from kille.lab.theories.games import language_of
-from kille.lab.tutors.spatial_judges import Person, Speaker, rated
+from kille.lab.tutors.spatial_judges import Person, Speaker, read_ratings
 from kille.lab.tutors.words import Words
 from kille.lab.worlds.sayings import Phrase
 from kille.lab.worlds.worlds import COLOURS, KINDS, Thing
@@ -70,7 +70,9 @@ def _places(tutor: Named, study: Study) -> Iterator[str]:
     """The words for places that a tutor has, if it is known where he has them from."""
     folder = tutor.settings.get("folder")
     try:
-        placing = rated(study.folder / os.path.expanduser(folder)) if folder else None
+        placing = (
+            read_ratings(study.folder / os.path.expanduser(folder)) if folder else None
+        )
     except ExperimentError:
         return
     yield from Speaker(placing or Person()).words

@@ -20,7 +20,7 @@ from kille.lab.theories.candidates import candidates
 from kille.lab.theories.guest_learners import GuestObjects, GuestRelations
 from kille.lab.theories.pupils import Make, Pupil
 from kille.lab.theories.simulated_words import Guest, MakeWord, Prototype
-from kille.lab.worlds.word_learning import Word
+from kille.lab.worlds.word_learning import LearnedWord
 from kille.perception.evidence import weighing
 from kille.perception.index import View
 from kille.perception.methods import OBJECTS, RELATIONS
@@ -29,9 +29,9 @@ from kille.perception.objects import ObjectMemory
 Known = Mapping[str, Mapping[str, Any]]
 """What has a name, by the kind of words that it judges."""
 
-WORDS: Mapping[str, type[Word]] = {
-    "default": Word,
-    "instances": Word,
+WORDS: Mapping[str, type[LearnedWord]] = {
+    "default": LearnedWord,
+    "instances": LearnedWord,
     "prototype": Prototype,
 }
 

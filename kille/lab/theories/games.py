@@ -22,7 +22,7 @@ from kille.lab.theories.rules import algorithm_of
 from kille.lab.theories.simulated_words import acting, known_by
 from kille.lab.worlds.games import simulated
 from kille.lab.worlds.vocabulary import vocabulary
-from kille.lab.worlds.word_learning import Word
+from kille.lab.worlds.word_learning import LearnedWord
 from kille.lab.worlds.worlds import World
 from kille.sensors.sensor import Sensor
 from ttr import Record, replace
@@ -58,7 +58,7 @@ def game_of(
     start = replace(game.start, {"private.colours": list(every)})
     game = dataclasses.replace(game, start=start)
     makes = words_of(theory)
-    if all(make is Word for make in makes.values()):
+    if all(make is LearnedWord for make in makes.values()):
         return changed(game, theory)
     model = known_by(game.model, makes, signs)
     game = dataclasses.replace(game, model=model, act=acting(makes))

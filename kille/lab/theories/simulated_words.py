@@ -1,8 +1,8 @@
 """Words of simulated robots that learn in other ways than by their instances.
 
 The games ask a word how far it is true of what is seen, and teach it by making another
-of it. So whatever judges words stands behind a `Word`: one with a mean of its own, or
-one that asks a learner which has heard all lessons in words of its kind.
+of it. So whatever judges words stands behind a `LearnedWord`: one with a mean of its
+own, or one that asks a learner which has heard all lessons in words of its kind.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from typing import Any
 
 from kille.dialogue.meanings import claims, value_at, word_of
 from kille.lab.theories.pupils import Heard, Pupil
-from kille.lab.worlds.games import act, word, words
+from kille.lab.worlds.games import act, learned_words, word
 from kille.lab.worlds.perception import Vector
-from kille.lab.worlds.word_learning import Observation, Word
+from kille.lab.worlds.word_learning import LearnedWord, Observation
 from kille.scene import Configuration
 from ttr import Model, Record, RecordType
 from ttr.types import TypeNode
 
-MakeWord = Callable[[Record], Word]
+MakeWord = Callable[[Record], LearnedWord]
 """Makes the word of a sign that was not taught yet."""
 
 
-class Prototype(Word):
+class Prototype(LearnedWord):
     """A word that is true of what is like the mean of all that it was said of.
 
     As often as it was said of something, so often it counts: with m the mean of k
@@ -43,7 +43,7 @@ class Prototype(Word):
 
 
 @dataclass(frozen=True, eq=False)
-class Guest(Word):
+class Guest(LearnedWord):
     """A word judged by a pupil who has heard the lessons in all words of its kind.
 
     What is known of a word without any lesson, as of colours, it judges by itself.
@@ -114,7 +114,7 @@ def _ready(planned: TypeNode, model: Model, makes: Mapping[str, MakeWord]) -> Mo
 
 def _all_heard(model: Model) -> Model:
     """The model in which every guest has heard the lessons in all words of its kind."""
-    guests = [it for it in words(model) if isinstance(it, Guest)]
+    guests = [it for it in learned_words(model) if isinstance(it, Guest)]
     for kind in dict.fromkeys(it.sign.kind for it in guests):
         own = [it for it in guests if it.sign.kind == kind]
         heard = _lessons(own)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kille.lab.robots.replies import Reply
-from kille.lab.tutors.beliefs import Holding
+from kille.lab.tutors.beliefs import Beliefs
 from kille.lab.tutors.tutor import Says
 from kille.lab.worlds.sayings import LESSON_ACTS
 
@@ -22,7 +22,7 @@ _WANTED = {
 """The kind of word that the robot wants to be told."""
 
 
-def answer(holding: Holding, reply: Reply, latest: Says | None) -> Says | None:
+def answer_robot(holding: Beliefs, reply: Reply, latest: Says | None) -> Says | None:
     """What he answers to what the robot wants to know, if he can."""
     match reply.wants:
         case "ask_frame":
@@ -30,13 +30,13 @@ def answer(holding: Holding, reply: Reply, latest: Says | None) -> Says | None:
         case "offer_word":
             return Says(holding.words.plainly("deny"), "deny")
         case "ask_referent" | "offer_referents":
-            return _which(holding, latest)
+            return _name_referent(holding, latest)
         case "ask_example":
-            return _example(holding, reply.word)
-    return _telling(holding, reply)
+            return _show_example(holding, reply.word)
+    return _tell_wanted(holding, reply)
 
 
-def _which(holding: Holding, latest: Says | None) -> Says:
+def _name_referent(holding: Beliefs, latest: Says | None) -> Says:
     """Which thing he meant: that of which he spoke by a phrase, or points at."""
     spoken = None if latest is None else latest.of
     meant = spoken or holding.task.occasion.thing
@@ -44,7 +44,7 @@ def _which(holding: Holding, latest: Says | None) -> Says:
     return Says(holding.words.mentioning(phrase), "mention", of=meant)
 
 
-def _example(holding: Holding, word: str) -> Says | None:
+def _show_example(holding: Beliefs, word: str) -> Says | None:
     """Another thing in view that is called so, by its colour."""
     occasion, words = holding.task.occasion, holding.words
     for x in occasion.world.in_view:
@@ -57,14 +57,14 @@ def _example(holding: Holding, word: str) -> Says | None:
     return None
 
 
-def _telling(holding: Holding, reply: Reply) -> Says | None:
+def _tell_wanted(holding: Beliefs, reply: Reply) -> Says | None:
     """What something is, which colour it has, or where it is, if that is wanted."""
     occasion = holding.task.occasion
     kind = occasion.kind if reply.wants == "ask_again" else _WANTED.get(reply.wants)
     if kind is None:
         return None
     if kind == "relation":
-        return _placing(holding, reply)
+        return _tell_place(holding, reply)
     x = reply.focus if reply.wants == "ask_thing" else occasion.x
     if x is None or x not in occasion.world:
         return None
@@ -75,7 +75,7 @@ def _telling(holding: Holding, reply: Reply) -> Says | None:
     return Says(holding.words.lesson(kind, holding.held(about)), LESSON_ACTS[kind])
 
 
-def _placing(holding: Holding, reply: Reply) -> Says | None:
+def _tell_place(holding: Beliefs, reply: Reply) -> Says | None:
     """How the two things stand of which the robot speaks."""
     occasion = holding.task.occasion
     x, y = (*reply.things, None, None)[:2]

@@ -43,7 +43,7 @@ class Manner:
 
 
 @dataclass(frozen=True, eq=False)
-class Holding:
+class Beliefs:
     """What a tutor of this manner holds to be so in a task."""
 
     manner: Manner

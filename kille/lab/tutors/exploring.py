@@ -15,8 +15,12 @@ from hypothesis import strategies as st
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import CLAIMS, is_denial, value_at, word_of
-from kille.dialogue.tutoring import hear_sentences
-from kille.lab.tutors.openings import Situation, by_side, leads, situation
+from kille.lab.tutors.openings import (
+    Situation,
+    leading_topics,
+    perspectives_by_side,
+    situation,
+)
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glanced, number_of, seen
 from kille.lab.worlds.sayings import (
@@ -28,8 +32,8 @@ from kille.lab.worlds.sayings import (
     acts,
     phrases_of,
     sayings,
-    settled,
-    true_of,
+    true_claims,
+    without_glance,
 )
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import World
@@ -65,7 +69,7 @@ Talk = Sequence[Saying]
 Look = tuple[Callable[[World, World], Record], World]
 
 
-def tutoring(language: str = "en", **shares: float) -> Tutor:
+def exploring_tutor(language: str = "en", **shares: float) -> Tutor:
     """A tutor who speaks this language; `shares` are those of `ttr.testing.Tutor`."""
     moves, replies = partial(_moves, language), partial(_replies, language)
     return Tutor(moves=moves, replies=replies, **shares)
@@ -74,15 +78,18 @@ def tutoring(language: str = "en", **shares: float) -> Tutor:
 def _moves(language: str, s: Record, model: Model) -> Options:
     """All that may be said or done, each kind of thing as often as any other."""
     world = world_of(s)
-    return [*_anything(language, settled(world)), *[_happened(world)] * OTHERS]
+    return [
+        *_all_options(language, without_glance(world)),
+        *[_sample_happenings(world)] * OTHERS,
+    ]
 
 
 @lru_cache(256)
-def _anything(language: str, world: World) -> Options:
+def _all_options(language: str, world: World) -> Options:
     """All that may be said, clearly or not."""
     everything = _all(language, world)
-    unclear = [_mumbled(everything)] * OTHERS
-    return [*map(_spoken, everything), *unclear, st.sampled_from(NONSENSE)]
+    unclear = [_sample_unclear(everything)] * OTHERS
+    return [*map(_sample_texts, everything), *unclear, st.sampled_from(NONSENSE)]
 
 
 def _all(language: str, world: World) -> Sequence[Talk]:
@@ -98,28 +105,31 @@ def _replies(language: str, s: Record, model: Model) -> Options:
     """
     world = world_of(s)
     if s.shared.qud:
-        return _choosing(language, world, s.shared.qud[0].ask)
+        return _choice_options(language, world, s.shared.qud[0].ask)
     now = situation(language, s)
-    leading = [*_leading(now), _idled(world)]
+    leading = [*_leading_strategies(now), _sample_idle_looks(world)]
     if s.shared.pending:
-        judging = _judging(language, world, s.shared.pending)
+        judging = _verdict_options(language, world, s.shared.pending)
         return [*judging, *judging, st.one_of(leading)]
-    said = [*_chatting(language, now.world, now.known), *[_happened(world)] * OTHERS]
+    said = [
+        *_free_options(language, now.world, now.known),
+        *[_sample_happenings(world)] * OTHERS,
+    ]
     return [*said, *leading * (len(said) // len(leading))]
 
 
 @lru_cache(256)
-def _leading(now: Situation) -> Sequence[st.SearchStrategy[object]]:
+def _leading_strategies(now: Situation) -> Sequence[st.SearchStrategy[object]]:
     """What leads on, topic by topic."""
-    return [*map(_spoken, leads(now))]
+    return [*map(_sample_texts, leading_topics(now))]
 
 
 @lru_cache(256)
-def _chatting(language: str, world: World, known: frozenset[Pred]) -> Options:
+def _free_options(language: str, world: World, known: frozenset[Pred]) -> Options:
     """What a tutor may say who was not asked anything, clearly or not."""
     free = _free(language, world, known)
-    unclear = [_mumbled(free), _misspelt(free, known)]
-    return [*map(_spoken, free), *unclear * OTHERS]
+    unclear = [_sample_unclear(free), _sample_misspelt(free, known)]
+    return [*map(_sample_texts, free), *unclear * OTHERS]
 
 
 def _free(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
@@ -134,29 +144,31 @@ def _free(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]
     if world.attended is None:
         return everything
     lessons = [
-        Saying(language, _teaching(claim), claim)
+        Saying(language, _lesson_act(claim), claim)
         for phrase in phrases_of(language, world, world.attended)
-        for claim in true_of(language, world, world.attended, phrase)
+        for claim in true_claims(language, world, world.attended, phrase)
         if known.issuperset(map(word_of, (*phrase.signs, *claim.landmark.signs)))
     ]
     return [*everything, *[lessons] * len(everything)]
 
 
-def _judging(language: str, world: World, pending: Sequence[RecordType]) -> Options:
+def _verdict_options(
+    language: str, world: World, pending: Sequence[RecordType]
+) -> Options:
     """Whether what the robot claims is so: yes if it is, and no if it is not.
 
     What is not so is mostly corrected. Now and then he errs.
     """
     true = [claim for claim in pending if is_true(language, world, claim)]
-    agreeing = _spoken(_agreeing(language, "affirm" if true else "deny"))
-    erring = _spoken(_agreeing(language, "deny" if true else "affirm"))
-    asking = [_spoken(_agreeing(language, act)) for act in _WONDERING]
+    agreeing = _sample_texts(_worldless_sayings(language, "affirm" if true else "deny"))
+    erring = _sample_texts(_worldless_sayings(language, "deny" if true else "affirm"))
+    asking = [_sample_texts(_worldless_sayings(language, act)) for act in _WONDERING]
     if _label(pending[0]) == "rel":
-        asking.append(_spoken(by_side(language, world)))
+        asking.append(_sample_texts(perspectives_by_side(language, world)))
     if true and len(pending) == 1:
         return [agreeing, agreeing, erring, *asking]
     right = list(_corrections(language, world, pending[0]))
-    return [agreeing, erring, *asking, *[_spoken(right)] * (3 if right else 0)]
+    return [agreeing, erring, *asking, *[_sample_texts(right)] * (3 if right else 0)]
 
 
 _WONDERING = ("ask_certainty", "ask_why")
@@ -165,29 +177,29 @@ _WONDERING = ("ask_certainty", "ask_why")
 
 def _corrections(language: str, world: World, content: RecordType) -> Iterator[Saying]:
     """What is right where a claim is not, as a correction or by itself."""
-    x = number_of(str(value_at(_part(content, "target"), "x")))
+    x = number_of(str(value_at(_part_of(content, "target"), "x")))
     if x not in world:
         return
     label = _label(content)
     shortly = [] if label == "rel" else [NOTHING]
     for phrase in (THIS, *phrases_of(language, world, x), *shortly):
-        for claim in true_of(language, world, x, phrase):
+        for claim in true_claims(language, world, x, phrase):
             if _label(claim.content) == label:
                 yield Saying(language, "correct", claim)
                 if phrase is not NOTHING:
-                    yield Saying(language, _teaching(claim), claim)
+                    yield Saying(language, _lesson_act(claim), claim)
 
 
 def is_true(language: str, world: World, content: RecordType) -> bool:
     """Whether a claim is true of the world, as the tutor sees it."""
-    x = number_of(str(value_at(_part(content, "target"), "x")))
+    x = number_of(str(value_at(_part_of(content, "target"), "x")))
     if x not in world:
         return False
     known = vocabulary(language)
     label = _label(content)
     signs: Iterable[Record | None] = known.words_of(world, x)
     if label == "rel":
-        y = number_of(str(value_at(_part(content, "landmark"), "x")))
+        y = number_of(str(value_at(_part_of(content, "landmark"), "x")))
         front = str(value_at(content, "frame"))
         signs = [known.relation_of(world, x, y, front)] if y in world else []
     claim = content[label]
@@ -202,56 +214,58 @@ def _label(content: RecordType) -> str:
     return next(label for label in CLAIMS if label in content)
 
 
-def _part(content: RecordType, label: str) -> RecordType:
+def _part_of(content: RecordType, label: str) -> RecordType:
     part = content[label]
     assert isinstance(part, RecordType)
     return part
 
 
-def _teaching(claim: Claim) -> str:
+def _lesson_act(claim: Claim) -> str:
     """The move that teaches a claim."""
     assert claim.sign is not None
     return LESSON_ACTS[claim.sign.kind]
 
 
-def _choosing(language: str, world: World, asked: str) -> Options:
+def _choice_options(language: str, world: World, asked: str) -> Options:
     """Which of several moves was meant: in words, by pointing, or none of them."""
-    agreeing = [it for act in _YES_OR_NO for it in _agreeing(language, act)]
-    settling = _settling(language, world, asked)
+    agreeing = [it for act in _YES_OR_NO for it in _worldless_sayings(language, act)]
+    settling = _plain_answers(language, world, asked)
     mentions = sayings(language, "mention", world)
     pointing = [(glanced, world.pointed(x)) for x in world.in_view]
     return [
-        _spoken(agreeing),
-        _spoken(settling),
-        _spoken(settling),
-        _spoken([it for it in mentions if len(it.about.signs) == 1]),
-        *([_shown(world, pointing)] if pointing else []),
+        _sample_texts(agreeing),
+        _sample_texts(settling),
+        _sample_texts(settling),
+        _sample_texts([it for it in mentions if len(it.about.signs) == 1]),
+        *([_sample_looks(world, pointing)] if pointing else []),
     ]
 
 
 _YES_OR_NO = ("affirm", "deny")
 
 
-def _settling(language: str, world: World, asked: str) -> Talk:
+def _plain_answers(language: str, world: World, asked: str) -> Talk:
     """What plainly answers a question of the robot's."""
     match asked:
         case "AskFrame":
-            return by_side(language, world)
+            return perspectives_by_side(language, world)
         case "OfferWord" | "AskHeard":
-            return [it for act in _YES_OR_NO for it in _agreeing(language, act)]
+            return [
+                it for act in _YES_OR_NO for it in _worldless_sayings(language, act)
+            ]
     return sayings(language, "mention", world)
 
 
-def _agreeing(language: str, act: str) -> Talk:
+def _worldless_sayings(language: str, act: str) -> Talk:
     return sayings(language, act, World())
 
 
-def _spoken(options: Talk) -> st.SearchStrategy[str]:
+def _sample_texts(options: Talk) -> st.SearchStrategy[str]:
     """One of these, as a text."""
     return st.sampled_from(options).map(lambda one: one.text)
 
 
-def _mumbled(said: Sequence[Talk]) -> st.SearchStrategy[object]:
+def _sample_unclear(said: Sequence[Talk]) -> st.SearchStrategy[object]:
     """What was heard of what may have been the one or the other of two texts."""
     random = Random(len(said))
     pairs = [
@@ -269,7 +283,9 @@ def _either(mumbled: tuple[Saying, Saying, tuple[float, float]]) -> object:
     return hear_sentences(*sentences, p=p)
 
 
-def _misspelt(said: Sequence[Talk], known: frozenset[Pred]) -> st.SearchStrategy[str]:
+def _sample_misspelt(
+    said: Sequence[Talk], known: frozenset[Pred]
+) -> st.SearchStrategy[str]:
     """Questions with a word in them that nearly is one that the robot knows."""
     asked = [
         one for talk in said for one in talk if one.act in ("ask_place", "ask_find")
@@ -288,26 +304,26 @@ def _misspelt(said: Sequence[Talk], known: frozenset[Pred]) -> st.SearchStrategy
 # --- what happens in the world -------------------------------------------------------
 
 
-def _happened(world: World) -> st.SearchStrategy[Record]:
+def _sample_happenings(world: World) -> st.SearchStrategy[Record]:
     """One of the things that may happen, as the event in which it is seen.
 
     Each kind of thing happens as often as any other.
     """
     looks = (glanced, seen)
-    kinds = [_shown(world, list(product(looks, it))) for it in _kinds(world)]
+    kinds = [_sample_looks(world, list(product(looks, it))) for it in _kinds(world)]
     return st.one_of(kinds)
 
 
-def _idled(world: World) -> st.SearchStrategy[Record]:
+def _sample_idle_looks(world: World) -> st.SearchStrategy[Record]:
     """The robot looks, and it is its turn: all is as it was, or other things are there.
 
     What is pointed at is the tutor's to speak of.
     """
     changed = [it for it in happenings(world) if it.focus == world.focus]
-    return _shown(world, [(seen, it) for it in (world.looked(), *changed)])
+    return _sample_looks(world, [(seen, it) for it in (world.looked(), *changed)])
 
 
-def _shown(world: World, after: Sequence[Look]) -> st.SearchStrategy[Record]:
+def _sample_looks(world: World, after: Sequence[Look]) -> st.SearchStrategy[Record]:
     """One of these looks, as an event."""
     return st.sampled_from(after).map(lambda one: one[0](one[1], world))
 

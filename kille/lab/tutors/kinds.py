@@ -23,10 +23,10 @@ from kille.lab.settings import (
     unknown,
 )
 from kille.lab.study import Named, Study
-from kille.lab.tutors.own import located, maker_of
-from kille.lab.tutors.scripted import unplayable
+from kille.lab.tutors.own import describe_error, load_maker
+from kille.lab.tutors.scripted import unplayable_lines
 from kille.lab.tutors.simulated import FEEDBACK
-from kille.lab.tutors.spatial_judges import SIDES, rated
+from kille.lab.tutors.spatial_judges import SIDES, read_ratings
 from kille.lab.tutors.words import Words
 from ttr.dialogues.stories import StoryError, read_stories
 
@@ -87,23 +87,27 @@ def faults(named: Named, study: Study) -> Iterator[Problem]:
     """What is wrong with a tutor in this study, each with the setting it is in."""
     match named.kind:
         case "scripted":
-            yield from _at("file", _of_script(named.settings["file"], study))
+            yield from _problems_at(
+                "file", _script_problems(named.settings["file"], study)
+            )
         case "people":
-            yield from _at("folder", _of_people(named.settings["folder"], study))
-            yield from _of_calls(named)
+            yield from _problems_at(
+                "folder", _ratings_problems(named.settings["folder"], study)
+            )
+            yield from _calls_problems(named)
         case "simulated":
-            yield from _of_calls(named)
+            yield from _calls_problems(named)
         case "own":
-            yield from _of_own(named, study)
+            yield from _own_problems(named, study)
         case "several":
-            yield from _at("of", _of_several(named, study))
+            yield from _problems_at("of", _several_problems(named, study))
 
 
-def _at(key: str, what: Iterator[str]) -> Iterator[Problem]:
+def _problems_at(key: str, what: Iterator[str]) -> Iterator[Problem]:
     return (Problem((key,), it) for it in what)
 
 
-def _of_script(name: str, study: Study) -> Iterator[str]:
+def _script_problems(name: str, study: Study) -> Iterator[str]:
     """Why a script cannot be played, if it cannot."""
     path = study.folder / os.path.expanduser(name)
     if told := no_file(path):
@@ -114,30 +118,30 @@ def _of_script(name: str, study: Study) -> Iterator[str]:
     except StoryError as error:
         yield str(error)
         return
-    yield from unplayable(lines, study)
+    yield from unplayable_lines(lines, study)
 
 
-def _of_people(name: str, study: Study) -> Iterator[str]:
+def _ratings_problems(name: str, study: Study) -> Iterator[str]:
     """Why people's ratings cannot be used, if they cannot."""
     path = study.folder / os.path.expanduser(name)
     if told := no_folder(path):
         yield told
         return
     try:
-        if not set(rated(path).words) >= SIDES:
+        if not set(read_ratings(path).words) >= SIDES:
             yield f"{name} has no ratings of left, right, above and below"
     except ExperimentError as error:
         yield str(error)
 
 
-def _of_calls(named: Named) -> Iterator[Problem]:
+def _calls_problems(named: Named) -> Iterator[Problem]:
     for one, called in named.settings.get("calls", {}).items():
         if not isinstance(called, str):
             told = f'a {one} is called a text, as in {{ {one} = "cup" }}'
             yield Problem(("calls", one), f"{told}, and not {shown(called)}")
 
 
-def _of_several(named: Named, study: Study) -> Iterator[str]:
+def _several_problems(named: Named, study: Study) -> Iterator[str]:
     of = [*dict.fromkeys(named.settings["of"])]
     for name in of:
         if name not in study.tutors:
@@ -151,20 +155,22 @@ def _of_several(named: Named, study: Study) -> Iterator[str]:
 # --- tutors of one's own --------------------------------------------------------------
 
 
-def _of_own(named: Named, study: Study) -> Iterator[Problem]:
+def _own_problems(named: Named, study: Study) -> Iterator[Problem]:
     """Why a tutor of one's own cannot be made, if he cannot."""
     settings = named.settings.get("settings", {})
     if taken := [it for it in ("name", "words") if it in settings]:
         told = f"{taken[0]} is not to be set: the study gives it"
         yield Problem(("settings", taken[0]), told)
         return
-    given = {"name": named.name, "words": _words(study), **settings}
-    yield from _at("make", _of_made(named.settings["make"], given, study))
+    given = {"name": named.name, "words": _some_words(study), **settings}
+    yield from _problems_at(
+        "make", _maker_problems(named.settings["make"], given, study)
+    )
 
 
-def _of_made(make: str, given: Mapping[str, Any], study: Study) -> Iterator[str]:
+def _maker_problems(make: str, given: Mapping[str, Any], study: Study) -> Iterator[str]:
     try:
-        maker = maker_of(make, study.folder, study.consent)
+        maker = load_maker(make, study.folder, study.consent)
     except StudyError as error:
         yield from error.faults
         return
@@ -178,14 +184,14 @@ def _of_made(make: str, given: Mapping[str, Any], study: Study) -> Iterator[str]
         tutor = maker(**given)
         lacking = [it for it in ("name", "turns") if not hasattr(tutor, it)]
     except (Exception, SystemExit) as error:
-        told = located(make.rpartition(":")[0], study.folder, error)
+        told = describe_error(make.rpartition(":")[0], study.folder, error)
         yield f"{make} makes no tutor: {told}"
         return
     for needed in lacking:
         yield f"a tutor needs {needed}, and what {make} makes has none"
 
 
-def _words(study: Study) -> Words:
+def _some_words(study: Study) -> Words:
     """The words of one of the languages that are spoken."""
     languages = (theory.language for theory in study.theories.values())
     return Words(next(languages, "en"))

@@ -24,10 +24,10 @@ from kille.lab.worlds.sayings import (
     Phrase,
     Saying,
     acts,
-    coloured,
+    colour_phrase,
     phrases_of,
     sayings,
-    settled,
+    without_glance,
 )
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import World
@@ -61,7 +61,7 @@ def situation(language: str, s: Record) -> Situation:
     told = {thing_at(it, "target") for it in s.shared.here}
     return Situation(
         language,
-        settled(world_of(s)),
+        without_glance(world_of(s)),
         frozenset(word_of(sign) for sign in words(s)),
         tuple(number_of(x) for x in s.view.things if x not in told),
         tuple((number_of(it.x), str(it.front)) for it in s.shared.turned),
@@ -70,33 +70,33 @@ def situation(language: str, s: Record) -> Situation:
     )
 
 
-def leads(now: Situation) -> Sequence[Talk]:
+def leading_topics(now: Situation) -> Sequence[Talk]:
     """What leads on from a situation, topic by topic."""
     language, world = now.language, now.world
     if now.is_taught:
-        return [by_side(language, world)]
-    untold = [_names(language, world, now.untold)] if now.untold else []
+        return [perspectives_by_side(language, world)]
+    untold = [_name_questions(language, world, now.untold)] if now.untold else []
     unsaid = [sayings(language, "ask_repeat", world)] if now.is_new else []
     return [
-        *_by_words(language, world, now.known),
-        *_by_fronts(language, world, now.fronts),
+        *_word_topics(language, world, now.known),
+        *_front_topics(language, world, now.fronts),
         *untold * 2,
         *unsaid,
     ]
 
 
-def _by_words(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
+def _word_topics(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
     """What can be talked of in the words that are known, and in one that is not."""
     found = [
-        *_nothing_there(language, world, known),
-        _nothing_known(language, world, known),
-        _bare(language, world),
-        _names(language, world, world.in_view),
-        _others(language, world),
-        _same(language, world),
-        *_mistakes(language, world, known),
-        *_unplaced(language, world),
-        *_strange(language, world, known),
+        *_empty_table_topics(language, world, known),
+        _knowledge_questions(language, world, known),
+        _about_the_last(language, world),
+        _name_questions(language, world, world.in_view),
+        _questions_of_others(language, world),
+        _reflexive_lessons(language, world),
+        *_wrong_nouns(language, world, known),
+        *_flat_place_topics(language, world),
+        *_unknown_word_topics(language, world, known),
     ]
     return [talk for talk in found if talk]
 
@@ -105,7 +105,7 @@ SEVERAL = ("ask_places", "instruct_several")
 """The moves about all things of a kind."""
 
 
-def _nothing_there(
+def _empty_table_topics(
     language: str, world: World, known: frozenset[Pred]
 ) -> Iterator[Talk]:
     """What one may ask, and say, in front of nothing."""
@@ -117,7 +117,7 @@ def _nothing_there(
         yield [it for it in said if known.issuperset(map(word_of, it.about.signs))]
 
 
-def _nothing_known(language: str, world: World, known: frozenset[Pred]) -> Talk:
+def _knowledge_questions(language: str, world: World, known: frozenset[Pred]) -> Talk:
     """What one may ask who knows nothing."""
     return () if known else sayings(language, "ask_knowledge", world)
 
@@ -126,26 +126,26 @@ BARE = ("ask_certainty", "ask_why", "forget_that")
 """The moves that may be about what was said last, without saying so."""
 
 
-def _bare(language: str, world: World) -> Talk:
+def _about_the_last(language: str, world: World) -> Talk:
     """What is about what was said last."""
     said = (one for act in BARE for one in sayings(language, act, world))
     return [one for one in said if isinstance(one.about, Matter)]
 
 
-def _names(language: str, world: World, things: Sequence[int]) -> Talk:
+def _name_questions(language: str, world: World, things: Sequence[int]) -> Talk:
     """What each of these things is."""
     phrases = (phrases_of(language, world, x)[0] for x in things)
     return [Saying(language, "ask_name", Claim(None, phrase)) for phrase in phrases]
 
 
-def _others(language: str, world: World) -> Talk:
+def _questions_of_others(language: str, world: World) -> Talk:
     """What the others are than what was talked of."""
     other = Claim(None, Phrase("Other"))
     acts_ = ("ask_name", "ask_place") if len(world.in_view) > 1 else ()
     return [Saying(language, act, other) for act in acts_]
 
 
-def _same(language: str, world: World) -> Talk:
+def _reflexive_lessons(language: str, world: World) -> Talk:
     """Lessons that something stands beside itself."""
     left = vocabulary(language).relations["left"]
     ways = (phrases_of(language, world, x) for x in world.in_view)
@@ -153,11 +153,11 @@ def _same(language: str, world: World) -> Talk:
     return [Saying(language, "relate", claim) for claim in claims]
 
 
-def _mistakes(language: str, world: World, known: frozenset[Pred]) -> Iterator[Talk]:
+def _wrong_nouns(language: str, world: World, known: frozenset[Pred]) -> Iterator[Talk]:
     """What calls a thing by a noun that is known, but is not its own."""
     nouns = [it for it in vocabulary(language).nouns.values() if word_of(it) in known]
     claims = [
-        Claim(noun, coloured(language, world, x))
+        Claim(noun, colour_phrase(language, world, x))
         for x, noun in product(world.in_view, nouns)
         if noun != vocabulary(language).noun_of(world, x)
     ]
@@ -165,25 +165,27 @@ def _mistakes(language: str, world: World, known: frozenset[Pred]) -> Iterator[T
         yield [Saying(language, act, claim) for claim in claims]
 
 
-def _unplaced(language: str, world: World) -> Iterator[Talk]:
+def _flat_place_topics(language: str, world: World) -> Iterator[Talk]:
     """What may be said of places in a picture that does not show them."""
     if world.deep:
         return
     relations = vocabulary(language).relations.values()
     claims = [
-        Claim(relation, *_pair(language, world, x, y))
+        Claim(relation, *_colour_phrases(language, world, x, y))
         for relation in relations
         for x, y in permutations(world.in_view, 2)
     ]
     for act in OF_PLACES:
-        yield [_placing(language, act, claim) for claim in claims]
+        yield [_place_saying(language, act, claim) for claim in claims]
 
 
-def _pair(language: str, world: World, x: int, y: int) -> tuple[Phrase, Phrase]:
-    return coloured(language, world, x), coloured(language, world, y)
+def _colour_phrases(
+    language: str, world: World, x: int, y: int
+) -> tuple[Phrase, Phrase]:
+    return colour_phrase(language, world, x), colour_phrase(language, world, y)
 
 
-def _placing(language: str, act: str, claim: Claim) -> Saying:
+def _place_saying(language: str, act: str, claim: Claim) -> Saying:
     """What is said of places by way of a move; who rejects something denies it."""
     return Saying(language, act, replace(claim, denies=act == "reject"))
 
@@ -199,15 +201,17 @@ STRANGE = (
 """The moves in which one may ask for a word that is not known."""
 
 
-def _strange(language: str, world: World, known: frozenset[Pred]) -> Iterator[Talk]:
+def _unknown_word_topics(
+    language: str, world: World, known: frozenset[Pred]
+) -> Iterator[Talk]:
     """What has a word in it that is not known, of things that can be told apart."""
     for act in STRANGE:
         if act in acts(language):
             said = sayings(language, act, world)
-            yield [it for it in said if _is_strange(it, known)]
+            yield [it for it in said if _has_one_unknown(it, known)]
 
 
-def _is_strange(one: Saying, known: frozenset[Pred]) -> bool:
+def _has_one_unknown(one: Saying, known: frozenset[Pred]) -> bool:
     """Whether all words are known but the last one, which is said of the others."""
     about = one.about
     claimed = (about.sign,) if isinstance(about, Claim) else about.signs
@@ -220,15 +224,15 @@ def _is_strange(one: Saying, known: frozenset[Pred]) -> bool:
 # --- perspectives --------------------------------------------------------------------
 
 
-def _by_fronts(
+def _front_topics(
     language: str, world: World, fronts: Sequence[tuple[int, str]]
 ) -> Sequence[Talk]:
     """What perspectives make of it where things face some way, or that they do."""
     turned = [(y, front) for y, front in fronts if y in world]
     if not turned:
         return [sayings(language, "orient", world)] if len(world.in_view) > 1 else []
-    beside = list(_beside(language, world, turned))
-    claims = [[_placing(language, act, it) for it in beside] for act in OF_PLACES]
+    beside = list(_claims_beside(language, world, turned))
+    claims = [[_place_saying(language, act, it) for it in beside] for act in OF_PLACES]
     phrases = [Phrase("", (it.sign, *it.landmark.signs)) for it in beside if it.sign]
     asked = [
         Saying(language, act, Claim(None, phrase))
@@ -236,14 +240,17 @@ def _by_fronts(
         for phrase in phrases
     ]
     places = [
-        Saying(language, "ask_place", Claim(None, coloured(language, world, x)))
+        Saying(language, "ask_place", Claim(None, colour_phrase(language, world, x)))
         for x in world.in_view
     ]
-    taking = sayings(language, "take_frame", world), by_side(language, world)
+    taking = (
+        sayings(language, "take_frame", world),
+        perspectives_by_side(language, world),
+    )
     return [talk for talk in (*claims, asked, places, places, *taking) if talk]
 
 
-def _beside(
+def _claims_beside(
     language: str, world: World, turned: Sequence[tuple[int, str]]
 ) -> Iterator[Claim]:
     """Where things are beside what faces some way: for a viewer, and for itself."""
@@ -252,11 +259,11 @@ def _beside(
         for x, way in product(world.in_view, ("away", front)):
             relation = None if x == y else known.relation_of(world, x, y, way)
             if relation is not None:
-                pair = _pair(language, world, x, y)
+                pair = _colour_phrases(language, world, x, y)
                 yield Claim(relation, *pair)
 
 
-def by_side(language: str, world: World) -> Talk:
+def perspectives_by_side(language: str, world: World) -> Talk:
     """Whose perspective is meant, where nobody is named but the robot and the thing."""
     taking = sayings(language, "take_frame", world)
     return [one for one in taking if not one.about.signs]

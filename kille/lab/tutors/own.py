@@ -22,7 +22,7 @@ from ttr.safety.python_files import run_named
 Make = Callable[..., Tutor]
 
 
-def maker_of(name: str, folder: Path, consent: Consent | None = None) -> Make:
+def load_maker(name: str, folder: Path, consent: Consent | None = None) -> Make:
     """What makes a tutor: `FILE.py:NAME`, from a folder, or `MODULE:NAME`.
 
     Who calls this names him; for a name that was found in a file, `consent` says which
@@ -39,7 +39,7 @@ def maker_of(name: str, folder: Path, consent: Consent | None = None) -> Make:
     except NotAllowedError as error:
         raise StudyError([error.message]) from error
     except (Exception, SystemExit) as error:
-        told = located(where, folder, error)
+        told = describe_error(where, folder, error)
         raise StudyError([f"{where} cannot be used: {told}"]) from error
     made: Make | None = getattr(module, what, None)
     if made is None:
@@ -50,7 +50,7 @@ def maker_of(name: str, folder: Path, consent: Consent | None = None) -> Make:
     return made
 
 
-def located(where: str, folder: Path, error: BaseException) -> str:
+def describe_error(where: str, folder: Path, error: BaseException) -> str:
     """What was raised, and on which line of the file, if it does not say so itself."""
     line = line_in(str(_file(where, folder)), error)
     says = isinstance(error, SyntaxError) or not line

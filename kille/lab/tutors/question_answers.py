@@ -47,13 +47,13 @@ PLACES = {
 """Of how many things at least one is chosen by its place among them."""
 
 
-def answers_in(language: str) -> Callable[[Object, Object], bool]:
+def answer_test(language: str) -> Callable[[Object, Object], bool]:
     """Whether an event is a move in this language that answers a question.
 
     >>> from ttr import Rec, record
     >>> said = record(text="Yes.", content=Rec)
     >>> asked = record(ask="OfferWord", options=[record(), record()])
-    >>> answers_in("en")(said, asked)
+    >>> answer_test("en")(said, asked)
     True
     """
 
@@ -62,16 +62,16 @@ def answers_in(language: str) -> Callable[[Object, Object], bool]:
             return False
         if "text" not in event:
             return False
-        meant = _read(str(event.text), language)
+        meant = _readings(str(event.text), language)
         return any(
-            content == event.content and _answers(move, event, question)
+            content == event.content and _is_answer(move, event, question)
             for move, content in meant
         )
 
     return answers
 
 
-def _answers(move: str, event: Record, question: Record) -> bool:
+def _is_answer(move: str, event: Record, question: Record) -> bool:
     """Whether an event that is such a move answers a question, whatever is seen."""
     options = len(question.options)
     match question.ask, move:
@@ -97,7 +97,7 @@ def _is_place(content: RecordType, options: int) -> bool:
 
 
 @lru_cache(4096)
-def _read(text: str, language: str) -> tuple[tuple[str, object], ...]:
+def _readings(text: str, language: str) -> tuple[tuple[str, object], ...]:
     """What a text may be: moves, by their predicates, and what they are about."""
     first, *_ = understand(text, language)
     moves = (it.type for it in first.readings)

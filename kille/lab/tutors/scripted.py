@@ -33,7 +33,7 @@ class Scripted:
         yield from _moves(lines)
 
 
-def scripted(name: str, path: Path) -> Scripted:
+def read_script(name: str, path: Path) -> Scripted:
     """The tutor who plays the stories of a file, one after the other.
 
     `StoryError` where the file has none.
@@ -45,7 +45,7 @@ def scripted(name: str, path: Path) -> Scripted:
 # --- what nobody could play -----------------------------------------------------------
 
 
-def unplayable(lines: Sequence[Line], study: Study) -> Iterator[str]:
+def unplayable_lines(lines: Sequence[Line], study: Study) -> Iterator[str]:
     """The lines of a script that nobody could play in this study, and why."""
     kinds = {scene.kind for scene in study.scenes.values()}
     known = {**_EVERYWHERE} if kinds & WHOLE else {**_EVERYWHERE, **_SIMULATED}
@@ -74,12 +74,12 @@ def _moves(lines: Sequence[Line]) -> Iterator[Move]:
     for place, line in enumerate(lines):
         match line.mark:
             case "U>":
-                yield Says(line.text, "says", _expected(lines[place + 1 :]))
+                yield Says(line.text, "says", _expected_reply(lines[place + 1 :]))
             case "@":
                 yield Happens(line.text)
 
 
-def _expected(after: Sequence[Line]) -> Asked | None:
+def _expected_reply(after: Sequence[Line]) -> Asked | None:
     """What the robot should reply, if the script says so."""
     expected = []
     for line in after:

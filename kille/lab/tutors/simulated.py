@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 from kille.lab.robots.replies import Reply
 from kille.lab.scenes.occasions import KINDS, Occasion
-from kille.lab.tutors.answers import answer
-from kille.lab.tutors.beliefs import Holding, Manner
+from kille.lab.tutors.answers import answer_robot
+from kille.lab.tutors.beliefs import Beliefs, Manner
 from kille.lab.tutors.tutor import Asked, Move, Says, Shows, Task, Turns, Waits
 from kille.lab.worlds.sayings import QUESTION_ACTS
 
@@ -39,15 +39,15 @@ class Simulated:
 
     def turns(self, task: Task) -> Turns:
         """The moves by which he does a task of a phase."""
-        holding = Holding(self.manner, task)
+        holding = Beliefs(self.manner, task)
         if holding.has_words:
-            yield from _DOES[task.do](_Doing(holding))
+            yield from _DOES[task.do](_Performance(holding))
 
 
-class _Doing:
+class _Performance:
     """A task as a tutor does it, as long as his patience lasts."""
 
-    def __init__(self, holding: Holding) -> None:
+    def __init__(self, holding: Beliefs) -> None:
         self._holding, self._task, self._words = holding, holding.task, holding.words
         self._manner, self._left = holding.manner, holding.manner.patience
 
@@ -148,7 +148,7 @@ class _Doing:
         """He says something, and clears up what the robot asks about it."""
         reply = yield says
         while reply.is_open and self._left > 0:
-            told = answer(self._holding, reply, says)
+            told = answer_robot(self._holding, reply, says)
             if told is None:
                 break
             self._left -= 1
@@ -204,7 +204,7 @@ class _Doing:
     def _answering(self, reply: Reply, latest: Says | None) -> Turns:
         """He answers what the robot asks, as long as his patience lasts."""
         while reply.wants and self._left > 0:
-            told = answer(self._holding, reply, latest)
+            told = answer_robot(self._holding, reply, latest)
             if told is None:
                 return
             self._left -= 1
@@ -212,13 +212,13 @@ class _Doing:
             reply = yield told
 
 
-_DOES: Mapping[str, Callable[[_Doing], Turns]] = {
-    "teach": _Doing.teach,
-    "ask": _Doing.ask,
-    "practise": _Doing.practise,
-    "talk": _Doing.talk,
-    "find": _Doing.find,
-    "forget": _Doing.forget,
-    "align": _Doing.align,
+_DOES: Mapping[str, Callable[[_Performance], Turns]] = {
+    "teach": _Performance.teach,
+    "ask": _Performance.ask,
+    "practise": _Performance.practise,
+    "talk": _Performance.talk,
+    "find": _Performance.find,
+    "forget": _Performance.forget,
+    "align": _Performance.align,
 }
 """What he does, by what is to be done in a phase."""

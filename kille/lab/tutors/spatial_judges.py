@@ -83,25 +83,25 @@ class Person:
 
     def shifted(self, by: float) -> Person:
         """Who speaks of closeness more often, by so much in log-odds."""
-        return Person(_shifted(self.inside, by), _shifted(self.outside, by))
+        return Person(_shift_share(self.inside, by), _shift_share(self.outside, by))
 
 
-def _shifted(share: float, by: float) -> float:
+def _shift_share(share: float, by: float) -> float:
     share = min(max(share, 1e-6), 1 - 1e-6)
     return 1 / (1 + math.exp(-(math.log(share / (1 - share)) + by)))
 
 
-def born(habit: float, chance: np.random.Generator) -> Person:
+def draw_person(habit: float, chance: np.random.Generator) -> Person:
     """A person whose habit differs from the usual by this deviation of log-odds."""
     return Person().shifted(habit * chance.normal())
 
 
-def person(inside: float, outside: float, habit: float, chance: Random) -> Person:
+def draw_speaker(inside: float, outside: float, habit: float, chance: Random) -> Person:
     """Who speaks of closeness so often, give or take a deviation of log-odds."""
     return Person(inside, outside).shifted(habit * chance.gauss(0, 1))
 
 
-def answer(degrees: Mapping[str, float]) -> str:
+def likeliest_word(degrees: Mapping[str, float]) -> str:
     """The likeliest word, the first of equals; none where there is none."""
     return max(degrees, key=lambda word: degrees[word], default="")
 
@@ -151,7 +151,7 @@ class Rated:
 
     def chances(self, place: Place, front: float | None = None) -> dict[str, float]:
         """By the square of the rating at the nearest place that was rated."""
-        place = _turned(place, front)
+        place = _in_landmark_frame(place, front)
         weights = {
             word: min((math.dist(at, place), it) for at, it in rated)[1] ** 2
             for word, rated in self.words.items()
@@ -160,7 +160,7 @@ class Rated:
         return {word: weight / whole for word, weight in weights.items()}
 
 
-def _turned(place: Place, front: float | None) -> Place:
+def _in_landmark_frame(place: Place, front: float | None) -> Place:
     """A place as the landmark itself has it, right and ahead: see `Person.chances`."""
     if front is None:
         return place
@@ -173,7 +173,7 @@ def _turned(place: Place, front: float | None) -> Place:
 
 
 @lru_cache(8)
-def rated(folder: Path) -> Rated:
+def read_ratings(folder: Path) -> Rated:
     """The ratings in a folder of judgements on an upright plane."""
     words: dict[str, list[tuple[Place, float]]] = {}
     for word, judged in read(folder).words.items():
@@ -206,7 +206,7 @@ class Speaker:
         if not chances:
             return ""
         drawn = chance.choices(list(chances), list(chances.values()))[0]
-        return drawn if self.draws else answer(chances)
+        return drawn if self.draws else likeliest_word(chances)
 
     @property
     def words(self) -> tuple[str, ...]:

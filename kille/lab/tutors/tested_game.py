@@ -9,8 +9,8 @@ from functools import lru_cache
 
 from hypothesis import strategies as st
 
-from kille.lab.tutors.exploring import tutoring
-from kille.lab.tutors.question_answers import DROPPING, answers_in
+from kille.lab.tutors.exploring import exploring_tutor
+from kille.lab.tutors.question_answers import DROPPING, answer_test
 from kille.lab.worlds.games import simulated
 from kille.lab.worlds.robot_profiles import ROBOTS
 from kille.lab.worlds.worlds import drawn
@@ -30,7 +30,7 @@ def roles_in(language: str) -> Roles:
         commitments="shared.commitments",
         latest="shared.latest",
         words=words,
-        answers=answers_in(language),
+        answers=answer_test(language),
         drops=DROPPING,
         retracts=frozenset({"keep"}),
         moves=8,  # where each of the things that there are is
@@ -40,7 +40,7 @@ def roles_in(language: str) -> Roles:
 game = simulated(drawn(1))
 """The games, in front of a table with four things on it and four beside it."""
 
-tutor = tutoring()
+tutor = exploring_tutor()
 roles = roles_in("en")
 
 WORLDS = 4
@@ -50,11 +50,11 @@ _ENGLISH = [robot for robot in ROBOTS if robot.language == "en"]
 
 
 @lru_cache(len(_ENGLISH) * WORLDS)
-def _begun(robot: int, seed: int) -> tuple[Record, Model]:
+def _start(robot: int, seed: int) -> tuple[Record, Model]:
     """The state and the model in which a dialogue with a robot begins."""
     begun = _ENGLISH[robot].game(seed)
     return begun.start, begun.model
 
 
-starts = st.builds(_begun, st.integers(0, len(_ENGLISH) - 1), st.integers(1, WORLDS))
+starts = st.builds(_start, st.integers(0, len(_ENGLISH) - 1), st.integers(1, WORLDS))
 """Where dialogues begin: with every robot that speaks English, in some worlds."""

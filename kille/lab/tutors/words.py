@@ -15,9 +15,9 @@ from kille.lab.worlds.sayings import (
     Claim,
     Phrase,
     Saying,
-    about_word,
-    facing,
-    perspective,
+    facing_matter,
+    perspective_matter,
+    word_matter,
 )
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import Thing
@@ -101,13 +101,13 @@ class Words:
 
     def facing(self, front: str, phrase: Phrase) -> str:
         """Which way a thing faces."""
-        return Saying(self.language, "orient", facing(front, phrase)).text
+        return Saying(self.language, "orient", facing_matter(front, phrase)).text
 
     def perspective(self, of: str) -> str:
         """Whose perspective is meant: that of the `viewer`, or of the `landmark`."""
-        return Saying(self.language, "take_frame", perspective(of)).text
+        return Saying(self.language, "take_frame", perspective_matter(of)).text
 
     def forgetting(self, kind: str, word: str) -> str:
         """That a word is to be forgotten."""
-        about = about_word(self.sign(kind, word))
+        about = word_matter(self.sign(kind, word))
         return Saying(self.language, "forget_word", about).text

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from kille.dialogue.meanings import predicate_at, record_type, value_at
-from kille.lab.worlds.games import words
+from kille.dialogue.meanings import predicate_at, value_at
+from kille.lab.worlds.games import learned_words
 from ttr import Record, RecordType
 from ttr.judging import Judgement
 from ttr.testing import Property
@@ -27,28 +27,28 @@ def _act(move: Judgement) -> str:
     return predicate_at(move.type, "e").name
 
 
-def _said(trial: Trial) -> Sequence[Judgement]:
+def _moves_said(trial: Trial) -> Sequence[Judgement]:
     return () if trial.turn is None else trial.turn.said
 
 
-def _turns(dialogue: Dialogue) -> Iterator[tuple[int, Trial]]:
+def _numbered_trials(dialogue: Dialogue) -> Iterator[tuple[int, Trial]]:
     return enumerate(dialogue.trials, start=1)
 
 
 # --- P10 -----------------------------------------------------------------------------
 
 
-def _retracts_more(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, trial in _turns(dialogue):
+def _overretracted(dialogue: Dialogue, roles: Roles) -> Checked:
+    for number, trial in _numbered_trials(dialogue):
         before, after = trial.before.state, trial.after.state
         gone = set(before.shared.commitments) - set(after.shared.commitments)
-        keys = {key for it in _said(trial) for key in _forgets(it.sit)}
+        keys = {key for it in _moves_said(trial) for key in _forgotten_keys(it.sit)}
         named = {it.content for it in before.private.lessons if it.key in keys}
         for content in gone - named:
             yield number, f"{content} is taken back, though nobody named it"
 
 
-def _forgets(move: Record) -> Iterable[str]:
+def _forgotten_keys(move: Record) -> Iterable[str]:
     """The keys of what a move unlearns; what is only told once more is none of it."""
     undone = move.undone if move.undoes else ()
     return (*move.forgets, *move.dropped, *(it.key for it in undone))
@@ -57,13 +57,13 @@ def _forgets(move: Record) -> Iterable[str]:
 # --- P11 -----------------------------------------------------------------------------
 
 
-def _ungrounded(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, trial in _turns(dialogue):
-        for move in _said(trial):
+def _ungrounded_lessons(dialogue: Dialogue, roles: Roles) -> Checked:
+    for number, trial in _numbered_trials(dialogue):
+        for move in _moves_said(trial):
             for content in move.sit.teaches:
                 if why := _why_ungrounded(content, trial):
                     yield number, f"{content} is learned, {why}"
-        if why := _unlinked(trial):
+        if why := _why_unlinked(trial):
             yield number, why
 
 
@@ -71,38 +71,38 @@ def _why_ungrounded(content: RecordType, trial: Trial) -> str:
     """Why a lesson was not given about this very thing in this very look, if so."""
     before = trial.before.state
     autonomous = before.private.strategy.mode == "autonomous"
-    if not _heard(trial) and not autonomous:
+    if not _has_spoken(trial) and not autonomous:
         return "but the tutor has said nothing"
     looks = {value_at(it, "look") for it in before.shared.pending}
     looks |= {value_at(it, "look") for it in before.shared.commitments}
     looks |= {before.view.look, trial.after.state.view.look}
     if value_at(content, "look") not in looks:
         return "about a look that was not talked of"
-    if _is(trial, "Deny") and content in before.shared.pending:
+    if _is_move(trial, "Deny") and content in before.shared.pending:
         return "though the tutor has said no"
     return ""
 
 
-def _unlinked(trial: Trial) -> str:
+def _why_unlinked(trial: Trial) -> str:
     """Whether the lessons in the state are not those that were given."""
     before, after = (
         {lesson.key: lesson for lesson in run.state.private.lessons}
         for run in (trial.before, trial.after)
     )
     new = [it for key, it in after.items() if key not in before]
-    taught = [content for it in _said(trial) for content in it.sit.teaches]
+    taught = [content for it in _moves_said(trial) for content in it.sit.teaches]
     if sorted(str(it.content) for it in new) != sorted(map(str, taught)):
         return f"{len(taught)} lessons were given, but {len(new)} are kept"
     return ""
 
 
-def _heard(trial: Trial) -> bool:
+def _has_spoken(trial: Trial) -> bool:
     """Whether the tutor has said something in a turn."""
     taken = [step.event for step in trial.steps]
     return any(isinstance(it, Record) and "text" in it for it in taken)
 
 
-def _is(trial: Trial, move: str) -> bool:
+def _is_move(trial: Trial, move: str) -> bool:
     """Whether what the tutor has said is such a move."""
     if trial.turn is None or not isinstance(trial.turn.heard, Record):
         return False
@@ -112,12 +112,14 @@ def _is(trial: Trial, move: str) -> bool:
 # --- P12 -----------------------------------------------------------------------------
 
 
-def _spills(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, trial in _turns(dialogue):
-        before = {it.sign: it for it in words(trial.before.model)}
-        taught = {sign.meaning for move in _said(trial) for sign in move.sit.signs}
-        keys = {key for move in _said(trial) for key in _forgets(move.sit)}
-        for it in words(trial.after.model):
+def _changed_words(dialogue: Dialogue, roles: Roles) -> Checked:
+    for number, trial in _numbered_trials(dialogue):
+        before = {it.sign: it for it in learned_words(trial.before.model)}
+        taught = {
+            sign.meaning for move in _moves_said(trial) for sign in move.sit.signs
+        }
+        keys = {key for move in _moves_said(trial) for key in _forgotten_keys(move.sit)}
+        for it in learned_words(trial.after.model):
             was = before.get(it.sign)
             own = was is not None and keys.intersection(x.key for x in was.lessons)
             if was is not it and not own and it.sign.meaning not in taught:
@@ -127,11 +129,11 @@ def _spills(dialogue: Dialogue, roles: Roles) -> Checked:
 # --- P19 -----------------------------------------------------------------------------
 
 
-def _boasts(dialogue: Dialogue, roles: Roles) -> Checked:
+def _overclaims(dialogue: Dialogue, roles: Roles) -> Checked:
     named: list[tuple[int, float, float]] = []
-    for number, trial in _turns(dialogue):
+    for number, trial in _numbered_trials(dialogue):
         beliefs = trial.after.state.private.beliefs
-        for move in _said(trial):
+        for move in _moves_said(trial):
             rank = CERTAINTY.get(_act(move))
             if rank is None or not beliefs:
                 continue
@@ -139,11 +141,11 @@ def _boasts(dialogue: Dialogue, roles: Roles) -> Checked:
             named.append((rank, best, best - rival))
             if best == rival and rank and _act(move) != "hedge_name":
                 yield number, "two words are as probable, but only one is named"
-        if why := _inverted(named):
+        if why := _why_inverted(named):
             yield number, why
 
 
-def _inverted(named: Sequence[tuple[int, float, float]]) -> str:
+def _why_inverted(named: Sequence[tuple[int, float, float]]) -> str:
     """Whether less certain words were used for what is more probable in every way."""
     for rank, best, lead in named:
         for other, p, margin in named:
@@ -155,11 +157,11 @@ def _inverted(named: Sequence[tuple[int, float, float]]) -> str:
 # --- P17 -----------------------------------------------------------------------------
 
 
-def _speechless(dialogue: Dialogue, roles: Roles) -> Checked:
+def _unworded_moves(dialogue: Dialogue, roles: Roles) -> Checked:
     say = dialogue.game.say
     assert say is not None
-    for number, trial in _turns(dialogue):
-        for move in _said(trial):
+    for number, trial in _numbered_trials(dialogue):
+        for move in _moves_said(trial):
             try:
                 text = say(move)
             except Exception as error:
@@ -173,31 +175,31 @@ RETRACTED = Property(
     "P10",
     "exact retraction",
     "what is taken back was named by the tutor, and nothing else is.",
-    _retracts_more,
+    _overretracted,
 )
 GROUNDED = Property(
     "P11",
     "grounded learning",
     "what is learned was said by the tutor, about this very thing in this very look.",
-    _ungrounded,
+    _ungrounded_lessons,
 )
 LOCAL = Property(
     "P12",
     "local learning",
     "a lesson changes what its own word means, and no other word.",
-    _spills,
+    _changed_words,
 )
 HONEST = Property(
     "P19",
     "honest wording",
     "more certain words only for what is more probable, or farther ahead.",
-    _boasts,
+    _overclaims,
 )
 WORDED = Property(
     "P17",
     "never speechless",
     "there are words for every move.",
-    _speechless,
+    _unworded_moves,
 )
 
 OF_TUTORING = (WORDED, RETRACTED, GROUNDED, LOCAL, HONEST)

@@ -23,7 +23,7 @@ from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from kille.lab.worlds.perception import across, number_of, thing, view
 from kille.lab.worlds.vocabulary import vocabulary
-from kille.lab.worlds.word_learning import Taught, Word, observed
+from kille.lab.worlds.word_learning import LearnedWord, WordLesson, observe
 from kille.lab.worlds.worlds import World
 from ttr import Model, Pred, Record, RecordType, record, replace
 from ttr.types import TypeNode
@@ -83,19 +83,19 @@ def known(model: Model, signs: Iterable[Record]) -> Model:
     """The model in which these words are judged, by what they know without lessons."""
     for sign in signs:
         if word(model, word_of(sign)) is None:
-            model = model.witnessed(word_of(sign), by=Word.known(sign))
+            model = model.witnessed(word_of(sign), by=LearnedWord.known(sign))
     return model
 
 
-def word(model: Model, pred: Pred) -> Word | None:
+def word(model: Model, pred: Pred) -> LearnedWord | None:
     """What a predicate is true of in a model, as a word that was learned."""
     found = model.facts.functions.get(pred)
-    return found if isinstance(found, Word) else None
+    return found if isinstance(found, LearnedWord) else None
 
 
-def words(model: Model) -> tuple[Word, ...]:
+def learned_words(model: Model) -> tuple[LearnedWord, ...]:
     """All words that a model judges by what it has learned, in order of their names."""
-    found = [it for it in model.facts.functions.values() if isinstance(it, Word)]
+    found = [it for it in model.facts.functions.values() if isinstance(it, LearnedWord)]
     return tuple(sorted(found, key=lambda it: word_of(it.sign).name))
 
 
@@ -127,14 +127,14 @@ def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
     keys = []
     for content in move.teaches:
         sign = next(it for it in move.signs if claims(content, it))
-        key, model = _learned(model, sign, content)
+        key, model = _learn(model, sign, content)
         keys.append(key)
     dropped = [key for sign in move.drops for key in keys_of(model, sign)]
-    undone = _latest(model, len(move.undoes))
+    undone = _latest_lessons(model, len(move.undoes))
     keys_undone = [it.key for it in undone]
-    lost, model = _unlearned(model, (*move.forgets, *dropped, *keys_undone))
+    lost, model = _unlearn(model, (*move.forgets, *dropped, *keys_undone))
     explained = [_reason(model, claim) for claim in move.explains]
-    recalled = [_recalled(model, sign) for sign in move.recalls]
+    recalled = [_recollection(model, sign) for sign in move.recalls]
     done = {
         "keys": keys,
         "dropped": dropped,
@@ -152,17 +152,17 @@ def keys_of(model: Model, sign: Record) -> tuple[str, ...]:
     return () if found is None else tuple(lesson.key for lesson in found.lessons)
 
 
-def _learned(model: Model, sign: Record, content: RecordType) -> tuple[str, Model]:
+def _learn(model: Model, sign: Record, content: RecordType) -> tuple[str, Model]:
     """The model in which a content was learned, and the key of the lesson."""
     pred = word_of(sign)
     number = max((it.number for _, it in _lessons(model)), default=0) + 1
-    taught = (word(model, pred) or Word(sign)).taught(
-        *arguments(sign, content), holds=not is_denial(content), number=number
+    taught = (word(model, pred) or LearnedWord(sign)).taught(
+        *claim_arguments(sign, content), holds=not is_denial(content), number=number
     )
     return taught.lessons[-1].key, model.witnessed(pred, by=taught)
 
 
-def arguments(sign: Record, content: RecordType) -> tuple[str, ...]:
+def claim_arguments(sign: Record, content: RecordType) -> tuple[str, ...]:
     """What a content claims its word to be true of."""
     look, target = value_at(content, "look"), content["target"]
     assert isinstance(target, RecordType)
@@ -174,11 +174,11 @@ def arguments(sign: Record, content: RecordType) -> tuple[str, ...]:
     return x, str(value_at(landmark, "x")), str(look), str(value_at(content, "frame"))
 
 
-def _unlearned(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], Model]:
+def _unlearn(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], Model]:
     """The words that are lost without these lessons, and the model without them."""
     forgotten = set(keys)
     lost = []
-    for it in words(model):
+    for it in learned_words(model):
         left = it
         for lesson in it.lessons:
             if lesson.key in forgotten:
@@ -191,20 +191,20 @@ def _unlearned(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], M
     return tuple(lost), model
 
 
-def _lessons(model: Model) -> Iterator[tuple[Record, Taught]]:
+def _lessons(model: Model) -> Iterator[tuple[Record, WordLesson]]:
     """All lessons, each with the sign that it is about."""
-    for it in words(model):
+    for it in learned_words(model):
         for lesson in it.lessons:
             yield it.sign, lesson
 
 
-def _latest(model: Model, count: int) -> list[Record]:
+def _latest_lessons(model: Model, count: int) -> list[Record]:
     """So many of the lessons that were given last, as reminders."""
     ordered = sorted(_lessons(model), key=lambda it: -it[1].number)
     return [_reminder(sign, lesson) for sign, lesson in ordered[:count]]
 
 
-def _recalled(model: Model, sign: Record) -> Record:
+def _recollection(model: Model, sign: Record) -> Record:
     return record(sign=sign, lessons=float(len(keys_of(model, sign))), confused=[])
 
 
@@ -213,9 +213,9 @@ def _reason(model: Model, claim: RecordType) -> Record:
 
     In a simulated world it is always now, and what was said in a lesson is its word.
     """
-    sign = next(it.sign for it in words(model) if claims(claim, it.sign))
+    sign = next(it.sign for it in learned_words(model) if claims(claim, it.sign))
     known = word(model, word_of(sign))
-    of = observed(sign.kind, *arguments(sign, claim))
+    of = observe(sign.kind, *claim_arguments(sign, claim))
     if known is None or of is None:
         return record(claim=claim, p=0.0, cues=[], reminders=[])
     cues = [record(name=name, share=share) for name, share in known.cues(of)]
@@ -224,7 +224,7 @@ def _reason(model: Model, claim: RecordType) -> Record:
     return record(claim=claim, p=known.degree(of), cues=cues, reminders=reminders)
 
 
-def _reminder(sign: Record, lesson: Taught) -> Record:
+def _reminder(sign: Record, lesson: WordLesson) -> Record:
     return record(
         key=lesson.key,
         sign=sign,

@@ -94,13 +94,13 @@ def traits(world: World, number: int) -> Vector:
     """What a thing looks like: its kind, and how it and this look at it differ."""
     kind = world.thing(number).kind
     typical = _uniform(f"kind {world.traits} {kind}", TRAITS)
-    return _blurred(typical, world, number)
+    return _blur(typical, world, number)
 
 
 @lru_cache(65536)
 def colour(world: World, number: int) -> Vector:
     """The colour of a thing, as it looks."""
-    return _blurred(COLOURS[world.thing(number).colour], world, number)
+    return _blur(COLOURS[world.thing(number).colour], world, number)
 
 
 def size(world: World, number: int) -> Vector:
@@ -155,7 +155,7 @@ def oddness(world: World, number: int) -> float:
     return math.hypot(*own)
 
 
-def _blurred(typical: Vector, world: World, number: int) -> Vector:
+def _blur(typical: Vector, world: World, number: int) -> Vector:
     """What is typical, as it is of this thing, and as it is seen now."""
     n = len(typical)
     own = _normal(f"thing {world.traits} {number} {n}", n)

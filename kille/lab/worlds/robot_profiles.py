@@ -17,7 +17,7 @@ from ttr.updates import Game
 
 
 @dataclass(frozen=True)
-class Robot:
+class RobotProfile:
     """Who the tutor talks to, in which language, in which share of the dialogues.
 
     It has been told so many `times` what it sees, and something has become of it
@@ -43,13 +43,13 @@ class Robot:
         return game if self.since is None else self.since(game)
 
 
-def _flattened(game: Game) -> Game:
+def _flatten_view(game: Game) -> Game:
     """The game when it is no longer seen where things are."""
     world = world_of(game.start)
     return resumed(game, [glanced(world.seen_flat(), world)])
 
 
-def _relaid(game: Game) -> Game:
+def _relay_table(game: Game) -> Game:
     """The game when all that is in view is taken away, and all else is put there."""
     world = before = world_of(game.start)
     for number in range(1, len(world.things) + 1):
@@ -65,34 +65,36 @@ DIM = {"noise": 0.15, "kinds": ("cup", "mug", "book")}
 ALIKE = {"kinds": ("cup", "mug", "book"), "colours": ("red", "green", "blue")}
 
 ROBOTS = (
-    Robot("assisted", 0.1),
-    Robot("assisted, after school", 0.1, times=1),
-    Robot("assisted, after school, among like things", 0.1, times=1, world=ALIKE),
-    Robot("assisted, after school, seeing badly", 0.05, times=1, world=DIM),
-    Robot("assisted, seeing badly", 0.05, world=DIM),
-    Robot("assisted, seeing flat pictures", 0.05, world=FLAT),
-    Robot(
+    RobotProfile("assisted", 0.1),
+    RobotProfile("assisted, after school", 0.1, times=1),
+    RobotProfile(
+        "assisted, after school, among like things", 0.1, times=1, world=ALIKE
+    ),
+    RobotProfile("assisted, after school, seeing badly", 0.05, times=1, world=DIM),
+    RobotProfile("assisted, seeing badly", 0.05, world=DIM),
+    RobotProfile("assisted, seeing flat pictures", 0.05, world=FLAT),
+    RobotProfile(
         "assisted, after school, seeing flat pictures",
         0.05,
         times=1,
-        since=_flattened,
+        since=_flatten_view,
     ),
-    Robot("assisted, on another day", 0.05, times=1, since=rested),
-    Robot("assisted, knowing no colours", 0.05, knows={"colours": ()}),
-    Robot("assisted, Swedish", 0.05, "sv"),
-    Robot("assisted, Swedish, after school", 0.05, "sv", times=1),
-    Robot("four bands", 0.05, strategy=FOUR),
-    Robot(
+    RobotProfile("assisted, on another day", 0.05, times=1, since=rested),
+    RobotProfile("assisted, knowing no colours", 0.05, knows={"colours": ()}),
+    RobotProfile("assisted, Swedish", 0.05, "sv"),
+    RobotProfile("assisted, Swedish, after school", 0.05, "sv", times=1),
+    RobotProfile("four bands", 0.05, strategy=FOUR),
+    RobotProfile(
         "four bands, after school, seeing other things badly",
         0.05,
         times=1,
         strategy=FOUR,
         world=DIM,
-        since=_relaid,
+        since=_relay_table,
     ),
-    Robot("autonomous", 0.05, strategy=ALONE),
-    Robot("autonomous, after school", 0.05, times=3, strategy=ALONE),
-    Robot("autonomous, four bands", 0.05, strategy={**ALONE, **FOUR}),
-    Robot("driven", 0.05, strategy={"mode": "driven"}),
+    RobotProfile("autonomous", 0.05, strategy=ALONE),
+    RobotProfile("autonomous, after school", 0.05, times=3, strategy=ALONE),
+    RobotProfile("autonomous, four bands", 0.05, strategy={**ALONE, **FOUR}),
+    RobotProfile("driven", 0.05, strategy={"mode": "driven"}),
 )
 """All of them: each in a share of the dialogues."""

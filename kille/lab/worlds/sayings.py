@@ -151,10 +151,10 @@ def sayings(language: str, act: str, world: World) -> tuple[Saying, ...]:
     >>> sayings("en", "instruct", world)[0].text
     'This is a cup.'
     """
-    return _sayings(language, act, settled(world))
+    return _sayings(language, act, without_glance(world))
 
 
-def settled(world: World) -> World:
+def without_glance(world: World) -> World:
     """A world as it is, however often it was looked at: what may be said of it."""
     return replace(world, glance=0)
 
@@ -164,7 +164,7 @@ def _sayings(language: str, act: str, world: World) -> tuple[Saying, ...]:
     found = (
         Saying(language, act, about)
         for wording in lexicon(language).tells[act]
-        for about in _about(language, _slots(wording), world)
+        for about in _matters_of(language, _slots(wording), world)
     )
     return tuple(dict.fromkeys(found))
 
@@ -173,16 +173,16 @@ def _slots(wording: str) -> frozenset[str]:
     return frozenset(slot for _, slot, _, _ in Formatter().parse(wording) if slot)
 
 
-def _about(
+def _matters_of(
     language: str, slots: frozenset[str], world: World
 ) -> Iterable[Claim | Matter]:
     """What a wording with these slots may be about, if the slots are known."""
-    claiming = next((slot for slot in slots if _plainly(slot) in SLOTS), "")
+    claiming = next((slot for slot in slots if _affirmed_slot(slot) in SLOTS), "")
     if claiming:
-        kind = SLOTS[_plainly(claiming)]
+        kind = SLOTS[_affirmed_slot(claiming)]
         claims = _relations if kind == "relation" else _claims
         said = claims(language, world, kind, "the_target" in slots)
-        denies = claiming != _plainly(claiming)
+        denies = claiming != _affirmed_slot(claiming)
         return (replace(claim, denies=denies) for claim in said)
     if slots == {"the_target"}:
         return (Claim(None, phrase) for phrase in _phrases(language, world))
@@ -192,34 +192,34 @@ def _about(
         case []:
             return [Matter()]
         case ["word"]:
-            return map(about_word, known.all)
+            return map(word_matter, known.all)
         case ["counted"]:
             return (Matter(rectype(counted=it.meaning), (it,)) for it in nouns)
         case ["front", "the_target"]:
-            return _facing(language, world)
+            return _all_facing(language, world)
         case ["the_landmark"]:
             phrases = (Phrase("", (noun,)) for noun in nouns)
-            return (perspective("landmark", phrase) for phrase in phrases)
+            return (perspective_matter("landmark", phrase) for phrase in phrases)
         case ["by"]:
-            return [perspective("viewer"), perspective("landmark")]
+            return [perspective_matter("viewer"), perspective_matter("landmark")]
     return ()
 
 
-def _facing(language: str, world: World) -> Iterator[Matter]:
+def _all_facing(language: str, world: World) -> Iterator[Matter]:
     """Which way things face: as they do, and, where they have no front, some way."""
     for x in world.in_view:
         front = world.thing(x).front or "left"
         for phrase in phrases_of(language, world, x):
-            yield facing(front, phrase)
+            yield facing_matter(front, phrase)
 
 
-def facing(front: str, phrase: Phrase) -> Matter:
+def facing_matter(front: str, phrase: Phrase) -> Matter:
     """That a thing faces this way: `left`, `towards` …"""
     faces = named(f"Faces{front.capitalize()}")
     return Matter(merge_of(faces, rectype(target=phrase.meaning)), phrase.signs)
 
 
-def perspective(side: str, phrase: Phrase = NOTHING) -> Matter:
+def perspective_matter(side: str, phrase: Phrase = NOTHING) -> Matter:
     """That places are as the `viewer` has them, or the `landmark` of a phrase."""
     content = named(f"By{side.capitalize()}")
     if phrase is not NOTHING:
@@ -227,12 +227,12 @@ def perspective(side: str, phrase: Phrase = NOTHING) -> Matter:
     return Matter(content, phrase.signs)
 
 
-def about_word(sign: Record) -> Matter:
+def word_matter(sign: Record) -> Matter:
     """That it is a word that is talked of, as in "Forget cup"."""
     return Matter(rectype(word=sign.meaning), (sign,))
 
 
-def _plainly(slot: str) -> str:
+def _affirmed_slot(slot: str) -> str:
     return slot.removeprefix("not_")
 
 
@@ -261,7 +261,7 @@ def _relations(
                     yield Claim(sign, target, landmark)
 
 
-def true_of(
+def true_claims(
     language: str, world: World, x: int, phrase: Phrase = THIS
 ) -> Iterator[Claim]:
     """What is true of a thing, of which one speaks by this phrase.
@@ -274,10 +274,10 @@ def true_of(
     for y in world.in_view:
         if y != x:
             relation = known.relation_of(world, x, y) or known.relations["left"]
-            yield Claim(relation, phrase, coloured(language, world, y))
+            yield Claim(relation, phrase, colour_phrase(language, world, y))
 
 
-def coloured(language: str, world: World, x: int) -> Phrase:
+def colour_phrase(language: str, world: World, x: int) -> Phrase:
     """A phrase for a thing in words that are known from the start: "the red one"."""
     return Phrase("", vocabulary(language).adjectives_of(world, x)[:1])
 

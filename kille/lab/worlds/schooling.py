@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import permutations
 
 from kille.dialogue.state import initial, words
-from kille.lab.worlds.games import words as learned
+from kille.lab.worlds.games import learned_words as learned
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glanced
 from kille.lab.worlds.sayings import THIS, Claim, Saying, phrases_of, sayings

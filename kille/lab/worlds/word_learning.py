@@ -64,7 +64,7 @@ LEAST = 0.02
 """How much an aspect always counts."""
 
 
-class Taught(NamedTuple):
+class WordLesson(NamedTuple):
     """A lesson: its key, what was seen, and whether the word was said to hold of it.
 
     Lessons of all words are numbered in the order in which they were given.
@@ -77,7 +77,7 @@ class Taught(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Word:
+class LearnedWord:
     """What a word is true of, as far as its lessons go; called to judge its predicate.
 
     `prior` is what is known of it without any lesson, `count` how many it has had.
@@ -86,27 +86,27 @@ class Word:
     >>> from kille.lab.worlds.worlds import Thing
     >>> things = Thing("cup", "red", place=(2, 3)), Thing("car", "red", place=(5, 3))
     >>> world = World(things)
-    >>> cup = Word(noun("cup")).taught("o1", world.name)
+    >>> cup = LearnedWord(noun("cup")).taught("o1", world.name)
     >>> cup("o1", world.name), round(cup("o2", world.name), 3)
     (0.8, ...)
     """
 
     sign: Record
-    lessons: tuple[Taught, ...] = ()
-    prior: tuple[Taught, ...] = ()
+    lessons: tuple[WordLesson, ...] = ()
+    prior: tuple[WordLesson, ...] = ()
     count: int = 0
 
     @classmethod
-    def known(cls, sign: Record) -> Word:
+    def known(cls, sign: Record) -> LearnedWord:
         """A word that was never taught: colours are known all the same."""
         shade = COLOURS.get(word_of(sign).name.removeprefix("is_"))
         if sign.kind != "adjective" or shade is None:
             return cls(sign)
-        return cls(sign, prior=(Taught("", (shade,)),))
+        return cls(sign, prior=(WordLesson("", (shade,)),))
 
     def __call__(self, *args: str) -> float | tuple[float, float]:
         """The degree to which it is true of a thing, or two, in a look."""
-        of = observed(self.sign.kind, *args)
+        of = observe(self.sign.kind, *args)
         if of is None or not (self.lessons or self.prior):
             return UNKNOWN if of is None or self.sign.kind == "adjective" else 0.0
         return self.degree(of)
@@ -118,18 +118,18 @@ class Word:
             share * self._degree(aspect, of) for aspect, share in enumerate(shares)
         )
 
-    def taught(self, *args: str, holds: bool = True, number: int = 0) -> Word:
+    def taught(self, *args: str, holds: bool = True, number: int = 0) -> LearnedWord:
         """The word after one more lesson, which is about this in a look."""
-        of = observed(self.sign.kind, *args)
+        of = observe(self.sign.kind, *args)
         if of is None:
             raise ValueError(
                 f"{args} is not to be seen, so that nothing is to be learned"
             )
         count = self.count + 1
-        lesson = Taught(f"{word_of(self.sign).name}/{count}", of, holds, number)
+        lesson = WordLesson(f"{word_of(self.sign).name}/{count}", of, holds, number)
         return replace(self, lessons=(*self.lessons, lesson), count=count)
 
-    def without(self, key: str) -> Word:
+    def without(self, key: str) -> LearnedWord:
         """The word as if it had never had this lesson."""
         left = tuple(lesson for lesson in self.lessons if lesson.key != key)
         return replace(self, lessons=left)
@@ -139,7 +139,7 @@ class Word:
         """Whether it is known to be true of anything."""
         return any(lesson.holds for lesson in (*self.prior, *self.lessons))
 
-    def nearest(self, of: Observation) -> Taught | None:
+    def nearest(self, of: Observation) -> WordLesson | None:
         """Of the lessons that say that it holds, the one most like what is seen."""
         holding = [lesson for lesson in self.lessons if lesson.holds]
         return max(holding, key=lambda it: self._alike(it.of, of), default=None)
@@ -216,7 +216,7 @@ class Word:
         return (_cosine, _as_far)[aspect](one, other)
 
 
-def observed(kind: str, *args: str) -> Observation | None:
+def observe(kind: str, *args: str) -> Observation | None:
     """What is seen of what a word is said of; None if it is not in view."""
     *things, look = args[:3] if kind == "relation" else args
     world = World.named(look)

@@ -117,7 +117,7 @@ class World:
         if not all(things) or len(focus) > 1:
             return None
         return World(
-            tuple(_thing(thing) for thing in things if thing),
+            tuple(_read_thing(thing) for thing in things if thing),
             focus[0] if focus else None,
             not found["flat"],
             int(found["traits"]),
@@ -206,7 +206,7 @@ _THING = re.compile(
 )
 
 
-def _thing(found: re.Match[str]) -> Thing:
+def _read_thing(found: re.Match[str]) -> Thing:
     place = None if found["x"] is None else (float(found["x"]), float(found["y"]))
     size, front = float(found["size"]), found["front"] or ""
     return Thing(found["kind"], found["colour"], size, place, front)

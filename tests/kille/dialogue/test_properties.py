@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kille.dialogue.meanings import record_type
-from kille.lab.tutors.exploring import NONSENSE, tutoring
+from kille.dialogue.meanings import named
+from kille.lab.tutors.exploring import NONSENSE, exploring_tutor
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING
-from kille.lab.worlds.games import simulated, words, world_of
+from kille.lab.worlds.games import learned_words, simulated, world_of
 from kille.lab.worlds.perception import glanced
 from kille.lab.worlds.robot_profiles import ROBOTS
 from kille.lab.worlds.worlds import drawn
@@ -34,7 +34,7 @@ def played(examples: int, language: str = "en", seed: int = 0, **strategy: str) 
     """What is wrong in so many dialogues."""
     suite = Suite(
         simulated(drawn(1 + seed), language=language, **strategy),
-        tutoring(language),
+        exploring_tutor(language),
         properties=PROPERTIES,
         roles=roles_in(language),
         turns=TURNS,
@@ -72,7 +72,7 @@ def test_what_was_taught_on_another_day_is_unlearned_by_name_only():
     robot = next(it for it in ROBOTS if it.name == "assisted, on another day")
     suite = Suite(
         robot.game(18 + ROBOTS.index(robot)),
-        tutoring(),
+        exploring_tutor(),
         properties=PROPERTIES,
         roles=roles_in("en"),
         turns=12,
@@ -118,8 +118,8 @@ def test_what_was_misheard_and_corrected_is_as_if_it_had_been_heard(right, wrong
     assert [it.content for it in one.state.private.lessons] == [
         it.content for it in other.state.private.lessons
     ]
-    known = {it.sign: [x.of for x in it.lessons] for it in words(one.model)}
-    after = {it.sign: [x.of for x in it.lessons] for it in words(other.model)}
+    known = {it.sign: [x.of for x in it.lessons] for it in learned_words(one.model)}
+    after = {it.sign: [x.of for x in it.lessons] for it in learned_words(other.model)}
     assert known == {sign: of for sign, of in after.items() if of or sign in known}
 
 
@@ -135,8 +135,8 @@ def test_to_forget_a_lesson_is_never_to_have_had_it(some, last):
     before = [f"This is {word}." for word in some]
     one = told(*before)
     other = told(*before, f"This is {last}.", "Forget the last thing.")
-    taught = {it.sign: [x.of for x in it.lessons] for it in words(one.model)}
-    after = {it.sign: [x.of for x in it.lessons] for it in words(other.model)}
+    taught = {it.sign: [x.of for x in it.lessons] for it in learned_words(one.model)}
+    after = {it.sign: [x.of for x in it.lessons] for it in learned_words(other.model)}
     assert taught == {sign: of for sign, of in after.items() if of or sign in taught}
     for part in ("nouns", "adjectives", "relations"):
         assert one.state.private[part] == other.state.private[part]

@@ -11,7 +11,7 @@ from kille.lab.protocols.causes import Cause, played
 from kille.lab.protocols.spatial import paper, published
 from kille.lab.protocols.staged import staged
 from kille.lab.results import silent
-from kille.lab.tutors.spatial_judges import WORDS, Person, born
+from kille.lab.tutors.spatial_judges import WORDS, Person, draw_person
 from kille.perception.relations import PaperRelations, RelationMemory
 
 METHODS = {"default": RelationMemory, "kille": PaperRelations}
@@ -67,9 +67,9 @@ def test_frames_of_reference() -> None:
 
 def test_people_differ_in_their_habits() -> None:
     chance = np.random.default_rng(0)
-    shares = {round(born(1.0, chance).inside, 3) for _ in range(5)}
+    shares = {round(draw_person(1.0, chance).inside, 3) for _ in range(5)}
     assert len(shares) == 5
-    assert born(0.0, chance).inside == pytest.approx(0.45)
+    assert draw_person(0.0, chance).inside == pytest.approx(0.45)
 
 
 def test_the_published_kappas_follow_from_their_margins() -> None:

@@ -34,9 +34,9 @@ from kille.lab.theories.meanings import meanings_of
 from kille.lab.theories.pupils import Heard, Pupil
 from kille.lab.theories.rules import algorithm_of, lacking
 from kille.lab.theories.simulated_words import Prototype
-from kille.lab.worlds.games import words
+from kille.lab.worlds.games import learned_words
 from kille.lab.worlds.perception import glanced
-from kille.lab.worlds.word_learning import Word
+from kille.lab.worlds.word_learning import LearnedWord
 from kille.lab.worlds.worlds import Thing, World, drawn
 from kille.memory import Memory
 from kille.perception.evidence import Evidence
@@ -246,7 +246,7 @@ def test_what_needs_a_rule_that_is_lacking_never_applies() -> None:
 KEYS = st.lists(st.sampled_from(range(1, 9)), min_size=1, max_size=6)
 
 
-def taught(word: Word, numbers: Iterable[int], world: World) -> Word:
+def taught(word: LearnedWord, numbers: Iterable[int], world: World) -> LearnedWord:
     for number in numbers:
         word = word.taught(f"o{number}", world.name, holds=number % 3 > 0)
     return word
@@ -255,7 +255,7 @@ def taught(word: Word, numbers: Iterable[int], world: World) -> Word:
 @given(KEYS)
 def test_a_prototype_of_one_lesson_is_that_instance(numbers: list[int]) -> None:
     world, number = drawn(1, in_view=8), numbers[0]
-    one = taught(Word(noun("cup")), [number], world)
+    one = taught(LearnedWord(noun("cup")), [number], world)
     other = taught(Prototype(noun("cup")), [number], world)
     for x in world.in_view:
         assert other(f"o{x}", world.name) == pytest.approx(one(f"o{x}", world.name))
@@ -470,9 +470,9 @@ def test_learners_of_places_learn_left_and_right(name: str) -> None:
 def test_what_was_learned_is_in_the_model_alone() -> None:
     game = game_of(Theory("p", learners={"noun": "prototype"}), WORLD)
     turn = game.play([game.hear("This is a cup.")])[-1]
-    [cup] = [it for it in words(turn.model) if it.sign.form == "cup"]
+    [cup] = [it for it in learned_words(turn.model) if it.sign.form == "cup"]
     assert isinstance(cup, Prototype)
-    assert not any(it.lessons for it in words(game.model))
+    assert not any(it.lessons for it in learned_words(game.model))
 
 
 @pytest.mark.parametrize("learner", ["both", "instances", "cues", "kille", "votes"])

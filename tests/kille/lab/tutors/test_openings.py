@@ -3,7 +3,7 @@
 import pytest
 
 from kille.dialogue.language import LANGUAGES, understand
-from kille.lab.tutors.openings import leads, situation
+from kille.lab.tutors.openings import leading_topics, situation
 from kille.lab.worlds.games import simulated, world_of
 from kille.lab.worlds.perception import glanced
 from kille.lab.worlds.robot_profiles import ROBOTS
@@ -14,7 +14,9 @@ GAME = schooled(simulated(drawn(1)))
 
 
 def acts(state, language="en"):
-    return {one.act for talk in leads(situation(language, state)) for one in talk}
+    return {
+        one.act for talk in leading_topics(situation(language, state)) for one in talk
+    }
 
 
 def after(*given):
@@ -28,7 +30,7 @@ def after(*given):
 @pytest.mark.parametrize("robot", ROBOTS, ids=[robot.name for robot in ROBOTS])
 def test_all_that_leads_on_can_be_said_and_is_understood(robot):
     now = situation(robot.language, robot.game(1).start)
-    for talk in leads(now):
+    for talk in leading_topics(now):
         for one in talk[::5]:
             assert understand(one.text, robot.language)[0].readings, one.text
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from kille.lab.tutors.question_answers import answers_in
+from kille.lab.tutors.question_answers import answer_test
 from kille.lab.worlds.games import simulated
 from kille.lab.worlds.worlds import drawn
 from ttr import record
@@ -33,10 +33,10 @@ def test_what_answers_what(text, ask, options, answers):
     (heard,) = (
         step.event for step in GAME.take(GAME.begin(), GAME.hear(text)).trace[:1]
     )
-    assert answers_in("en")(heard, record(ask=ask, options=options)) is answers
+    assert answer_test("en")(heard, record(ask=ask, options=options)) is answers
 
 
 def test_what_happens_and_is_not_said_answers_nothing():
     asked = record(ask="OfferWord", options=TWO)
-    assert not answers_in("en")(record(floor="tutor"), asked)
-    assert not answers_in("en")("Yes.", asked)
+    assert not answer_test("en")(record(floor="tutor"), asked)
+    assert not answer_test("en")("Yes.", asked)

@@ -13,7 +13,13 @@ from kille.lab.errors import StudyError
 from kille.lab.playing import play
 from kille.lab.settings import Problem
 from kille.lab.study import Named, Phase, Run, Study, Theory
-from kille.lab.tutors.spatial_judges import HEADINGS, Person, Rated, Speaker, rated
+from kille.lab.tutors.spatial_judges import (
+    HEADINGS,
+    Person,
+    Rated,
+    Speaker,
+    read_ratings,
+)
 
 LESSONS = (Phase("lessons", "teach", {"rounds": 4}),)
 MISLED = Named("other", "simulated", {"calls": {"mug": "cup", "cup": "mug"}})
@@ -246,7 +252,7 @@ def test_ratings_are_chances(place):
 
 
 def test_people_rate_what_is_left_as_left(data):
-    speaker = Speaker(rated(data / "spatial_logan_sadler"))
+    speaker = Speaker(read_ratings(data / "spatial_logan_sadler"))
     assert speaker.says((-0.3, 0.0), "", Random(1)) == "to the left of"
     assert speaker.says((0.3, 0.0), "", Random(1)) == "to the right of"
     assert speaker.says((0.0, 0.3), "", Random(1)) == "behind"

@@ -14,7 +14,7 @@ from kille.lab.worlds.dialogue_properties import (
     WORDED,
 )
 from kille.lab.worlds.games import act, simulated
-from kille.lab.worlds.word_learning import Word
+from kille.lab.worlds.word_learning import LearnedWord
 from kille.lab.worlds.worlds import Thing, World
 from ttr import replace as changed
 from ttr.testing.strategies import Dialogue, play
@@ -38,7 +38,7 @@ def test_the_games_as_they_are_break_none(one):
 def test_who_learns_another_word_as_well_is_found():
     def spilling(planned, model):
         move, model = act(planned, model)
-        mug = Word.known(noun("mug")).taught("o1", WORLD.name)
+        mug = LearnedWord.known(noun("mug")).taught("o1", WORLD.name)
         return move, model.witnessed(word_of(noun("mug")), by=mug)
 
     game = replace(simulated(WORLD, [noun("mug")]), act=spilling)

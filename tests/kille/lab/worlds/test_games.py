@@ -3,7 +3,7 @@
 import pytest
 
 from kille.dialogue.meanings import noun, word_of
-from kille.lab.worlds.games import simulated, word, words, world_of
+from kille.lab.worlds.games import learned_words, simulated, word, world_of
 from kille.lab.worlds.perception import glanced
 from kille.lab.worlds.worlds import Thing, World, drawn
 from ttr.testing.strategies import play
@@ -106,8 +106,8 @@ def test_what_was_learned_is_in_the_model():
     game = simulated(WORLD)
     begun = game.begin()
     after = game.take(begun, game.hear("This is a cup.")).run
-    assert [it.sign.form for it in words(after.model) if it.lessons] == ["cup"]
-    assert not any(it.lessons for it in words(begun.model))
+    assert [it.sign.form for it in learned_words(after.model) if it.lessons] == ["cup"]
+    assert not any(it.lessons for it in learned_words(begun.model))
     again = game.take(begun, game.hear("This is a cup.")).run
     assert again.state == after.state
 

@@ -2,8 +2,7 @@
 
 import pytest
 
-from kille.dialogue.meanings import record_type
-from kille.lab.worlds.games import simulated, words
+from kille.lab.worlds.games import learned_words, simulated
 from kille.lab.worlds.schooling import rested, schooled
 from kille.lab.worlds.worlds import drawn
 
@@ -16,7 +15,9 @@ AFTER = schooled(BLANK)
 @pytest.mark.parametrize("times", [1, 3])
 def test_all_that_is_in_view_was_named_and_placed(language, times):
     game = schooled(simulated(WORLD, language=language), language, times)
-    lessons = [len(it.lessons) for it in words(game.model) if it.sign.kind == "noun"]
+    lessons = [
+        len(it.lessons) for it in learned_words(game.model) if it.sign.kind == "noun"
+    ]
     assert lessons == [times] * len(WORLD.in_view)
     assert len(game.start.private.relations) > 1
     assert game.model.judge(game.start, record_type("State")).holds
@@ -38,7 +39,9 @@ def test_on_another_day_words_are_known_and_talk_is_not():
     assert not shared.turned
     taught = {it.sign: it.lessons for it in private.taught}
     assert taught == {
-        it.sign: float(len(it.lessons)) for it in words(game.model) if it.lessons
+        it.sign: float(len(it.lessons))
+        for it in learned_words(game.model)
+        if it.lessons
     }
 
 
@@ -47,7 +50,7 @@ def test_the_latest_lesson_of_another_day_is_taken_back():
     turn = game.take(game.begin(), game.hear("Forget the last thing."))
     (undone,) = turn.said[0].sit.undone
     before, after = (
-        [x.key for it in words(model) for x in it.lessons]
+        [x.key for it in learned_words(model) for x in it.lessons]
         for model in (game.model, turn.model)
     )
     assert set(before) - set(after) == {undone.key}
