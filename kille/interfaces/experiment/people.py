@@ -19,10 +19,10 @@ from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.terminal import console
 from kille.lab.log import Broken, Finished, Outcome, RunError
 from kille.lab.log.outcomes import Play, PlayAll
-from kille.lab.people.typed_lines import ready
+from kille.lab.people.typed_lines import wait_until_ready
 from kille.lab.protocols.phases import CHANGING, successor, tasks
 from kille.lab.running import Crew, Scheduler, alone
-from kille.lab.scenes import opened
+from kille.lab.scenes import open_scene
 from kille.lab.study import PERSON, Run, Study
 
 _FIRST = "The robot was taught nothing yet."
@@ -138,13 +138,13 @@ def _more(count: int) -> str:
 
 def _begin(study: Study, run: Run, number: int, count: int) -> None:
     """Announce a dialogue without naming the theory; wait until they are ready."""
-    steps = sum(1 for _ in tasks(study, run, opened(study, run)))
+    steps = sum(1 for _ in tasks(study, run, open_scene(study, run)))
     who = ", and ".join(people_in(study, run))
     long = f"{steps:,} step{'s' * (steps != 1)}"
     told = f"\nDialogue {number:,} of {count:,}, {long}: {who}."
     if study.theories[run.theory].mode != PERSON:
         told += f"\n{_FIRST if number == 1 else _NEXT}"
-    ready(told)
+    wait_until_ready(told)
 
 
 def _number_outcome(outcome: Outcome, number: int) -> Outcome:

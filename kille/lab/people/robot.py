@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from kille.dialogue.language import Utterance
 from kille.dialogue.state import blank_model, initial
 from kille.lab.people.steps import example
-from kille.lab.people.typed_lines import Ask, typed
-from kille.lab.people.typed_sayings import acts, asked, claimed, sentences
-from kille.lab.people.views import viewed
+from kille.lab.people.typed_lines import Ask, read_line
+from kille.lab.people.typed_sayings import acts, asked_kind, claimed_words, sentences
+from kille.lab.people.views import format_view
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.events import after
+from kille.lab.scenes.events import occasion_after
 from kille.lab.scenes.occasions import Occasion
 from ttr import Model, record
 from ttr.judging import Judgement
@@ -105,10 +105,10 @@ class TypedReply(Reply):
         return dict(self.claimed).get(kind, "")
 
 
-class Typed:
+class TypedRobot:
     """The robot as a person plays it; `ask` shows a text and gives the line typed."""
 
-    def __init__(self, language: str = "en", ask: Ask = typed) -> None:
+    def __init__(self, language: str = "en", ask: Ask = read_line) -> None:
         self._language, self._ask = language, ask
         self._state, self._model = initial(), blank_model()
         self._before = f"\n{self._help()}"
@@ -118,7 +118,7 @@ class Typed:
     def see(self, occasion: Occasion) -> Reply:
         """What is seen is told with what is said next."""
         self._occasion = occasion
-        self._seen = f"\n{viewed(occasion, occasion.shown)}"
+        self._seen = f"\n{format_view(occasion, occasion.shown)}"
         return self._reply("")
 
     def wait(self, occasion: Occasion) -> Reply:
@@ -128,7 +128,7 @@ class Typed:
 
     def hear(self, text: str) -> Reply:
         """They answer, and once more if no answer is read in what they type."""
-        kind = asked(text, self._language)
+        kind = asked_kind(text, self._language)
         line = self._line(f"Tutor: {text}")
         if kind and not self._is_answer(line, kind):
             line = self._line(_AGAIN.format(example(kind, self._language)))
@@ -144,7 +144,7 @@ class Typed:
         if now is None or now.view is not None:
             self._before += f"\nWhat happens: {command}"
             return self._reply("")
-        return self.see(after(now, command))
+        return self.see(occasion_after(now, command))
 
     def rest(self) -> Reply:
         """They are told that another day begins."""
@@ -196,7 +196,7 @@ class Typed:
         if kind == "reference":
             return self._pointed(line) is not None
         moves = acts(line, self._language)
-        return "okay" in moves or kind in dict(claimed(line, self._language))
+        return "okay" in moves or kind in dict(claimed_words(line, self._language))
 
     def _reply(self, line: str) -> Reply:
         text, model = _POINTS.sub("", line), self._model
@@ -207,7 +207,7 @@ class Typed:
             tuple(_move(it.readings[0], model) for it in read if it.readings),
             self._state,
             model,
-            claimed=claimed(text, self._language),
+            claimed=claimed_words(text, self._language),
             points=points,
             about=() if now is None else (now.x, now.y),
             odd=points is None and any(not it.readings for it in read),

@@ -25,11 +25,12 @@ _ALONE = {
 }
 
 
-def wanted(task: Task) -> str:
+def instruction(task: Task) -> str:
     """What the tutor is to do, in words.
 
     >>> from kille.lab.study import Run
-    >>> wanted(Task(Run("a", "me", "t", 1), "f", "forget", 1, None, {"word": "cup"}))
+    >>> run = Run("a", "me", "t", 1)
+    >>> instruction(Task(run, "f", "forget", 1, None, {"word": "cup"}))
     'have the robot forget the word for cup'
     """
     match task.do:
@@ -59,7 +60,7 @@ def _about(do: str, it: Occasion) -> str:
     return f"talk of #{it.x}, or type nothing and let the robot talk"
 
 
-def tested(task: Task) -> str:
+def kept_kind(task: Task) -> str:
     """The kind of the answer that is kept in a step: of a word, or a `reference`."""
     if task.of is None or task.do not in ("ask", "practise", "find"):
         return ""

@@ -6,12 +6,12 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from kille.lab.errors import StudyError
-from kille.lab.people.steps import example, question, tested, wanted
-from kille.lab.people.typed_lines import Ask, typed
-from kille.lab.people.typed_sayings import QUESTIONS, acts, claimed
-from kille.lab.people.views import viewed
+from kille.lab.people.steps import example, instruction, kept_kind, question
+from kille.lab.people.typed_lines import Ask, read_line
+from kille.lab.people.typed_sayings import QUESTIONS, acts, claimed_words
+from kille.lab.people.views import format_view
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.events import after
+from kille.lab.scenes.events import occasion_after
 from kille.lab.scenes.occasions import Occasion
 from kille.lab.tutors.tutor import (
     Asked,
@@ -61,7 +61,7 @@ class Keyboard:
 
     name: str
     language: str = "en"
-    ask: Ask = typed
+    ask: Ask = read_line
 
     def turns(self, task: Task) -> Turns:
         """What they type until they go on."""
@@ -77,12 +77,13 @@ class _Step:
         if self._now is not None and task.do == "find":
             self._now = self._now.unpointed()
         self._last: Reply | None = None
-        self._owes = bool(tested(task))
+        self._owes = bool(kept_kind(task))
         self._reminded = False
 
     def turns(self) -> Turns:
         """What they type until they go on."""
-        told = f"\nStep {self._task.number}, {self._task.phase}: {wanted(self._task)}."
+        task = self._task
+        told = f"\nStep {task.number}, {task.phase}: {instruction(task)}."
         if self._now is not None:
             told += f"\n{yield from self._taken(Shows(self._now))}"
         told += f"\n{self._help() if self._task.number == 1 else _HINT}"
@@ -127,7 +128,7 @@ class _Step:
         match move:
             case Shows(now):
                 self._now = now
-                return f"{viewed(now, now.world)}\n{said}".rstrip()
+                return f"{format_view(now, now.world)}\n{said}".rstrip()
             case Waits(now):
                 self._now = now
             case Happens():
@@ -157,7 +158,7 @@ class _Step:
         if self._now is None or self._now.view is not None:
             told = "write `look` or `restart`, nothing else can happen here"
             raise StudyError([f"@ {command or '…'}: {told}"])
-        return Shows(after(self._now, command))
+        return Shows(occasion_after(self._now, command))
 
     # --- what is kept of it ----------------------------------------------------------
 
@@ -173,7 +174,7 @@ class _Step:
 
     def _asked(self, moves: tuple[str, ...]) -> Asked | None:
         """The question that the step is for, if it is this one."""
-        kind, now = tested(self._task), self._now
+        kind, now = kept_kind(self._task), self._now
         asks = kind in {QUESTIONS.get(it) for it in moves}
         if not self._owes or not asks or now is None:
             return None
@@ -203,7 +204,7 @@ class _Step:
         so = example("relation", language)
         line = self._who.ask(f"{_RIGHT.format(so)}\nright: ").strip()
         while line:
-            found = dict(claimed(line, language)).get("relation")
+            found = dict(claimed_words(line, language)).get("relation")
             if found:
                 return found
             line = self._who.ask(f"{_UNREAD.format(so)}\nright: ").strip()

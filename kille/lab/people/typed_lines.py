@@ -34,14 +34,14 @@ class _Garbled(ValueError):
     """A line with bytes that are no characters."""
 
 
-def typed(text: str) -> str:
+def read_line(text: str) -> str:
     """The line that a person types, without blanks around it.
 
     Raises `Gone` where the input has ended, cannot be read, or the terminal was closed.
     """
     told, _, prompt = text.rpartition("\n")
     try:
-        return _line(told, prompt)
+        return _show_and_read(told, prompt)
     except KeyboardInterrupt:
         _end_line()
         raise
@@ -53,17 +53,17 @@ def typed(text: str) -> str:
         raise Gone from error
 
 
-def ready(text: str) -> None:
+def wait_until_ready(text: str) -> None:
     """Shows a text; at a terminal, it goes on when the person there is ready."""
     if sys.stdin is not None and sys.stdin.isatty():
         with suppress(ImportError):
             import_module("readline")  # so that lines can be edited as they are typed
-        typed(f"{text}\nPress Enter to begin: ")
+        read_line(f"{text}\nPress Enter to begin: ")
     else:
         _show(text)
 
 
-def _line(told: str, prompt: str) -> str:
+def _show_and_read(told: str, prompt: str) -> str:
     if told:
         _show(told)
     line = ask_line(prompt, UTTERANCE)
@@ -75,7 +75,7 @@ def _line(told: str, prompt: str) -> str:
 
 
 def _show(text: str) -> None:
-    sys.stdout.write(f"{_fitted(terminal_text(text))}\n")
+    sys.stdout.write(f"{_fit_to_terminal(terminal_text(text))}\n")
     sys.stdout.flush()
 
 
@@ -87,15 +87,15 @@ def _end_line(told: str = "") -> None:
         return
 
 
-def _fitted(text: str) -> str:
+def _fit_to_terminal(text: str) -> str:
     """A text as wide as the terminal, with further lines a little farther in."""
     if not sys.stdout.isatty():
         return text
     columns = shutil.get_terminal_size().columns
-    return "\n".join(_wrapped(line, columns) for line in text.split("\n"))
+    return "\n".join(_wrap_line(line, columns) for line in text.split("\n"))
 
 
-def _wrapped(line: str, columns: int) -> str:
+def _wrap_line(line: str, columns: int) -> str:
     blank = " " * (len(line) - len(line.lstrip()) + 2)
     return textwrap.fill(
         line,

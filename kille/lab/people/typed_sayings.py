@@ -37,26 +37,26 @@ def acts(text: str, language: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(_act(it) for it in readings))
 
 
-def asked(text: str, language: str) -> str:
+def asked_kind(text: str, language: str) -> str:
     """The kind of word that a text asks for, `reference` for a thing, or nothing."""
     kinds = (QUESTIONS[it] for it in acts(text, language) if it in QUESTIONS)
     return next(kinds, "")
 
 
-def claimed(text: str, language: str) -> tuple[tuple[str, str], ...]:
+def claimed_words(text: str, language: str) -> tuple[tuple[str, str], ...]:
     """The words that a text claims to be true, each with its kind.
 
     Who says "a red cup" claims that it is a cup, since colours are known words.
 
-    >>> claimed("It is a red cup.", "en"), claimed("Is it a cup?", "en")
+    >>> claimed_words("It is a red cup.", "en"), claimed_words("Is it a cup?", "en")
     ((('noun', 'cup'),), ())
     """
     return tuple(
-        it for one in sentences(text, language) for it in _claimed(one, language)
+        it for one in sentences(text, language) for it in _claims_of(one, language)
     )
 
 
-def _claimed(sentence: Sentence, language: str) -> Iterator[tuple[str, str]]:
+def _claims_of(sentence: Sentence, language: str) -> Iterator[tuple[str, str]]:
     for reading in sentence.readings[:1]:
         content = value_at(reading.type, "content")
         asks = _act(reading).startswith("ask_")
@@ -64,10 +64,10 @@ def _claimed(sentence: Sentence, language: str) -> Iterator[tuple[str, str]]:
             return
         for sign in (it for it in reading.signs if claims(content, it)):
             form, kind = str(sign.form), str(sign.kind)
-            yield kind, _bare(form, language) if kind == "noun" else form
+            yield kind, _without_adjectives(form, language) if kind == "noun" else form
 
 
-def _bare(noun: str, language: str) -> str:
+def _without_adjectives(noun: str, language: str) -> str:
     """A noun without the adjectives before it that are known words."""
     *before, last = noun.split()
     return " ".join((*dropwhile(_adjectives(language).__contains__, before), last))

@@ -15,12 +15,12 @@ __all__ = ["play"]
 
 def play(study: Study, run: Run) -> Played:
     """Play one dialogue of a study."""
-    with _seeded(run):
+    with _seed_generators(run):
         return talking.play(study, run)
 
 
 @contextmanager
-def _seeded(run: Run) -> Iterator[None]:
+def _seed_generators(run: Run) -> Iterator[None]:
     """What learners and rules of one's own draw by chance follows from the run, too.
 
     Many a classifier draws from the generators of Python or numpy that a process has.

@@ -8,11 +8,11 @@ from datetime import UTC, datetime
 from random import Random
 from typing import Any
 
-from kille.lab.people.robot import Typed
+from kille.lab.people.robot import TypedRobot
 from kille.lab.people.tutor import Keyboard
 from kille.lab.robots import Robot
-from kille.lab.robots.simulated import Simulated
-from kille.lab.robots.whole import Whole
+from kille.lab.robots.simulated import SimulatedRobot
+from kille.lab.robots.whole import WholeRobot
 from kille.lab.scenes import WHOLE, Scene
 from kille.lab.settings import filled
 from kille.lab.study import PERSON, Run, Study, Theory
@@ -23,7 +23,7 @@ from kille.lab.tutors.beliefs import Manner
 from kille.lab.tutors.own import load_maker
 from kille.lab.tutors.scripted import read_script
 from kille.lab.tutors.several import Several
-from kille.lab.tutors.simulated import Simulated as SimulatedTutor
+from kille.lab.tutors.simulated import SimulatedTutor as SimulatedTutor
 from kille.lab.tutors.spatial_judges import Placing, Speaker, draw_speaker, read_ratings
 from kille.lab.tutors.tutor import Tutor
 from kille.lab.tutors.words import Words
@@ -37,13 +37,15 @@ def robot_of(study: Study, run: Run, scene: Scene) -> Robot:
     """The robot that has the theory of a run."""
     theory = study.theories[run.theory]
     if theory.mode == PERSON:
-        return Typed(theory.language)
+        return TypedRobot(theory.language)
     if study.scenes[run.scene].kind in WHOLE:
         theatre = scene.theatre  # type: ignore[attr-defined]
-        return Whole(agent_of(theory, theatre, scans=1, now=lambda: CLOCK), theatre)
+        return WholeRobot(
+            agent_of(theory, theatre, scans=1, now=lambda: CLOCK), theatre
+        )
     taught = study.scenes[run.scene].settings.get("colours") == "taught"
     game = game_of(theory, scene.start, colours=() if taught else None)
-    return Simulated(game, language_of(theory), meanings_of(theory))
+    return SimulatedRobot(game, language_of(theory), meanings_of(theory))
 
 
 def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
@@ -62,10 +64,10 @@ def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
         case "several":
             some = tuple(tutor_of(study, run, it, scene) for it in set_["of"])
             return Several(some, set_["turns"])
-    return _simulated(study, run, name, set_, theory, scene)
+    return _simulated_tutor(study, run, name, set_, theory, scene)
 
 
-def _simulated(
+def _simulated_tutor(
     study: Study,
     run: Run,
     name: str,
@@ -79,7 +81,7 @@ def _simulated(
 
     def speaker(of: str) -> Speaker:
         chance = Random(f"{of} {name} {run.scene} {run.seed}")
-        placing = _placing(study, set_, chance)
+        placing = _placing_of(study, set_, chance)
         return Speaker(placing, float(own), draws, tuple(set_["vocabulary"]))
 
     manner = Manner(
@@ -98,7 +100,7 @@ def _simulated(
     return SimulatedTutor(name, manner)
 
 
-def _placing(study: Study, set_: Mapping[str, Any], chance: Random) -> Placing:
+def _placing_of(study: Study, set_: Mapping[str, Any], chance: Random) -> Placing:
     if "folder" in set_:
         return read_ratings(study.folder / os.path.expanduser(set_["folder"]))
     return draw_speaker(set_["inside"], set_["outside"], set_["habit"], chance)

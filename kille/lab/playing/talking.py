@@ -41,9 +41,9 @@ def play(study: Study, run: Run) -> Played:
     What cannot happen that a tutor wants to happen he is told, and may do otherwise.
     Whatever a theory, a learner or a tutor of one's own raises ends it.
     """
-    scene = scenes.opened(study, run)
+    scene = scenes.open_scene(study, run)
     with closing(robot_of(study, run, scene)) as robot:
-        talk, name = _Talk(study, run, robot), run.tutor
+        talk, name = _Dialogue(study, run, robot), run.tutor
         tutor = tutor_of(study, run, name, scene)
         for phase, task in tasks(study, run, scene):
             if talk.is_over:
@@ -58,7 +58,7 @@ def play(study: Study, run: Run) -> Played:
     return talk.played()
 
 
-class _Talk:
+class _Dialogue:
     """A dialogue as it goes on."""
 
     def __init__(self, study: Study, run: Run, robot: Robot) -> None:
@@ -90,16 +90,16 @@ class _Talk:
                 try:
                     reply = self._taken(task, tutor, move)
                 except (StudyError, SensorError) as error:
-                    move = _told(moves, error)
+                    move = _move_instead(moves, error)
                     continue
                 if isinstance(move, Says) and move.asks is not None:
                     asked = move.asks
-                if asked is not None and _answers(move, reply, asked):
+                if asked is not None and _is_answer(move, reply, asked):
                     self._answered(task, tutor, asked, reply)
                     asked = None
                 if self.is_over:
                     break
-                move = _sent(moves, reply)
+                move = _next_move(moves, reply)
         if asked is not None and self._last is not None:
             self._answered(task, tutor, asked, self._last)
 
@@ -125,10 +125,10 @@ class _Talk:
                 length, corrects = len(given.split()), move.corrects
                 self._lost += reply.is_lost
             case Shows():
-                act, given = "shows", _named(move.occasion)
+                act, given = "shows", _look_name(move.occasion)
                 reply = self._robot.see(move.occasion)
             case Waits():
-                act, given = "waits", _named(move.occasion)
+                act, given = "waits", _look_name(move.occasion)
                 reply = self._robot.wait(move.occasion)
             case Happens():
                 act, given = "happens", move.command
@@ -152,7 +152,7 @@ class _Talk:
     def _answered(self, task: Task, tutor: Tutor, asked: Asked, reply: Reply) -> None:
         """Record what the robot has answered to a question."""
         kind, found = asked.kind, self._degrees(asked, reply)
-        said = _said(task, asked, reply)
+        said = _answer_given(task, asked, reply)
         self._answers.append(
             Answer(
                 turn=len(self._turns),
@@ -167,7 +167,7 @@ class _Talk:
                 judge=asked.judge,
                 lessons=self._lessons(),
                 tutor=tutor.name,
-                thing=_thing(task, asked),
+                thing=_thing_asked(task, asked),
             )
         )
 
@@ -181,7 +181,7 @@ class _Talk:
         return degrees(reply.state, reply.model, asked.kind, x, y)
 
 
-def _sent(moves: Turns, reply: Reply) -> Move | None:
+def _next_move(moves: Turns, reply: Reply) -> Move | None:
     """The next move of a tutor who was told the reply; None at the end."""
     try:
         return moves.send(reply)
@@ -189,7 +189,7 @@ def _sent(moves: Turns, reply: Reply) -> Move | None:
         return None
 
 
-def _told(moves: Turns, error: StudyError | SensorError) -> Move | None:
+def _move_instead(moves: Turns, error: StudyError | SensorError) -> Move | None:
     """The next move of a tutor whose last cannot be made, if he has one instead."""
     try:
         return moves.throw(error)
@@ -197,7 +197,7 @@ def _told(moves: Turns, error: StudyError | SensorError) -> Move | None:
         return None
 
 
-def _answers(move: Move, reply: Reply, asked: Asked) -> bool:
+def _is_answer(move: Move, reply: Reply, asked: Asked) -> bool:
     """Whether it is the answer; what a script expects is whatever is said next.
 
     Nothing is answered while things are laid, or pointed at: the tutor has the floor.
@@ -207,7 +207,7 @@ def _answers(move: Move, reply: Reply, asked: Asked) -> bool:
     return asked.kind == "reply" or not reply.is_open
 
 
-def _said(task: Task, asked: Asked, reply: Reply) -> str:
+def _answer_given(task: Task, asked: Asked, reply: Reply) -> str:
     match asked.kind:
         case "reference":
             pointed = reply.pointed
@@ -217,7 +217,7 @@ def _said(task: Task, asked: Asked, reply: Reply) -> str:
     return reply.said(asked.kind)
 
 
-def _thing(task: Task, asked: Asked) -> str:
+def _thing_asked(task: Task, asked: Asked) -> str:
     """What was asked about, by its name in the world."""
     if task.of is None or not asked.x:
         return ""
@@ -225,6 +225,6 @@ def _thing(task: Task, asked: Asked) -> str:
     return thing if asked.y is None else f"{thing} / {task.of.name(asked.y)}"
 
 
-def _named(occasion: Occasion) -> str:
+def _look_name(occasion: Occasion) -> str:
     """What was shown, from which it can be shown again."""
     return occasion.shown.name if occasion.view is None else str(occasion.view)

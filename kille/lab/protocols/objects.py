@@ -30,7 +30,7 @@ from kille.lab.protocols.teaching import (
     share_right,
 )
 from kille.lab.results import Cell, Figure, Progress, Result, Table, silent
-from kille.lab.scenes.shown_things import LOOKING, OnTable, cut_out, each_shown
+from kille.lab.scenes.shown_things import LOOKING, OnTable, cut_out, show_each
 from kille.lab.scenes.stills import Lesson
 from kille.lab.theories.candidates import Make, Methods
 from kille.sensors.synthetic.catalogue import TOY_NAMES
@@ -83,9 +83,9 @@ def paper(
     steps = Steps(progress, (2 * rounds + 1) * len(things), 0, LOOKING)
     lessons, questions = [], []
     for number in range(1, rounds + 1):
-        lessons.append(each_shown(table, things, steps, f"round {number}, lessons"))
-        questions.append(each_shown(table, things, steps, f"round {number}, questions"))
-    turned = each_shown(table, things, steps, "questions, turned", turn=TURNED)
+        lessons.append(show_each(table, things, steps, f"round {number}, lessons"))
+        questions.append(show_each(table, things, steps, f"round {number}, questions"))
+    turned = show_each(table, things, steps, "questions, turned", turn=TURNED)
     steps = Steps(progress, len(methods) * (rounds + 1) * len(things), LOOKING, 1)
     courses = {
         name: _course(make, lessons, questions, turned, partial(steps, name))

@@ -18,7 +18,7 @@ from random import Random
 
 from kille.lab import scenes
 from kille.lab.scenes import Scene
-from kille.lab.scenes.occasions import KINDS, ORDERS, Occasion, ordered
+from kille.lab.scenes.occasions import KINDS, ORDERS, Occasion, order_occasions
 from kille.lab.settings import Problem, Setting, Settings, filled, unknown
 from kille.lab.study import Named, Phase, Run, Study
 from kille.lab.tutors.tutor import Task
@@ -204,5 +204,5 @@ def _shown(
     one = len(scene.round(kind, new, Random(0))) if turns else 1
     rounds = max(rounds, -(-turns // max(one, 1)))
     given = [scene.round(kind, new, chance) for _ in range(rounds)]
-    found = ordered(given, str(set_["order"]), chance)
+    found = order_occasions(given, str(set_["order"]), chance)
     return list(islice(found, turns or None))

@@ -30,7 +30,7 @@ from kille.lab.results import (
     silent,
 )
 from kille.lab.scenes.labelled import Scenes, Split
-from kille.lab.scenes.labelled import known as known_in
+from kille.lab.scenes.labelled import taught_things as known_in
 from kille.lab.theories.candidates import Methods
 
 _SEEING = 0.5  # the share of the time that goes into seeing

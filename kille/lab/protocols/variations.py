@@ -21,7 +21,7 @@ from kille.lab.protocols.teaching import (
     taught,
 )
 from kille.lab.results import Cell, Figure, Progress, Result, Table, silent
-from kille.lab.scenes.shown_things import LOOKING, OnTable, each_shown
+from kille.lab.scenes.shown_things import LOOKING, OnTable, show_each
 from kille.lab.scenes.stills import Lesson
 from kille.lab.theories.candidates import Make, Methods
 from kille.sensors.synthetic.catalogue import TOY_NAMES
@@ -46,9 +46,9 @@ def rotation(
     """Each thing is taught once, and asked for turned by ever more, up to its back."""
     table = OnTable(seed, meshes=meshes)
     steps = Steps(progress, (1 + len(ANGLES)) * len(things), 0, LOOKING)
-    lessons = each_shown(table, things, steps, "lessons")
+    lessons = show_each(table, things, steps, "lessons")
     questions = {
-        angle: each_shown(table, things, steps, f"{angle}°", turn=angle, scans=_FEW)
+        angle: show_each(table, things, steps, f"{angle}°", turn=angle, scans=_FEW)
         for angle in ANGLES
     }
     steps = Steps(progress, len(methods) * len(ANGLES) * len(things), LOOKING, 1)
@@ -162,5 +162,5 @@ def _of_each_kind(
     return [
         lesson
         for table in tables
-        for lesson in each_shown(table, TOY_NAMES, steps, doing, scans=_FEW)
+        for lesson in show_each(table, NAMES, steps, doing, scans=_FEW)
     ]

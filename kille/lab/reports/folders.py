@@ -23,7 +23,7 @@ from kille.lab.reports.study_report import Subject, every_two, results_of, write
 from kille.lab.reports.unused_rules import idle
 from kille.lab.results import ExperimentError, Result
 from kille.lab.study import MAIN_MEASURES, Study, Theory
-from kille.lab.theories.descriptions import described
+from kille.lab.theories.descriptions import describe
 from ttr import TTRError
 from ttr.safety.consent import Consent
 
@@ -138,7 +138,7 @@ def _described(study: Study, names: Iterable[str]) -> dict[str, Described]:
 def _shown(theory: Theory) -> Described:
     """A theory by its parts; of one whose own files are gone, that they are."""
     try:
-        return described(theory)
+        return describe(theory)
     except (TheoryError, ExperimentError, TTRError, OSError) as error:
         return {"about": f"{theory.about} It cannot be shown: {error}".strip()}
 

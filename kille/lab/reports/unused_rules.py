@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from kille.lab.measures.scored_dialogues import Dialogue
 from kille.lab.reports.layouts import Described
 from kille.lab.study import Theory
-from kille.lab.theories.descriptions import described
+from kille.lab.theories.descriptions import describe
 
 
 def idle(
@@ -18,7 +18,7 @@ def idle(
     A state may have more than its type says. So a misspelt label in what a rule is for
     is no mistake that could be found before, but its theory is none of what was meant.
     """
-    usual = _rules(described(Theory("usual")))
+    usual = _rules(describe(Theory("usual")))
     for name, them in dialogues.items():
         applied = {rule for it in them for turn in it.turns for rule in turn.rules}
         rules = _rules(theories[name])

@@ -27,7 +27,7 @@ WAYS = {
 }
 """How an answer is put, by how the name of the move begins, or goes on after `say`."""
 
-OWN = frozenset(
+ASKING = frozenset(
     {
         "ask_again",
         "ask_example",
@@ -48,7 +48,7 @@ OWN = frozenset(
 )
 """The moves by which it asks something of its own accord."""
 
-WANTING = OWN | {"admit_name", "admit_place", "admit_quality"}
+WANTING = ASKING | {"admit_name", "admit_place", "admit_quality"}
 """The moves after which a tutor may tell it something."""
 
 
@@ -75,7 +75,7 @@ class Reply:
     @property
     def asks(self) -> bool:
         """Whether it asks something of its own accord."""
-        return not OWN.isdisjoint(self.acts)
+        return not ASKING.isdisjoint(self.acts)
 
     @property
     def wants(self) -> str:
@@ -132,7 +132,7 @@ class Reply:
         """The word of a kind that it claims to be true, the first of several."""
         for move in self.moves:
             content = move.sit.content
-            if isinstance(content, RecordType) and _affirms(content):
+            if isinstance(content, RecordType) and _is_affirmation(content):
                 for sign in move.sit.signs:
                     if sign.kind == kind and claims(content, sign):
                         return str(sign.form)
@@ -149,7 +149,7 @@ def _act(move: Judgement) -> str:
     return predicate_at(move.type, "e").name
 
 
-def _affirms(content: RecordType) -> bool:
+def _is_affirmation(content: RecordType) -> bool:
     """Whether a content claims something, and not that it is not so."""
     found = [content[label] for label in CLAIMS if label in content]
     return bool(found) and not any(isinstance(it, Negation) for it in found)

@@ -8,7 +8,7 @@ from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes, packaged_types
 from kille.dialogue.wording import did_not_understand
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.events import changed
+from kille.lab.scenes.events import change_world
 from kille.lab.scenes.occasions import Occasion
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glanced, number_of, seen, thing
@@ -17,7 +17,7 @@ from kille.lab.worlds.worlds import World
 from ttr.updates import Game, Run, Turn
 
 
-class Simulated:
+class SimulatedRobot:
     """A robot that is its games alone: what it sees follows from the world's name."""
 
     def __init__(
@@ -51,7 +51,7 @@ class Simulated:
             return self.rest()
         if command == "look":
             return self._taken(seen(world.looked(), world))
-        return self._taken(glanced(changed(world, command), world))
+        return self._taken(glanced(change_world(world, command), world))
 
     def rest(self) -> Reply:
         """Another day: see `kille.lab.worlds.schooling.rested`."""

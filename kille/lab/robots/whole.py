@@ -10,7 +10,7 @@ from kille.lab.scenes.theatre import Theatre
 from kille.lab.worlds.perception import thing
 
 
-class Whole:
+class WholeRobot:
     """The whole robot, with its eyes and its memory, in front of a theatre."""
 
     def __init__(self, agent: Agent, theatre: Theatre) -> None:

@@ -9,7 +9,10 @@ what people have said of places. rendered: a simulated camera. pictures, capture
 a camera has taken.
 """
 
-from kille.lab.scenes.kinds import SETTINGS, WHOLE, faults, opened
+from kille.lab.scenes.kinds import SETTINGS, WHOLE, faults, open_scene
 from kille.lab.scenes.occasions import Occasion, Scene
+from ttr.aliases import former_names
 
-__all__ = ["SETTINGS", "WHOLE", "Occasion", "Scene", "faults", "opened"]
+__all__ = ["SETTINGS", "WHOLE", "Occasion", "Scene", "faults", "open_scene"]
+
+__getattr__ = former_names(__name__, {"opened": "open_scene"})

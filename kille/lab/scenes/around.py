@@ -15,10 +15,10 @@ from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import (
     MIDDLE,
     Astray,
-    beside,
-    related,
-    rounded,
-    shown_alone,
+    occasion_alone,
+    place_beside,
+    relation_occasion,
+    round_place,
 )
 from kille.lab.worlds.worlds import FRONTS, STEP, Thing, World
 
@@ -42,7 +42,7 @@ class Around(Scene):
         """The two things, one by one; or the target at each of the places."""
         if kind == "relation":
             return [self._put(*place, new, chance) for place in self._places()]
-        return [shown_alone(self.start, kind, x) for x in (1, 2)]
+        return [occasion_alone(self.start, kind, x) for x in (1, 2)]
 
     def _places(self) -> Iterator[tuple[float, float]]:
         for ring in self.rings:
@@ -50,17 +50,17 @@ class Around(Scene):
                 yield ring, 2 * math.pi * point / self.points
 
     def _put(self, ring: float, bearing: float, new: bool, chance: Random) -> Occasion:
-        right, away = beside(MIDDLE, ring, bearing)
+        right, away = place_beside(MIDDLE, ring, bearing)
         by = self.spread / STEP
-        place = rounded(right + chance.gauss(0, by), away + chance.gauss(0, by))
+        place = round_place(right + chance.gauss(0, by), away + chance.gauss(0, by))
         astray = self.astray if new else replace(self.astray, shift=0.0)
         world = self.start.moved(1, place)
         front = chance.choice(FRONTS)
         world = world.turned(2, front) if self.turns else world
-        return related(world, 1, 2, astray, (1,), chance)
+        return relation_occasion(world, 1, 2, astray, (1,), chance)
 
 
-def around(set_: Mapping[str, Any], chance: Random) -> Around:
+def open_around(set_: Mapping[str, Any], chance: Random) -> Around:
     """A blue target and a red landmark, which may face some way."""
     target = Thing(set_["target"], "blue", 0.5)
     front = "" if set_["front"] == "any" else set_["front"]

@@ -38,18 +38,18 @@ class Captured(Scene):
 
 
 @lru_cache(8)
-def _gallery(folder: Path) -> Gallery:
+def _open_gallery(folder: Path) -> Gallery:
     """The pictures in a folder, which are tried once whether they open."""
     return open_gallery(folder, folder.name)
 
 
 @lru_cache(8)
-def _scenes(folder: Path) -> Scenes:
+def _open_scenes(folder: Path) -> Scenes:
     return open_scenes(folder, folder.name)
 
 
 @lru_cache(512)
-def _outlined(shot: Shot) -> tuple[str, ...]:
+def _outlined_names(shot: Shot) -> tuple[str, ...]:
     """The names of the things in a frame."""
     return tuple(sorted(shot.read().outlines))
 
@@ -58,7 +58,7 @@ Shown = tuple[str, object]
 """A word and a view."""
 
 
-def _captured(taught: Sequence[Shown], kept: Sequence[Shown], name: str) -> Captured:
+def _scene_of(taught: Sequence[Shown], kept: Sequence[Shown], name: str) -> Captured:
     things = tuple(Thing(word, "") for word, _ in (*taught, *kept))
     start = World(things)
     occasions = [
@@ -71,12 +71,12 @@ def _captured(taught: Sequence[Shown], kept: Sequence[Shown], name: str) -> Capt
     )
 
 
-def pictures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
+def open_pictures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
     """Pictures of each category, drawn by chance: so many to teach, and others.
 
     `ExperimentError` where there are none.
     """
-    gallery = _gallery(folder)
+    gallery = _open_gallery(folder)
     taught: list[Shown] = []
     kept: list[Shown] = []
     for word in set_["kinds"] or gallery.categories:
@@ -88,12 +88,12 @@ def pictures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
         each, new = set_["each"], set_["new"]
         taught += ((word, Picture(it)) for it in drawn[:each])
         kept += ((word, Picture(it)) for it in drawn[each : each + new])
-    return _captured(taught, kept, folder.name)
+    return _scene_of(taught, kept, folder.name)
 
 
-def captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
+def open_captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
     """The things in labelled frames: of some scenes to teach, of others for later."""
-    scenes = _scenes(folder)
+    scenes = _open_scenes(folder)
     if not scenes.shots:
         told = f"{folder} has no folders of labelled captures, one for each scene"
         raise StudyError([told])
@@ -114,9 +114,9 @@ def captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
             shots = scenes.shots[scene]
             count = min(set_["each"], len(shots))
             for number in sorted(chance.sample(range(len(shots)), count)):
-                for name in _outlined(shots[number]):
+                for name in _outlined_names(shots[number]):
                     yield name, Capture(folder / scene, number, name)
 
-    captured = _captured(list(shown(teach)), list(shown(new)), folder.name)
+    captured = _scene_of(list(shown(teach)), list(shown(new)), folder.name)
     labelled = {thing for it in (*teach, *new) for thing in scenes.things(it)}
     return replace(captured, labelled=tuple(sorted(labelled)))

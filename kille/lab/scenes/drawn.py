@@ -13,9 +13,9 @@ from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import (
     BEARINGS,
     Astray,
-    beside,
-    related,
-    rounded,
+    place_beside,
+    relation_occasion,
+    round_place,
     word_group,
 )
 from kille.lab.worlds.perception import oddness
@@ -64,9 +64,9 @@ class Drawn(Scene):
         x, y = chance.choice(self._pairs(pool))
         spot = chance.uniform(3.5, 5.5), chance.uniform(3.5, 5.5)
         bearing = BEARINGS[side] + chance.uniform(-math.pi / 6, math.pi / 6)
-        put = beside(spot, chance.uniform(0.12, 0.35), bearing)
-        world = self.start.moved(y, rounded(*spot)).moved(x, put)
-        return related(world, x, y, self.astray, (x, y), chance)
+        put = place_beside(spot, chance.uniform(0.12, 0.35), bearing)
+        world = self.start.moved(y, round_place(*spot)).moved(x, put)
+        return relation_occasion(world, x, y, self.astray, (x, y), chance)
 
     def _pairs(self, pool: Sequence[int]) -> Sequence[tuple[int, int]]:
         """Two things each, of other kinds and colours, or at least of other kinds.
@@ -80,7 +80,7 @@ class Drawn(Scene):
         return told or apart or every
 
 
-def drawn(set_: Mapping[str, Any], chance: Random) -> Drawn:
+def draw_scene(set_: Mapping[str, Any], chance: Random) -> Drawn:
     """Things of each kind, of which some are kept; of one colour only if there are more
     of them than colours."""
     each, count = set_["each"], set_["each"] + set_["new"]

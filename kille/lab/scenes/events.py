@@ -7,11 +7,11 @@ from dataclasses import replace
 
 from kille.lab.errors import StudyError
 from kille.lab.scenes.occasions import Occasion
-from kille.lab.scenes.places import TABLE, rounded
+from kille.lab.scenes.places import TABLE, round_place
 from kille.lab.worlds.worlds import World
 
 
-def changed(world: World, command: str) -> World:
+def change_world(world: World, command: str) -> World:
     """The world after `point 2`, `place 2 3.5 4` or `remove 2`.
 
     Raises `StudyError` for another command, a thing that is not there, and a place that
@@ -19,9 +19,9 @@ def changed(world: World, command: str) -> World:
 
     >>> from kille.lab.worlds.worlds import Thing
     >>> world = World((Thing("cup", "red", place=(2, 3)),))
-    >>> changed(world, "place #1 3.5 4").place(1)
+    >>> change_world(world, "place #1 3.5 4").place(1)
     (3.5, 4.0)
-    >>> changed(world, "point 2")
+    >>> change_world(world, "point 2")
     Traceback (most recent call last):
         ...
     kille.lab.errors.StudyError: @ point 2: there is no #2 in view, but #1
@@ -29,13 +29,15 @@ def changed(world: World, command: str) -> World:
     try:
         match command.split():
             case ["point", number]:
-                return world.pointed(_among(number, world.in_view, "in view"))
+                return world.pointed(_number_among(number, world.in_view, "in view"))
             case ["remove", number]:
-                return world.moved(_among(number, world.in_view, "in view"), None)
+                return world.moved(
+                    _number_among(number, world.in_view, "in view"), None
+                )
             case ["place", number, right, away]:
                 every = range(1, len(world.things) + 1)
-                at = rounded(_step(right), _step(away))
-                return world.moved(_among(number, every, "in this scene"), at)
+                at = round_place(_read_step(right), _read_step(away))
+                return world.moved(_number_among(number, every, "in this scene"), at)
     except _Unfit as error:
         raise StudyError([f"@ {command}: {error}"]) from error
     raise StudyError(
@@ -46,10 +48,10 @@ def changed(world: World, command: str) -> World:
     )
 
 
-def after(occasion: Occasion, command: str) -> Occasion:
+def occasion_after(occasion: Occasion, command: str) -> Occasion:
     """An occasion after a command: so it is, and so it is seen."""
-    seen = None if occasion.seen is None else changed(occasion.seen, command)
-    return replace(occasion, world=changed(occasion.world, command), seen=seen)
+    seen = None if occasion.seen is None else change_world(occasion.seen, command)
+    return replace(occasion, world=change_world(occasion.world, command), seen=seen)
 
 
 PLACED = f"a place is two numbers from 0 to {TABLE:g}, steps of 10 cm"
@@ -68,14 +70,14 @@ class _Unfit(Exception):
     """A number that a command cannot have."""
 
 
-def _among(number: str, known: Collection[int], where: str) -> int:
+def _number_among(number: str, known: Collection[int], where: str) -> int:
     named, asked = {f"#{it}": it for it in known}, f"#{number.removeprefix('#')}"
     if asked in named:
         return named[asked]
     raise _Unfit(f"there is no {asked} {where}, but {', '.join(named) or 'nothing'}")
 
 
-def _step(number: str) -> float:
+def _read_step(number: str) -> float:
     if is_step(number):
         return float(number)
     raise _Unfit(PLACED)

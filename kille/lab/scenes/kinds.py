@@ -104,39 +104,39 @@ SETTINGS: Mapping[str, Settings] = {
 """What may be set of scenes, kind by kind."""
 
 
-def opened(study: Study, run: Run) -> Scene:
+def open_scene(study: Study, run: Run) -> Scene:
     """The scene of a run: drawn by its seed, whoever plays."""
     named = study.scenes[run.scene]
     set_ = filled(named.settings, SETTINGS[named.kind])
     chance = Random(f"scene {run.scene} {run.seed}")
-    make = _maker(named.kind)
+    make = _opener(named.kind)
     if "folder" in set_:
         make = partial(make, study.folder / os.path.expanduser(set_["folder"]))
     return make(set_, chance)
 
 
-def _maker(kind: str) -> Callable[..., Scene]:
+def _opener(kind: str) -> Callable[..., Scene]:
     """What makes scenes of a kind. Eyes are imported by those who need them."""
     match kind:
         case "drawn":
-            from kille.lab.scenes.drawn import drawn
+            from kille.lab.scenes.drawn import draw_scene
 
-            return drawn
+            return draw_scene
         case "around":
-            from kille.lab.scenes.around import around
+            from kille.lab.scenes.around import open_around
 
-            return around
+            return open_around
         case "statements":
-            from kille.lab.scenes.statements import statements
+            from kille.lab.scenes.statements import open_statements
 
-            return statements
+            return open_statements
         case "rendered":
-            from kille.lab.scenes.rendered import rendered
+            from kille.lab.scenes.rendered import open_rendered
 
-            return rendered
-    from kille.lab.scenes.captured import captures, pictures
+            return open_rendered
+    from kille.lab.scenes.captured import open_captures, open_pictures
 
-    return {"pictures": pictures, "captures": captures}[kind]
+    return {"pictures": open_pictures, "captures": open_captures}[kind]
 
 
 # --- what is wrong with a scene -------------------------------------------------------
@@ -146,23 +146,23 @@ def faults(named: Named, study: Study) -> Iterator[Problem]:
     """What is wrong with a scene in this study: its data are not there, or too few."""
     if named.kind not in SETTINGS:
         return
-    wrong = [*_unfit(named), *_without_data(named, study)]
+    wrong = [*_setting_problems(named), *_folder_problems(named, study)]
     yield from wrong
     if wrong:
         return
     try:
-        scene = opened(study, Run("", "", named.name, 0))
-        yield from _empty(scene, named, study)
+        scene = open_scene(study, Run("", "", named.name, 0))
+        yield from _empty_phases(scene, named, study)
     except (ExperimentError, SensorError) as error:
         yield Problem((), str(error))
     except StudyError as error:
         yield from (Problem((), it) for it in error.faults)
 
 
-def _unfit(named: Named) -> Iterator[Problem]:
+def _setting_problems(named: Named) -> Iterator[Problem]:
     """What is wrong with what is set of a scene."""
     if named.kind == "rendered":
-        yield from _unrendered(named)
+        yield from _rendering_problems(named)
     set_ = filled(named.settings, SETTINGS[named.kind])
     if "target" in set_ and set_["target"] == set_["landmark"]:
         told = f"both target and landmark are the {set_['target']}: name two kinds"
@@ -174,7 +174,7 @@ def _unfit(named: Named) -> Iterator[Problem]:
             yield Problem((key,), told)
 
 
-def _without_data(named: Named, study: Study) -> Iterator[Problem]:
+def _folder_problems(named: Named, study: Study) -> Iterator[Problem]:
     folder = named.settings.get("folder")
     if folder is None:
         return
@@ -182,7 +182,7 @@ def _without_data(named: Named, study: Study) -> Iterator[Problem]:
         yield Problem(("folder",), told)
 
 
-def _empty(scene: Scene, named: Named, study: Study) -> Iterator[Problem]:
+def _empty_phases(scene: Scene, named: Named, study: Study) -> Iterator[Problem]:
     """Phases that are of what is new, where nothing is kept for later."""
     for phase in study.phases:
         if phase.settings.get("of") != "new":
@@ -190,11 +190,11 @@ def _empty(scene: Scene, named: Named, study: Study) -> Iterator[Problem]:
         kind = WORDS[phase.settings.get("what", "nouns")]
         if not scene.round(kind, True, Random(0)):
             told = f"nothing is kept in {named.name} for the phase {phase.name}, which"
-            told = f"{told} is of what is new: {_keeping(named)}"
+            told = f"{told} is of what is new: {_how_to_keep(named)}"
             yield Problem(("new",), told)
 
 
-def _keeping(named: Named) -> str:
+def _how_to_keep(named: Named) -> str:
     """What has something kept for later."""
     set_ = filled(named.settings, SETTINGS[named.kind])
     if named.kind == "captures":
@@ -204,7 +204,7 @@ def _keeping(named: Named) -> str:
     return f"write new = {set_['new'] + 1}"
 
 
-def _unrendered(named: Named) -> Iterator[Problem]:
+def _rendering_problems(named: Named) -> Iterator[Problem]:
     """What cannot be rendered, of the things that a scene names, and how."""
     from kille.sensors.synthetic import open_synthetic
     from kille.sensors.synthetic.catalogue import NAMES

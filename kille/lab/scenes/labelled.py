@@ -52,13 +52,13 @@ class Split:
 
 def is_scenes(folder: Path) -> bool:
     """Whether the folder holds folders of labelled captures that follow each other."""
-    return any(_labelled(it) for it in folder.iterdir() if it.is_dir())
+    return any(_is_labelled(it) for it in folder.iterdir() if it.is_dir())
 
 
 def open_scenes(folder: Path, name: str) -> Scenes:
     """The labelled scenes in this folder; SensorError if one is broken."""
     inner = sorted(it for it in folder.iterdir() if it.is_dir())
-    described = {it.name: description_of(it) for it in inner if _labelled(it)}
+    described = {it.name: description_of(it) for it in inner if _is_labelled(it)}
     shots = {
         scene: read_sequence(description)
         for scene, description in described.items()
@@ -67,7 +67,7 @@ def open_scenes(folder: Path, name: str) -> Scenes:
     return Scenes(name, shots, {})
 
 
-def _labelled(folder: Path) -> bool:
+def _is_labelled(folder: Path) -> bool:
     description = description_of(folder)
     return (
         description is not None
@@ -92,7 +92,7 @@ def splits(scenes: Scenes, teach: Sequence[str], ask: Sequence[str]) -> list[Spl
         Split(tuple(teach or (it for it in scenes.shots if it != scene)), scene)
         for scene in (ask or [it for it in scenes.shots if it not in teach])
     ]
-    sensible = [split for split in found if known(scenes, split)]
+    sensible = [split for split in found if taught_things(scenes, split)]
     if not sensible:
         raise ExperimentError(
             f"{scenes.name}: nothing that is taught in one scene is seen in another"
@@ -100,7 +100,7 @@ def splits(scenes: Scenes, teach: Sequence[str], ask: Sequence[str]) -> list[Spl
     return sensible
 
 
-def known(scenes: Scenes, split: Split) -> set[str]:
+def taught_things(scenes: Scenes, split: Split) -> set[str]:
     """What is taught, of the things that are asked for."""
     taught = {thing for scene in split.teach for thing in scenes.things(scene)}
     return taught & scenes.things(split.ask)

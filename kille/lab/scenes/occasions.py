@@ -104,7 +104,7 @@ class Scene(ABC):
         """
 
 
-def ordered(
+def order_occasions(
     rounds: Iterable[Sequence[Occasion]], order: str, chance: Random
 ) -> list[Occasion]:
     """Occasions that come in rounds, one after the other, in one of the `ORDERS`.
@@ -115,9 +115,9 @@ def ordered(
 
     >>> from kille.lab.worlds.worlds import World
     >>> ring = [Occasion("noun", World(), 1, group=word) for word in "aab"]
-    >>> [it.group for it in ordered([ring, ring], "blocked", Random(1))]
+    >>> [it.group for it in order_occasions([ring, ring], "blocked", Random(1))]
     ['a', 'a', 'a', 'a', 'b', 'b']
-    >>> [it.group for it in ordered([ring, ring], "interleaved", Random(1))]
+    >>> [it.group for it in order_occasions([ring, ring], "interleaved", Random(1))]
     ['a', 'b', 'a', 'b', 'a', 'a']
     """
     given = [list(one) for one in rounds]
@@ -126,9 +126,9 @@ def ordered(
         case "shuffled":
             return [it for one in given for it in chance.sample(one, len(one))]
         case "blocked":
-            return [it for block in _blocks(together) for it in block]
+            return [it for block in _group_occasions(together) for it in block]
         case "interleaved":
-            return list(_interleaved(together))
+            return list(_interleave(together))
         case "easy first":
             return sorted(together, key=lambda it: it.hard)
         case "hard first":
@@ -136,11 +136,11 @@ def ordered(
     return together
 
 
-def _blocks(them: Sequence[Occasion]) -> list[list[Occasion]]:
+def _group_occasions(them: Sequence[Occasion]) -> list[list[Occasion]]:
     groups = dict.fromkeys(it.group for it in them)
     return [[it for it in them if it.group == group] for group in groups]
 
 
-def _interleaved(them: Sequence[Occasion]) -> Iterator[Occasion]:
-    for together in zip_longest(*_blocks(them)):
+def _interleave(them: Sequence[Occasion]) -> Iterator[Occasion]:
+    for together in zip_longest(*_group_occasions(them)):
         yield from (it for it in together if it is not None)

@@ -41,7 +41,7 @@ class Astray:
             anywhere = chance.uniform(0, TABLE), chance.uniform(0, TABLE)
             if chance.random() < self.share:
                 right, away = anywhere
-            world = world.moved(number, rounded(right, away))
+            world = world.moved(number, round_place(right, away))
         return world
 
 
@@ -49,23 +49,23 @@ TABLE = 9.0
 """How many steps the table is wide, and deep, from its first place to its last."""
 
 
-def rounded(right: float, away: float) -> Place:
+def round_place(right: float, away: float) -> Place:
     """A place by the tenth of a millimetre: as a name says it."""
     return round(right, 3), round(away, 3)
 
 
-def beside(place: Place, far: float, bearing: float) -> Place:
+def place_beside(place: Place, far: float, bearing: float) -> Place:
     """The place so many metres from there, radians counter-clockwise from right."""
     steps = far / STEP
     right, away = steps * math.cos(bearing), steps * math.sin(bearing)
-    return rounded(place[0] + right, place[1] + away)
+    return round_place(place[0] + right, place[1] + away)
 
 
 BEARINGS = {side: math.atan2(away, right) for side, (right, away) in SIDES.items()}
 """Where each side is: radians counter-clockwise from right."""
 
 
-def side(world: World, x: int, y: int) -> tuple[str, float]:
+def side_of(world: World, x: int, y: int) -> tuple[str, float]:
     """On which side x is of y, for the viewer, and how far off its middle."""
     (ax, ay), (bx, by) = world.place(x), world.place(y)
     bearing = math.atan2(ay - by, ax - bx)
@@ -74,7 +74,7 @@ def side(world: World, x: int, y: int) -> tuple[str, float]:
     return best, 1.0 - fits[best]
 
 
-def shown_alone(start: World, kind: str, x: int) -> Occasion:
+def occasion_alone(start: World, kind: str, x: int) -> Occasion:
     """The occasion to say what x is or which colour it has: nothing else is there."""
     world = start.cleared().moved(x, MIDDLE).pointed(x)
     return Occasion(kind, world, x, group=word_group(kind, world.thing(x)))
@@ -85,11 +85,11 @@ def word_group(kind: str, thing: Thing) -> str:
     return thing.colour if kind == "adjective" else thing.kind
 
 
-def related(
+def relation_occasion(
     world: World, x: int, y: int, astray: Astray, moved: Sequence[int], chance: Random
 ) -> Occasion:
     """The occasion to say how x, which is pointed at, stands to y."""
     world = world.pointed(x)
-    group, hard = side(world, x, y)
+    group, hard = side_of(world, x, y)
     seen = astray.seen(world, moved, chance)
     return Occasion("relation", world, x, y, seen, group=group, hard=hard)

@@ -91,14 +91,14 @@ def read(folder: Path) -> Study:
     """The study in a folder; ExperimentError if there is none that is known."""
     for files, reader in _READERS.items():
         if all((folder / it).is_file() for it in files):
-            return _read(folder, files, reader)
+            return _read_study(folder, files, reader)
     known = "; ".join(" with ".join(files) for files in _READERS)
     raise ExperimentError(
         f"{folder} has no judgements of spatial words that are known: it needs {known}"
     )
 
 
-def _read(folder: Path, files: Sequence[str], reader: Any) -> Study:
+def _read_study(folder: Path, files: Sequence[str], reader: Any) -> Study:
     try:
         study: Study = reader(folder)
     except (LookupError, ValueError, TypeError, ArithmeticError, csv.Error) as error:
@@ -200,7 +200,7 @@ def _functional(folder: Path) -> Study:
     the offset is told from the distances and from how much is above and below.
     """
     pairs = {
-        (row["Scene"], row["Figure"], row["Ground"]): _paired(row)
+        (row["Scene"], row["Figure"], row["Ground"]): _pair_configuration(row)
         for row in _rows(folder / "relations.csv")
     }
     ticked: dict[tuple[str, str, str], list[set[str]]] = defaultdict(list)
@@ -221,7 +221,7 @@ def _functional(folder: Path) -> Study:
     return Study("things in use 2019", words, _ABOUT, choices)
 
 
-def _paired(row: Mapping[str, str]) -> Configuration:
+def _pair_configuration(row: Mapping[str, str]) -> Configuration:
     target, ground = (
         max(float(row[it]), 1e-9) ** (1 / 3)
         for it in ("figure_volume", "ground_volume")

@@ -11,8 +11,8 @@ from typing import Any
 from urllib.parse import quote
 
 from kille.lab.scenes.occasions import Occasion, Scene
-from kille.lab.scenes.places import MIDDLE, rounded, side
-from kille.lab.scenes.theatre import Staged, Stand, Theatre, laid
+from kille.lab.scenes.places import MIDDLE, round_place, side_of
+from kille.lab.scenes.theatre import Staged, Stand, Theatre, lay_table
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.catalogue import TOY_NAMES
@@ -76,26 +76,26 @@ class Rendered(Scene):
         (landmark, *at, _), (target, *by, _) = stands
         y, x = 1 + self.kinds.index(landmark), 1 + self.kinds.index(target)
         world = self.start.moved(y, _place(*at)).moved(x, _place(*by)).pointed(x)
-        group, hard = side(world, x, y)
+        group, hard = side_of(world, x, y)
         view = Staged(self.source, stands)
         return Occasion("relation", world, x, y, view=view, group=group, hard=hard)
 
 
 def _place(right: float, away: float) -> Place:
     """A place on the table in steps, by metres from its middle."""
-    return rounded(MIDDLE[0] + right / STEP, MIDDLE[1] + away / STEP)
+    return round_place(MIDDLE[0] + right / STEP, MIDDLE[1] + away / STEP)
 
 
 @lru_cache(1024)
 def _fits(source: str, stands: tuple[Stand, ...]) -> bool:
     try:
-        laid(source, stands)
+        lay_table(source, stands)
     except SensorError:
         return False
     return True
 
 
-def rendered(set_: Mapping[str, Any], chance: Random) -> Rendered:
+def open_rendered(set_: Mapping[str, Any], chance: Random) -> Rendered:
     """A table on which the ten things of the paper can be put."""
     target, landmark = set_["target"], set_["landmark"]
     wanted = dict.fromkeys((*(set_["kinds"] or TOY_NAMES), target, landmark))

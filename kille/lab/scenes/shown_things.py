@@ -58,7 +58,7 @@ def cut_out(percept: Percept) -> Colour | None:
     return colour[top : box.bottom + _MARGIN, left : box.right + _MARGIN]
 
 
-def each_shown(
+def show_each(
     table: OnTable,
     things: Sequence[str],
     steps: Steps,

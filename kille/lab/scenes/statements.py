@@ -17,7 +17,7 @@ from typing import Any
 
 from kille.lab.errors import StudyError
 from kille.lab.scenes.occasions import Occasion, Scene
-from kille.lab.scenes.places import MIDDLE, rounded, shown_alone
+from kille.lab.scenes.places import MIDDLE, occasion_alone, round_place
 from kille.lab.scenes.published_judgements import read
 from kille.lab.settings import unknown
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
@@ -44,7 +44,7 @@ class Statements(Scene):
     def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
         """All the statements, in an order of chance; or the two things one by one."""
         if kind != "relation":
-            return [shown_alone(self.start, kind, x) for x in (1, 2)]
+            return [occasion_alone(self.start, kind, x) for x in (1, 2)]
         some = list(self.kept if new else self.taught)
         chance.shuffle(some)
         return [self._stated(*it) for it in some]
@@ -54,9 +54,11 @@ class Statements(Scene):
         return Occasion("relation", world, 1, 2, said=word, group=word)
 
 
-def statements(folder: Path, set_: Mapping[str, Any], chance: Random) -> Statements:
+def open_statements(
+    folder: Path, set_: Mapping[str, Any], chance: Random
+) -> Statements:
     """The statements in a folder of judgements; `ExperimentError` if it has none."""
-    said = _said(folder)
+    said = _true_statements(folder)
     wanted = set_["words"] or tuple(said)
     for word in wanted:
         if word not in said:
@@ -75,20 +77,20 @@ def statements(folder: Path, set_: Mapping[str, Any], chance: Random) -> Stateme
 
 
 @lru_cache(8)
-def _said(folder: Path) -> Mapping[str, tuple[Place, ...]]:
+def _true_statements(folder: Path) -> Mapping[str, tuple[Place, ...]]:
     """Where the target was in the true statements of each word, on the table.
 
     What was said twice of one place is there once: else it may be taught and kept.
     """
     study = read(folder)
-    far = max((_flat(it.x) for it in study.every()), default=1.0)
+    far = max((_level_distance(it.x) for it in study.every()), default=1.0)
     scale = _REACH / far
     return {
         word: tuple(
             dict.fromkeys(
                 _place(it.x, scale)
                 for it in judged
-                if it.degree >= _TRUE and _flat(it.x) * scale >= _FLAT
+                if it.degree >= _TRUE and _level_distance(it.x) * scale >= _FLAT
             )
         )
         for word, judged in study.words.items()
@@ -96,11 +98,11 @@ def _said(folder: Path) -> Mapping[str, tuple[Place, ...]]:
     }
 
 
-def _flat(x: Configuration) -> float:
+def _level_distance(x: Configuration) -> float:
     """How far the target is from the landmark on the level, in metres."""
     return math.hypot(x.offset[0], x.offset[1])
 
 
 def _place(x: Configuration, scale: float) -> Place:
     right, away = (scale * it / STEP for it in x.offset[:2])
-    return rounded(MIDDLE[0] + right, MIDDLE[1] + away)
+    return round_place(MIDDLE[0] + right, MIDDLE[1] + away)

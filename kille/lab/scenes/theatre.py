@@ -90,11 +90,11 @@ class Theatre:
 
     def frame(self) -> Frame:
         """The frame that is to be seen."""
-        return _seen(self._view).frame
+        return _look_at(self._view).frame
 
     def look(self, scans: int, pointed: Any) -> Look:
         """The look at it, in which what is pointed at comes first."""
-        seen = _seen(self._view)
+        seen = _look_at(self._view)
         if not isinstance(pointed, tuple) or not isinstance(pointed[0], Frame):
             return seen
         region = pointed[1]
@@ -104,7 +104,7 @@ class Theatre:
 
     def attention(self) -> Attention:
         """That of who has seen nothing of it yet, and follows the tutor's finger."""
-        seen = _seen(self._view)
+        seen = _look_at(self._view)
         if not seen.percepts:
             return Attention()
         pointed: Sighting = (seen.frame, seen.percepts[0].region)
@@ -123,28 +123,28 @@ class Theatre:
         """Nothing is to be let go of."""
 
 
-def _seen(view: object) -> Look:
+def _look_at(view: object) -> Look:
     """The look at a view: in one scan, with what is pointed at before all else."""
     match view:
         case Picture(path):
-            return _of_picture(path)
+            return _look_at_kept_picture(path)
         case Capture() | Staged():
-            return _of_frame(view)
+            return _look_at_frame(view)
     raise StudyError([f"nothing is shown: {view!r} is no view"])
 
 
 @lru_cache(FRAMES)
-def _of_frame(view: Capture | Staged) -> Look:
+def _look_at_frame(view: Capture | Staged) -> Look:
     """The look at a whole frame, and at a thing in it by its outline."""
     match view:
         case Capture(folder, number, name):
             frame = _shots(folder)[number].read()
         case Staged(source, stands):
-            frame, name = laid(source, stands).frame(), stands[-1].name
+            frame, name = lay_table(source, stands).frame(), stands[-1].name
     return look_at_outlined(frame, name)
 
 
-_of_picture = lru_cache(PICTURES)(look_at_picture)
+_look_at_kept_picture = lru_cache(PICTURES)(look_at_picture)
 
 
 @lru_cache(64)
@@ -154,7 +154,7 @@ def _shots(folder: Path) -> tuple[Shot, ...]:
     return read_sequence(description)
 
 
-def laid(source: str, stands: Sequence[Stand]) -> Synthetic:
+def lay_table(source: str, stands: Sequence[Stand]) -> Synthetic:
     """A table on which things stand so. SensorError where they cannot."""
     stage = open_synthetic(source)
     for name, *spot in stands:

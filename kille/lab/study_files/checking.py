@@ -66,7 +66,7 @@ def _tried(study: Study) -> Iterator[Problem]:
         if wrong := [*scenes.faults(scene, study)]:
             yield from (it.within("scenes", name) for it in wrong)
         elif scene.kind != UNKNOWN:
-            opened[name] = scenes.opened(study, Run("", "", name, 0))
+            opened[name] = scenes.open_scene(study, Run("", "", name, 0))
     yield from unreached(study, opened)
     modes = [theory.mode for theory in study.theories.values()]
     if len(opened) == len(study.scenes) and UNKNOWN not in modes:

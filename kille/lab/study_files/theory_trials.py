@@ -21,13 +21,13 @@ from kille.lab.study import PERSON, Theory
 from kille.lab.study_files.languages import of_language, of_strategies
 from kille.lab.study_files.learners import of_learners
 from kille.lab.theories.games import (
-    changed,
+    change_game,
     game_of,
     language_of,
-    unsettable,
+    strategy_problems,
 )
 from kille.lab.theories.meanings import meanings_of
-from kille.lab.theories.rules import absent, packaged_rules
+from kille.lab.theories.rules import missing_rules, packaged_rules
 from kille.lab.worlds.perception import glanced
 from kille.lab.worlds.worlds import Thing, World
 from ttr import TTRError
@@ -56,7 +56,7 @@ def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
 def _of_all_else(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """What is wrong with a theory whose meanings can be read."""
     found = [*of_strategies(theory)] or [
-        it.within("strategy") for it in unsettable(theory)
+        it.within("strategy") for it in strategy_problems(theory)
     ]
     found += of_learners(theory, eyes)
     found += of_language(theory)
@@ -124,11 +124,14 @@ def _of_rules(theory: Theory) -> Iterator[Problem]:
         if failing := [*_failing(key, Path(theory.rules), theory)] if of_file else []:
             yield from failing
             return
-        if wanting := [Problem(("without",), it) for it in absent(theory)]:
+        if wanting := [Problem(("without",), it) for it in missing_rules(theory)]:
             yield from wanting
             return
         types = meanings_of(theory)
-        game, packaged = changed(tutoring(types=types), theory), packaged_rules(types)
+        game, packaged = (
+            change_game(tutoring(types=types), theory),
+            packaged_rules(types),
+        )
         errors = (it for it in faults_of(game) if _is_error(it))
         wrong = (it for it in errors if not _is_moot(it, packaged))
         yield from (_of_fault(key, it) for it in wrong)

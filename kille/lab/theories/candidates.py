@@ -51,7 +51,7 @@ def candidates(
     NAME is a class, or a function that makes a learner. Who calls this names them; for
     names that were found in a file, `consent` says which Python may be run.
     """
-    return {name: _guarded(name, _maker(name, known, consent)) for name in names}
+    return {name: _guard(name, _maker(name, known, consent)) for name in names}
 
 
 def _maker(name: str, known: Methods, consent: Consent | None) -> Make:
@@ -59,7 +59,7 @@ def _maker(name: str, known: Methods, consent: Consent | None) -> Make:
         return known[name]
     module, colon, thing = name.rpartition(":")
     if colon:
-        return _of_module(module, thing, consent)
+        return _module_maker(module, thing, consent)
     near = get_close_matches(name, known, n=1)
     hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(known)}."
     raise ExperimentError(
@@ -70,7 +70,7 @@ def _maker(name: str, known: Methods, consent: Consent | None) -> Make:
 # --- a user's own --------------------------------------------------------------------
 
 
-def _of_module(path: str, thing: str, consent: Consent | None) -> Make:
+def _module_maker(path: str, thing: str, consent: Consent | None) -> Make:
     module = _module(path, consent)
     made: object = getattr(module, thing, None)
     if callable(made):
@@ -95,7 +95,7 @@ def _module(path: str, consent: Consent | None) -> ModuleType:
             raise ExperimentError(
                 f"there is no module {path}: name a method as {_WRITTEN}"
             ) from error
-        raise ExperimentError(f"{path} cannot be run: {_told(error)}") from error
+        raise ExperimentError(f"{path} cannot be run: {_first_line(error)}") from error
 
 
 def _is_missing(path: str, error: BaseException) -> bool:
@@ -108,7 +108,7 @@ def _is_missing(path: str, error: BaseException) -> bool:
 # --- the guard -----------------------------------------------------------------------
 
 
-def _guarded(name: str, make: Make) -> Make:
+def _guard(name: str, make: Make) -> Make:
     def made() -> _Guarded:
         with _failing_as(name, "it cannot be made"):
             return _Guarded(name, make())
@@ -195,10 +195,10 @@ def _failing_as(name: str, doing: str) -> Iterator[None]:
     except MethodFailedError:
         raise
     except (Exception, SystemExit) as error:
-        raise MethodFailedError(name, f"{doing}: {_told(error)}") from error
+        raise MethodFailedError(name, f"{doing}: {_first_line(error)}") from error
 
 
-def _told(error: BaseException) -> str:
+def _first_line(error: BaseException) -> str:
     first = next(iter(str(error).splitlines()), "")
     return f"{type(error).__name__}: {first}".removesuffix(": ")
 

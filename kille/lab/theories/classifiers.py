@@ -19,7 +19,7 @@ from kille.lab.study import Theory
 from kille.lab.theories.candidates import candidates
 from kille.lab.theories.guest_learners import GuestObjects, GuestRelations
 from kille.lab.theories.pupils import Make, Pupil
-from kille.lab.theories.simulated_words import Guest, MakeWord, Prototype
+from kille.lab.theories.simulated_words import GuestWord, MakeWord, PrototypeWord
 from kille.lab.worlds.word_learning import LearnedWord
 from kille.perception.evidence import weighing
 from kille.perception.index import View
@@ -32,7 +32,7 @@ Known = Mapping[str, Mapping[str, Any]]
 WORDS: Mapping[str, type[LearnedWord]] = {
     "default": LearnedWord,
     "instances": LearnedWord,
-    "prototype": Prototype,
+    "prototype": PrototypeWord,
 }
 
 _OF_EYES: Mapping[str, Callable[[Iterable[View]], ObjectMemory]] = {
@@ -70,7 +70,7 @@ def _word(kind: str, theory: Theory) -> MakeWord:
     if name in WORDS:
         return WORDS[name]
     known = NAMES["simulated"][kind]
-    return partial(Guest, pupil=Pupil(_maker(name, known, theory)))
+    return partial(GuestWord, pupil=Pupil(_maker(name, known, theory)))
 
 
 def learners_of(theory: Theory) -> Learners:

@@ -14,7 +14,7 @@ from kille.dialogue.strategies import strategy
 from kille.lab.study import PERSON, Theory
 from kille.lab.theories.games import strategy_of
 from kille.lab.theories.meanings import meanings_of
-from kille.lab.theories.rules import algorithm_of, packaged_rules, told
+from kille.lab.theories.rules import algorithm_of, describe_rule, packaged_rules
 from kille.lab.worlds.vocabulary import vocabulary
 from ttr import Record, record
 from ttr.types import TypeNode
@@ -26,19 +26,21 @@ _EXAMPLES = {"noun": ("nouns", "cup"), "adjective": ("adjectives", "red")}
 _PLACE = ("relations", "left")
 
 
-def described(theory: Theory) -> Mapping[str, Shown]:
+def describe(theory: Theory) -> Mapping[str, Shown]:
     """A theory by its parts: its strategy, its learners, the meaning of a word of each
     kind, what its types are called, its information states, its rules, its language.
 
     `TheoryError` where it cannot be used.
 
-    >>> print(described(Theory("proto", learners={"noun": "prototype"}))["learners"])
+    >>> print(describe(Theory("proto", learners={"noun": "prototype"}))["learners"])
     {adjective = default, noun = prototype, relation = default}
-    >>> print(described(Theory("proto"))["noun"])
+    >>> print(describe(Theory("proto"))["noun"])
     [look : Look, x : Ind, c : cup(x, look)]
     """
     types = meanings_of(theory)
-    learners = {kind: _short(theory.learners.get(kind, "default")) for kind in KINDS}
+    learners = {
+        kind: _short_name(theory.learners.get(kind, "default")) for kind in KINDS
+    }
     by_person = theory.mode == PERSON
     return {
         "about": theory.about,
@@ -67,7 +69,10 @@ def rules_apart(one: Theory, other: Theory) -> Mapping[str, tuple[str, str]]:
 
 def _rules(theory: Theory) -> Mapping[str, str]:
     packaged = packaged_rules(meanings_of(theory))
-    return {rule.name: told(rule, packaged) for rule in rules_of(algorithm_of(theory))}
+    return {
+        rule.name: describe_rule(rule, packaged)
+        for rule in rules_of(algorithm_of(theory))
+    }
 
 
 def _example_meaning(language: str, kind: str, types: DialogueTypes) -> TypeNode:
@@ -88,7 +93,7 @@ def _language(theory: Theory) -> str:
     return f"{theory.language}{own}"
 
 
-def _short(name: str) -> str:
+def _short_name(name: str) -> str:
     """What a learner is called, without where its file is."""
     path, colon, thing = name.rpartition(":")
     return f"{Path(path).name}{colon}{thing}"

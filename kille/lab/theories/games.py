@@ -19,7 +19,7 @@ from kille.lab.study import Theory
 from kille.lab.theories.classifiers import learners_of, words_of
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.theories.rules import algorithm_of
-from kille.lab.theories.simulated_words import acting, known_by
+from kille.lab.theories.simulated_words import act_with, with_known_colours
 from kille.lab.worlds.games import simulated
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.word_learning import LearnedWord
@@ -59,10 +59,10 @@ def game_of(
     game = dataclasses.replace(game, start=start)
     makes = words_of(theory)
     if all(make is LearnedWord for make in makes.values()):
-        return changed(game, theory)
-    model = known_by(game.model, makes, signs)
-    game = dataclasses.replace(game, model=model, act=acting(makes))
-    return changed(game, theory)
+        return change_game(game, theory)
+    model = with_known_colours(game.model, makes, signs)
+    game = dataclasses.replace(game, model=model, act=act_with(makes))
+    return change_game(game, theory)
 
 
 def agent_of(theory: Theory, sensor: str | Sensor, **settings: Any) -> Agent:
@@ -77,12 +77,12 @@ def agent_of(theory: Theory, sensor: str | Sensor, **settings: Any) -> Agent:
         wording=theory.wording,
         learners=learners_of(theory),
         theory=meanings_of(theory),
-        change=partial(changed, theory=theory),
+        change=partial(change_game, theory=theory),
         **settings,
     )
 
 
-def changed(game: Game, theory: Theory) -> Game:
+def change_game(game: Game, theory: Theory) -> Game:
     """The game with the theory's own strategy and rules."""
     if not (theory.strategy or theory.rules or theory.without):
         return game
@@ -104,20 +104,20 @@ def strategy_of(theory: Theory) -> Record:
     0.9
     """
     plain = strategy(theory.mode, theory.wording, language_of(theory))
-    wrong = next(unsettable(theory), None)
+    wrong = next(strategy_problems(theory), None)
     if wrong is not None:
         raise TheoryError(wrong.what)
-    return replace(plain, dict(_numbers(theory.strategy)))
+    return replace(plain, dict(_numbers_by_path(theory.strategy)))
 
 
-def unsettable(theory: Theory) -> Iterator[Problem]:
+def strategy_problems(theory: Theory) -> Iterator[Problem]:
     """What the strategy cannot be set to, and why."""
-    yield from _unsettable(
+    yield from _strategy_problems(
         theory.strategy, strategy(theory.mode, theory.wording, language_of(theory)), ()
     )
 
 
-def _unsettable(
+def _strategy_problems(
     given: Mapping[str, Any], known: Record, outer: tuple[str, ...]
 ) -> Iterator[Problem]:
     for name, value in given.items():
@@ -127,7 +127,7 @@ def _unsettable(
             told = f"a strategy has no {path}: {unknown(name, tuple(known))}"
             yield Problem(here, told)
         elif isinstance(value, dict) and isinstance(known[name], Record):
-            yield from _unsettable(value, known[name], here)
+            yield from _strategy_problems(value, known[name], here)
         elif isinstance(known[name], str):
             told = f"the {name} of a strategy is that of the theory: write it there"
             yield Problem(here, told)
@@ -149,10 +149,12 @@ _NUMBERS = {
 """Numbers of a strategy that are no probabilities, by where they stand."""
 
 
-def _numbers(given: Mapping[str, Any], outer: str = "") -> Iterator[tuple[str, float]]:
+def _numbers_by_path(
+    given: Mapping[str, Any], outer: str = ""
+) -> Iterator[tuple[str, float]]:
     """All numbers that are set, by their paths."""
     for name, value in given.items():
         if isinstance(value, dict):
-            yield from _numbers(value, f"{outer}{name}.")
+            yield from _numbers_by_path(value, f"{outer}{name}.")
         else:
             yield f"{outer}{name}", float(value)

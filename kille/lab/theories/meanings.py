@@ -24,21 +24,21 @@ def meanings_of(theory: Theory) -> DialogueTypes:
     if not own:
         return packaged_types()
     if not isinstance(own, str):
-        return _redefined(tuple(own.items()))
+        return _redefine(tuple(own.items()))
     folders = theory.consent.folders if theory.consent is not None else ()
     try:
         changed = Path(own).stat().st_mtime_ns
     except OSError as error:
         raise TheoryError(f"there is no file {own}") from error
-    return _of_file(own, tuple(folders), changed)
+    return _read_types(own, tuple(folders), changed)
 
 
 @lru_cache
-def _redefined(types: tuple[tuple[str, str], ...]) -> DialogueTypes:
+def _redefine(types: tuple[tuple[str, str], ...]) -> DialogueTypes:
     return DialogueTypes(theory_with(dict(types)))
 
 
 @lru_cache
-def _of_file(file: str, folders: tuple[Path, ...], _: int) -> DialogueTypes:
+def _read_types(file: str, folders: tuple[Path, ...], _: int) -> DialogueTypes:
     """The types of a file as it was when it was changed last."""
     return DialogueTypes(theory_of_file(file, folders))

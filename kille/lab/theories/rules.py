@@ -45,51 +45,51 @@ def algorithm_of(theory: Theory) -> Algorithm:
     A Python file is run anew each time, so that what its rules draw by chance does not
     depend on what was played before.
     """
-    whole = _whole(theory)
+    whole = _all_rules(theory)
     if not theory.without:
         return whole
-    for told in _absent(theory, whole):
+    for told in _missing_rules(theory, whole):
         raise TheoryError(told)
-    left = lacking(whole, theory.without)
+    left = without_rules(whole, theory.without)
     if left is None:
         raise TheoryError(f"without {', '.join(theory.without)} nothing ever applies")
     return left
 
 
-def absent(theory: Theory) -> Iterator[str]:
+def missing_rules(theory: Theory) -> Iterator[str]:
     """What it is to be without, and is not there; `TheoryError` as `algorithm_of`."""
-    yield from _absent(theory, _whole(theory))
+    yield from _missing_rules(theory, _all_rules(theory))
 
 
-def _absent(theory: Theory, whole: Algorithm) -> Iterator[str]:
+def _missing_rules(theory: Theory, whole: Algorithm) -> Iterator[str]:
     known = [one.name for one in rules_of(whole)]
     for name in theory.without:
         if name not in known:
             yield f"there is no rule {name}: {unknown(name, known)}"
 
 
-def _whole(theory: Theory) -> Algorithm:
+def _all_rules(theory: Theory) -> Algorithm:
     """The games with the rules of one's own, on the types of the theory."""
     types = meanings_of(theory)
     usual = bind(TUTORING, types)
-    return bind(_with(usual, theory), types) if theory.rules else usual
+    return bind(_add_own_rules(usual, theory), types) if theory.rules else usual
 
 
-def lacking(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
+def without_rules(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
     """The strategy as it is if rules of these names never apply; None if it never does.
 
     >>> from kille.dialogue.games.naming import NAMING
-    >>> print(lacking(NAMING, ["recognise", "hedge_name", "guess_name"]))
+    >>> print(without_rules(NAMING, ["recognise", "hedge_name", "guess_name"]))
     seq(first(assert_name, doubt_name, admit_name))
     """
     match algorithm:
         case Rule():
             return None if algorithm.name in names else algorithm
         case Maybe(part):
-            left = lacking(part, names)
+            left = without_rules(part, names)
             return _NOTHING if left is None else Maybe(left)
         case Repeat(part):
-            left = lacking(part, names)
+            left = without_rules(part, names)
             return None if left is None else dataclasses.replace(algorithm, part=left)
         case ByClass(classes):
             few = [
@@ -97,16 +97,16 @@ def lacking(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
             ]
             return ByClass(tuple(few)) if any(rules for _, rules in few) else None
         case Seq(parts):
-            both = [lacking(part, names) for part in parts]
+            both = [without_rules(part, names) for part in parts]
             if None in both:
                 return None
             return Seq(tuple(it for it in both if it is not None and it != _NOTHING))
-    some = [lacking(part, names) for part in algorithm.parts]
+    some = [without_rules(part, names) for part in algorithm.parts]
     parts = tuple(it for it in some if it is not None)
     return dataclasses.replace(algorithm, parts=parts) if parts else None
 
 
-def told(rule: Rule, packaged: Collection[Rule]) -> str:
+def describe_rule(rule: Rule, packaged: Collection[Rule]) -> str:
     """What a rule is, to be read: in the notation, or what it is for and its Python.
 
     Of the `packaged` rules it is what they are for.
@@ -130,20 +130,22 @@ def packaged_rules(types: DialogueTypes) -> frozenset[Rule]:
 # --- rules of one's own ---------------------------------------------------------------
 
 
-def _with(whole: Algorithm, theory: Theory) -> Algorithm:
+def _add_own_rules(whole: Algorithm, theory: Theory) -> Algorithm:
     """The games with a theory's own rules in place of those of their names."""
     reference, consent = theory.rules, theory.consent
     if reference.endswith(".ttr"):
-        return _in_place(whole, _of_theory(Path(reference), consent), reference)
-    found = _of_python(reference, consent)
+        return _put_in_place(
+            whole, _read_theory_rules(Path(reference), consent), reference
+        )
+    found = _run_python(reference, consent)
     if isinstance(found, Algorithm) and not isinstance(found, Rule):
         return found
     if callable(found) and not isinstance(found, Rule):
-        return _made(found, whole, reference)
-    return _in_place(whole, _rules(found, reference), reference)
+        return _apply_change(found, whole, reference)
+    return _put_in_place(whole, _rules_by_name(found, reference), reference)
 
 
-def _of_theory(file: Path, consent: Consent | None) -> Mapping[str, Rule]:
+def _read_theory_rules(file: Path, consent: Consent | None) -> Mapping[str, Rule]:
     """The rules of a theory file, by those that they replace.
 
     Many a rule there cannot have the name of the other, which is that of a predicate:
@@ -151,15 +153,15 @@ def _of_theory(file: Path, consent: Consent | None) -> Mapping[str, Rule]:
     """
     _check_there(file)
     try:
-        rules = _loaded(file, file.stat().st_mtime_ns, consent or OWN_FOLDER)
+        rules = _load_rules(file, file.stat().st_mtime_ns, consent or OWN_FOLDER)
     except TTRError as error:
         place = f"{error.span.source}:{error.span.line}" if error.span else ""
         hint = f" ({error.hint})" if error.hint else ""
         raise TheoryError(f"{error.message}{hint}", place) from error
-    return _each_for_one([(it.kind or it.name, it) for it in rules.values()], str(file))
+    return _check_single([(it.kind or it.name, it) for it in rules.values()], str(file))
 
 
-def _each_for_one(rules: Iterable[tuple[str, Rule]], of: str) -> Mapping[str, Rule]:
+def _check_single(rules: Iterable[tuple[str, Rule]], of: str) -> Mapping[str, Rule]:
     """Rules by the names that they stand for, of which no two may be the same."""
     found: dict[str, Rule] = {}
     for name, one in rules:
@@ -171,12 +173,12 @@ def _each_for_one(rules: Iterable[tuple[str, Rule]], of: str) -> Mapping[str, Ru
 
 
 @lru_cache
-def _loaded(file: Path, _: int, consent: Consent) -> Mapping[str, Rule]:
+def _load_rules(file: Path, _: int, consent: Consent) -> Mapping[str, Rule]:
     """The rules of a theory file as it was when it was changed last."""
     return load(file, allow=consent.folders).rules
 
 
-def _of_python(reference: str, consent: Consent | None) -> Any:
+def _run_python(reference: str, consent: Consent | None) -> Any:
     path, colon, name = reference.rpartition(":")
     if not colon or not path.endswith(".py"):
         raise TheoryError(f"rules are named {_WRITTEN}, found {reference}")
@@ -199,7 +201,9 @@ def _check_there(file: Path) -> None:
         raise TheoryError(told)
 
 
-def _made(change: Callable[[Algorithm], Any], whole: Algorithm, of: str) -> Algorithm:
+def _apply_change(
+    change: Callable[[Algorithm], Any], whole: Algorithm, of: str
+) -> Algorithm:
     """The games as a function changes them."""
     try:
         made = change(whole)
@@ -212,13 +216,13 @@ def _made(change: Callable[[Algorithm], Any], whole: Algorithm, of: str) -> Algo
     raise TheoryError(f"{of} gives no rules: expected an algorithm, found {made!r}")
 
 
-def _rules(found: object, reference: str) -> Mapping[str, Rule]:
+def _rules_by_name(found: object, reference: str) -> Mapping[str, Rule]:
     """Rules by the names of those in whose place they stand."""
     match found:
         case Rule():
             return {found.name: found}
         case list() | tuple() if all(isinstance(it, Rule) for it in found):
-            return _each_for_one([(it.name, it) for it in found], reference)
+            return _check_single([(it.name, it) for it in found], reference)
         case dict() if all(isinstance(it, Rule) for it in found.values()):
             return found
     raise TheoryError(
@@ -227,7 +231,9 @@ def _rules(found: object, reference: str) -> Mapping[str, Rule]:
     )
 
 
-def _in_place(whole: Algorithm, rules: Mapping[str, Rule], reference: str) -> Algorithm:
+def _put_in_place(
+    whole: Algorithm, rules: Mapping[str, Rule], reference: str
+) -> Algorithm:
     known = [one.name for one in rules_of(whole)]
     if not rules:
         raise TheoryError(f"{reference} has no rule")

@@ -25,7 +25,7 @@ MakeWord = Callable[[Record], LearnedWord]
 """Makes the word of a sign that was not taught yet."""
 
 
-class Prototype(LearnedWord):
+class PrototypeWord(LearnedWord):
     """A word that is true of what is like the mean of all that it was said of.
 
     As often as it was said of something, so often it counts: with m the mean of k
@@ -43,7 +43,7 @@ class Prototype(LearnedWord):
 
 
 @dataclass(frozen=True, eq=False)
-class Guest(LearnedWord):
+class GuestWord(LearnedWord):
     """A word judged by a pupil who has heard the lessons in all words of its kind.
 
     What is known of a word without any lesson, as of colours, it judges by itself.
@@ -56,16 +56,16 @@ class Guest(LearnedWord):
         """The degree to which it is true of what is seen."""
         if self.prior or self.pupil is None:
             return super().degree(of)
-        degrees = self.pupil.degrees(self.heard, shown(self.sign.kind, of))
+        degrees = self.pupil.degrees(self.heard, pupil_input(self.sign.kind, of))
         return min(max(degrees.get(word_of(self.sign).name, 0.0), 0.0), 1.0)
 
 
-def shown(kind: str, of: Observation) -> object:
+def pupil_input(kind: str, of: Observation) -> object:
     """What a pupil is shown: a relation as a configuration in metres, else numbers.
 
-    >>> shown("adjective", ((0.9, 0.1, 0.1), (0.5,)))
+    >>> pupil_input("adjective", ((0.9, 0.1, 0.1), (0.5,)))
     (0.9, 0.1, 0.1, 0.5)
-    >>> shown("relation", ((0.0, 1.0), (0.3,))).offset
+    >>> pupil_input("relation", ((0.0, 1.0), (0.3,))).offset
     (0.0, 0.3, 0.0)
     """
     if kind != "relation":
@@ -74,7 +74,7 @@ def shown(kind: str, of: Observation) -> object:
     return Configuration((right * far, ahead * far, 0.0))
 
 
-def known_by(
+def with_known_colours(
     model: Model, makes: Mapping[str, MakeWord], signs: Sequence[Record]
 ) -> Model:
     """The model in which these words are judged by those that are made for their kind.
@@ -90,19 +90,21 @@ def known_by(
     return model
 
 
-def acting(
+def act_with(
     makes: Mapping[str, MakeWord],
 ) -> Callable[[TypeNode, Model], tuple[Record, Model]]:
     """How moves are made by a robot whose new words are made so, by their kinds."""
 
     def acted(planned: TypeNode, model: Model) -> tuple[Record, Model]:
-        move, after = act(planned, _ready(planned, model, makes))
-        return move, _all_heard(after)
+        move, after = act(planned, _with_new_words(planned, model, makes))
+        return move, _share_lessons(after)
 
     return acted
 
 
-def _ready(planned: TypeNode, model: Model, makes: Mapping[str, MakeWord]) -> Model:
+def _with_new_words(
+    planned: TypeNode, model: Model, makes: Mapping[str, MakeWord]
+) -> Model:
     """The model that has the words in which something is about to be learned."""
     assert isinstance(planned, RecordType)
     for content in value_at(planned, "teaches"):
@@ -112,12 +114,12 @@ def _ready(planned: TypeNode, model: Model, makes: Mapping[str, MakeWord]) -> Mo
     return model
 
 
-def _all_heard(model: Model) -> Model:
+def _share_lessons(model: Model) -> Model:
     """The model in which every guest has heard the lessons in all words of its kind."""
-    guests = [it for it in learned_words(model) if isinstance(it, Guest)]
+    guests = [it for it in learned_words(model) if isinstance(it, GuestWord)]
     for kind in dict.fromkeys(it.sign.kind for it in guests):
         own = [it for it in guests if it.sign.kind == kind]
-        heard = _lessons(own)
+        heard = _all_lessons(own)
         for guest in own:
             if guest.heard != heard:
                 by = replace(guest, heard=heard)
@@ -125,13 +127,13 @@ def _all_heard(model: Model) -> Model:
     return model
 
 
-def _lessons(guests: Sequence[Guest]) -> tuple[Heard[Any], ...]:
+def _all_lessons(guests: Sequence[GuestWord]) -> tuple[Heard[Any], ...]:
     """All lessons, in the order in which they were given."""
     given = [(it, lesson) for it in guests if not it.prior for lesson in it.lessons]
     return tuple(
         Heard(
             lesson.key,
-            shown(it.sign.kind, lesson.of),
+            pupil_input(it.sign.kind, lesson.of),
             word_of(it.sign).name,
             lesson.holds,
         )

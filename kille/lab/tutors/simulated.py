@@ -31,7 +31,7 @@ BY = {"both": ("adjective", "noun"), "noun": ("noun",), "colour": ("adjective",)
 
 
 @dataclass(frozen=True)
-class Simulated:
+class SimulatedTutor:
     """A tutor of this manner."""
 
     name: str

@@ -16,7 +16,7 @@ from kille.lab.study import Theory
 from kille.lab.study_files import checked, read
 from kille.lab.study_files.consent import unallowed
 from kille.lab.theories.classifiers import learners_of
-from kille.lab.theories.descriptions import described
+from kille.lab.theories.descriptions import describe
 from ttr.safety.consent import NotAllowedError
 
 Run = Callable[..., Any]
@@ -238,7 +238,7 @@ def test_what_lies_in_the_working_directory_is_not_run(home: Path) -> None:
         text = "from pathlib import Path\nPath(__file__).with_name('ran').touch()\n"
         (home / f"{module}.py").write_text(text)
     own = Theory("own", meanings={"It": "[x : Ind, look : Look]"})
-    assert described(own)["meanings"]["It"] is not record_type("It")  # type: ignore[index]
+    assert describe(own)["meanings"]["It"] is not named("It")  # type: ignore[index]
     assert ran(home) == []
 
 

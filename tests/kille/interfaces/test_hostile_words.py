@@ -21,7 +21,7 @@ from kille.interfaces.grids import print_table
 from kille.interfaces.replay import in_brief, replay
 from kille.interfaces.streams import prepare_streams
 from kille.interfaces.terminal import console
-from kille.lab.people.typed_lines import typed
+from kille.lab.people.typed_lines import read_line
 from kille.lab.results import Table
 from kille.memory import Memory, Sighting, Turn
 
@@ -182,7 +182,7 @@ def test_people_in_a_study_see_what_is_said(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(sys, "stdin", io.StringIO(f"{WORD}\n"))
-    assert typed(f"{WORD}\n{WORD}> ") == WORD
+    assert read_line(f"{WORD}\n{WORD}> ") == WORD
     shown = capsys.readouterr().out
     assert obeyed(shown) == []
     assert shown.startswith(f"{SEEN}\n{SEEN}> ")

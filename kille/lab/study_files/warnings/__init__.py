@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kille.lab.scenes import opened
+from kille.lab.scenes import open_scene
 from kille.lab.settings import Problem
 from kille.lab.study import Run, Study
 from kille.lab.study_files.problems import told
@@ -22,7 +22,7 @@ def doubts(study: Study) -> tuple[str, ...]:
 
 
 def _doubts(study: Study) -> Iterator[Problem]:
-    seen = {name: opened(study, Run("", "", name, 0)) for name in study.scenes}
+    seen = {name: open_scene(study, Run("", "", name, 0)) for name in study.scenes}
     yield from theories.doubts(study)
     yield from tutors.doubts(study, seen)
     yield from scenes.doubts(study, seen)

@@ -10,14 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.lab.errors import StudyError
-from kille.lab.people.robot import Typed
+from kille.lab.people.robot import TypedRobot
 from kille.lab.people.tutor import Keyboard
-from kille.lab.people.typed_lines import Gone, typed
-from kille.lab.people.typed_sayings import claimed
-from kille.lab.people.views import viewed
+from kille.lab.people.typed_lines import Gone, read_line
+from kille.lab.people.typed_sayings import claimed_words
+from kille.lab.people.views import format_view
 from kille.lab.playing import play
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.events import changed
+from kille.lab.scenes.events import change_world
 from kille.lab.scenes.occasions import Occasion
 from kille.lab.study import Named, Phase, Run, Study, Theory
 from kille.lab.tutors.tutor import Says, Task
@@ -69,18 +69,18 @@ def answers(it):
     ],
 )
 def test_what_a_sentence_claims(text, found):
-    assert list(claimed(text, "en")) == found
+    assert list(claimed_words(text, "en")) == found
 
 
 def test_what_a_swedish_sentence_claims():
-    assert claimed("Det är ett rött äpple.", "sv") == (("noun", "äpple"),)
+    assert claimed_words("Det är ett rött äpple.", "sv") == (("noun", "äpple"),)
 
 
 def test_nobody_who_is_gone_types(monkeypatch):
     for stdin in (io.StringIO(), None, closed()):
         monkeypatch.setattr("sys.stdin", stdin)
         with pytest.raises(Gone):
-            typed("> ")
+            read_line("> ")
 
 
 @pytest.mark.parametrize("errors", ["strict", "replace", "surrogateescape"])
@@ -89,7 +89,7 @@ def test_what_is_not_utf_8_is_told(monkeypatch, capsys, errors):
     stdin = io.TextIOWrapper(raw, encoding="utf-8", errors=errors)
     monkeypatch.setattr("sys.stdin", stdin)
     with pytest.raises(Gone):
-        typed("> ")
+        read_line("> ")
     assert "What was typed is not UTF-8: save it so" in capsys.readouterr().out
 
 
@@ -158,7 +158,7 @@ def test_what_has_changed_is_seen_by_both(capsys):
 
 def test_what_is_seen_a_little_off_the_table_is_at_its_edge():
     world = World((Thing("cup", "red", place=(-0.04, 9.04)),))
-    shown = viewed(Occasion("noun", world, 1), world)
+    shown = format_view(Occasion("noun", world, 1), world)
     assert shown == "On the table:\n  #1 red cup, 0 right 9 away"
 
 
@@ -286,7 +286,7 @@ def test_a_tutor_may_speak_another_language():
 
     moves = Keyboard("me", "sv", ask).turns(task)
     next(moves)
-    move = moves.send(Typed("sv").see(task.occasion))
+    move = moves.send(TypedRobot("sv").see(task.occasion))
     assert isinstance(move, Says)
     assert (move.act, move.asks.right) == ("ask_name", "kopp")
     assert "in Swedish" in prompts[0]
@@ -307,9 +307,9 @@ def test_what_a_camera_sees_cannot_be_moved(capsys):
 
 def test_things_are_put_where_they_are_seen():
     world = World((Thing("cup", "red"), Thing("mug", "blue", place=(1, 1))))
-    assert changed(world, "place #1 2 3").place(1) == (2, 3)
+    assert change_world(world, "place #1 2 3").place(1) == (2, 3)
     with pytest.raises(StudyError, match="no #1 in view, but #2"):
-        changed(world, "point 1")
+        change_world(world, "point 1")
 
 
 LINES = st.lists(
@@ -352,10 +352,10 @@ def test_who_plays_the_robot_sees_and_hears(capsys):
     ) in shown
 
 
-def robot(*lines: str) -> Typed:
+def robot(*lines: str) -> TypedRobot:
     """A robot whose player types these lines, in front of a cup and a mug."""
     left: Iterator[str] = iter(lines)
-    it = Typed(ask=lambda prompt: next(left))
+    it = TypedRobot(ask=lambda prompt: next(left))
     it.see(occasion())
     return it
 
@@ -416,7 +416,7 @@ def test_the_player_may_read_what_to_type():
         prompts.append(prompt)
         return next(lines)
 
-    assert Typed(ask=ask).hear("Hello.").text == "Hello."
+    assert TypedRobot(ask=ask).hear("Hello.").text == "Hello."
     assert all("You are the robot" in it for it in prompts)
 
 

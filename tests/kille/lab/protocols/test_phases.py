@@ -24,7 +24,7 @@ def made(*phases, tutors=("Ann", "Bo"), scene=None, seed=1):
 def done(*phases, tutor="Ann", theory="robot", **settings):
     study = made(*phases, **settings)
     run = Run(theory, tutor, "s", 1)
-    return [task for _, task in tasks(study, run, scenes.opened(study, run))]
+    return [task for _, task in tasks(study, run, scenes.open_scene(study, run))]
 
 
 def test_a_round_has_a_task_for_each_thing():
@@ -141,7 +141,7 @@ def test_how_much_comes_is_said_once():
 )
 def test_a_phase_is_as_long_as_it_has_tasks(phase):
     study = made(phase)
-    scene = scenes.opened(study, Run("robot", "Ann", "s", 1))
+    scene = scenes.open_scene(study, Run("robot", "Ann", "s", 1))
     assert phases.length(study.phases[0], scene) == len(done(phase))
 
 

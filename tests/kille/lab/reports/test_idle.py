@@ -9,7 +9,7 @@ from kille.lab.dialogues import Played, Turn
 from kille.lab.measures.scored_dialogues import Dialogue, scored
 from kille.lab.reports.unused_rules import idle
 from kille.lab.study import Run, Theory
-from kille.lab.theories.descriptions import described
+from kille.lab.theories.descriptions import describe
 
 RULE = """
 rule silent(s : State /\\ [shared : [{label} : AskName]])
@@ -31,7 +31,7 @@ def told(folder: Path, *rules: str, label: str = "latest") -> list[str]:
     own = f'import "tutor.ttr"\n{RULE.format(label=label)}'
     (folder / "own.ttr").write_text(own, encoding="utf-8")
     theory = Theory("mute", rules=str(folder / "own.ttr"))
-    return list(idle({"mute": described(theory)}, {"mute": dialogues("mute", *rules)}))
+    return list(idle({"mute": describe(theory)}, {"mute": dialogues("mute", *rules)}))
 
 
 def test_a_rule_that_applied_is_not_told(tmp_path: Path) -> None:
@@ -47,7 +47,7 @@ def test_a_rule_that_never_applied_is_told(tmp_path: Path) -> None:
 
 
 def test_the_games_may_have_rules_that_were_not_needed() -> None:
-    usual = {"plain": described(Theory("plain"))}
+    usual = {"plain": describe(Theory("plain"))}
     assert list(idle(usual, {"plain": dialogues("plain", "hear")})) == []
 
 

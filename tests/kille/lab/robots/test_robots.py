@@ -6,7 +6,7 @@ import pytest
 
 from kille.lab import scenes
 from kille.lab.errors import StudyError
-from kille.lab.people.robot import Typed
+from kille.lab.people.robot import TypedRobot
 from kille.lab.playing.opening import robot_of
 from kille.lab.robots.replies import degrees
 from kille.lab.scenes.occasions import Occasion
@@ -22,7 +22,7 @@ def robot(kind="drawn", theory=None, **set_):
     theory = theory or Theory("robot")
     study = Study("t", {"robot": theory}, {}, {"s": Named("s", kind, set_)}, (), (1,))
     run = Run("robot", "Ann", "s", 1)
-    scene = scenes.opened(study, run)
+    scene = scenes.open_scene(study, run)
     return robot_of(study, run, scene), scene
 
 
@@ -144,7 +144,7 @@ def test_what_cannot_happen_does_not_happen(command, told):
 
 def test_a_person_claims_what_they_type():
     lines = iter(["This is a cup.", "It is to the left of the car.", "Hm.", "What?"])
-    it = Typed(ask=lambda prompt: next(lines))
+    it = TypedRobot(ask=lambda prompt: next(lines))
     it.see(shown(1))
     assert it.hear("What is this?").said("noun") == "cup"
     assert it.hear("Where is this?").said("relation") == "to the left of"

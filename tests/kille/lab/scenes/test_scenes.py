@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from kille.lab import scenes
 from kille.lab.scenes.labelled import open_scenes
-from kille.lab.scenes.occasions import ORDERS, Occasion, ordered
+from kille.lab.scenes.occasions import ORDERS, Occasion, order_occasions
 from kille.lab.settings import Problem
 from kille.lab.study import Named, Phase, Run, Study
 from kille.lab.worlds.worlds import STEP
@@ -18,7 +18,7 @@ from kille.lab.worlds.worlds import STEP
 
 def opened(kind, seed=1, tutor="Ann", **set_):
     study = Study("t", {}, {}, {"s": Named("s", kind, set_)}, (), (seed,))
-    return scenes.opened(study, Run("robot", tutor, "s", seed))
+    return scenes.open_scene(study, Run("robot", tutor, "s", seed))
 
 
 @given(st.integers(1, 50), st.sampled_from(["noun", "adjective", "relation"]))
@@ -135,7 +135,7 @@ def test_an_order_leaves_nothing_out(rounds, order, seed):
         [Occasion("noun", world, 1, group=word, hard=hard) for word, hard in one]
         for one in rounds
     ]
-    found = ordered(given_, order, Random(seed))
+    found = order_occasions(given_, order, Random(seed))
     every = [it for one in given_ for it in one]
     assert sorted(map(id, found)) == sorted(map(id, every))
     match order:

@@ -23,17 +23,17 @@ from kille.dialogue.theory_files import redefine
 from kille.grounding.knowledge import Knowledge
 from kille.lab.errors import TheoryError
 from kille.lab.playing import play
-from kille.lab.robots.simulated import Simulated
+from kille.lab.robots.simulated import SimulatedRobot
 from kille.lab.study import Run, Study, Theory
 from kille.lab.study_files import parsed, read
 from kille.lab.theories import agent_of, game_of, strategy_of
 from kille.lab.theories.classifiers import learners_of
-from kille.lab.theories.descriptions import described, rules_apart
+from kille.lab.theories.descriptions import describe, rules_apart
 from kille.lab.theories.guest_learners import GuestRelations, logits
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.theories.pupils import Heard, Pupil
-from kille.lab.theories.rules import algorithm_of, lacking
-from kille.lab.theories.simulated_words import Prototype
+from kille.lab.theories.rules import algorithm_of, without_rules
+from kille.lab.theories.simulated_words import PrototypeWord
 from kille.lab.worlds.games import learned_words
 from kille.lab.worlds.perception import glanced
 from kille.lab.worlds.word_learning import LearnedWord
@@ -222,7 +222,7 @@ def test_a_grammar_of_ones_own_reads_otherwise(tmp_path: Path) -> None:
 @settings(max_examples=40)
 @given(st.sets(st.sampled_from(RULES), max_size=8))
 def test_what_is_lacking_is_gone_and_nothing_is_new(names: set[str]) -> None:
-    left = lacking(TUTORING, names)
+    left = without_rules(TUTORING, names)
     assert left is not None
     found = {rule.name for rule in rules_of(left)}
     assert not found & names
@@ -230,15 +230,15 @@ def test_what_is_lacking_is_gone_and_nothing_is_new(names: set[str]) -> None:
 
 
 def test_without_names_the_strategy_is_the_same() -> None:
-    assert lacking(TUTORING, ()) == TUTORING
+    assert without_rules(TUTORING, ()) == TUTORING
 
 
 def test_what_needs_a_rule_that_is_lacking_never_applies() -> None:
     a, b, *_ = rules_of(TUTORING)
-    assert lacking(seq(a, b), [a.name]) is None
-    assert lacking(seq(maybe(a), b), [a.name]) == seq(b)
-    assert lacking(first(a, b), [a.name]) == first(b)
-    assert lacking(first(seq(a, b), a), [a.name]) is None
+    assert without_rules(seq(a, b), [a.name]) is None
+    assert without_rules(seq(maybe(a), b), [a.name]) == seq(b)
+    assert without_rules(first(a, b), [a.name]) == first(b)
+    assert without_rules(first(seq(a, b), a), [a.name]) is None
 
 
 # --- learners -------------------------------------------------------------------------
@@ -256,7 +256,7 @@ def taught(word: LearnedWord, numbers: Iterable[int], world: World) -> LearnedWo
 def test_a_prototype_of_one_lesson_is_that_instance(numbers: list[int]) -> None:
     world, number = drawn(1, in_view=8), numbers[0]
     one = taught(LearnedWord(noun("cup")), [number], world)
-    other = taught(Prototype(noun("cup")), [number], world)
+    other = taught(PrototypeWord(noun("cup")), [number], world)
     for x in world.in_view:
         assert other(f"o{x}", world.name) == pytest.approx(one(f"o{x}", world.name))
 
@@ -264,9 +264,9 @@ def test_a_prototype_of_one_lesson_is_that_instance(numbers: list[int]) -> None:
 @given(KEYS, st.randoms())
 def test_a_prototype_knows_no_order(numbers: list[int], chance) -> None:
     world = drawn(1, in_view=8)
-    once = taught(Prototype(noun("cup")), numbers, world)
+    once = taught(PrototypeWord(noun("cup")), numbers, world)
     chance.shuffle(numbers)
-    again = taught(Prototype(noun("cup")), numbers, world)
+    again = taught(PrototypeWord(noun("cup")), numbers, world)
     for x in world.in_view:
         assert again(f"o{x}", world.name) == pytest.approx(once(f"o{x}", world.name))
 
@@ -274,7 +274,7 @@ def test_a_prototype_knows_no_order(numbers: list[int], chance) -> None:
 @given(KEYS)
 def test_a_prototype_forgets_as_if_it_had_never_learned(numbers: list[int]) -> None:
     world = drawn(1, in_view=8)
-    before = taught(Prototype(noun("cup")), numbers, world)
+    before = taught(PrototypeWord(noun("cup")), numbers, world)
     after = taught(before, [1], world).without(f"cup/{before.count + 1}")
     for x in world.in_view:
         assert after(f"o{x}", world.name) == before(f"o{x}", world.name)
@@ -286,7 +286,7 @@ def test_a_prototype_forgets_as_if_it_had_never_learned(numbers: list[int]) -> N
     )
 )
 def test_prototypes_of_places_are_degrees(pairs: list[tuple[int, int]]) -> None:
-    world, word = drawn(1, in_view=8), Prototype(relation("near"))
+    world, word = drawn(1, in_view=8), PrototypeWord(relation("near"))
     for x, y in pairs:
         word = word.taught(f"o{x}", f"o{y}", world.name, "away")
     for x, y in pairs:
@@ -471,7 +471,7 @@ def test_what_was_learned_is_in_the_model_alone() -> None:
     game = game_of(Theory("p", learners={"noun": "prototype"}), WORLD)
     turn = game.play([game.hear("This is a cup.")])[-1]
     [cup] = [it for it in learned_words(turn.model) if it.sign.form == "cup"]
-    assert isinstance(cup, Prototype)
+    assert isinstance(cup, PrototypeWord)
     assert not any(it.lessons for it in learned_words(game.model))
 
 
@@ -525,9 +525,9 @@ def test_the_whole_robot_has_the_rules_of_its_theory(tmp_path: Path) -> None:
 
 def test_theories_are_shown_by_the_same_parts() -> None:
     shown = [
-        described(Theory("one")),
-        described(Theory("two", language="sv", without=("hedge_name",))),
-        described(Theory("three", mode="person")),
+        describe(Theory("one")),
+        describe(Theory("two", language="sv", without=("hedge_name",))),
+        describe(Theory("three", mode="person")),
     ]
     assert len({tuple(it) for it in shown}) == 1
     assert isinstance(shown[0]["state"], TypeNode)
@@ -665,7 +665,7 @@ def test_what_has_meanings_of_its_own_is_played_the_same_each_time(
 
 
 def test_meanings_of_ones_own_are_shown(deictic: Study) -> None:
-    parts = [described(it) for it in list(deictic.theories.values())[:3]]
+    parts = [describe(it) for it in list(deictic.theories.values())[:3]]
     assert list(parts[0]) == list(parts[1])
     assert parts[0]["noun"] is parts[1]["noun"]
     own, other, inline = (dict(it["meanings"]) for it in parts)
@@ -699,14 +699,14 @@ def test_who_interrupts_a_theory_leaves_the_others_as_they_were(
     run, other = (Run(it, "script", "table", 1) for it in ("shown", "inline"))
     before = play(deictic, other)
     with monkeypatch.context() as patched:
-        patched.setattr(Simulated, "hear", _interrupted)
+        patched.setattr(SimulatedRobot, "hear", _interrupted)
         with pytest.raises(KeyboardInterrupt):
             play(deictic, run)
     assert play(deictic, other) == before
     assert play(deictic, run).turns
 
 
-def _interrupted(robot: Simulated, text: str) -> NoReturn:
+def _interrupted(robot: SimulatedRobot, text: str) -> NoReturn:
     raise KeyboardInterrupt
 
 
