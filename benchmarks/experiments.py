@@ -27,7 +27,7 @@ from kille.lab.log import write_tables
 from kille.lab.reports import report
 from kille.lab.running import Crew, alone, crew, run
 from kille.lab.study import Run, Study
-from kille.lab.study_files import parsed
+from kille.lab.study_files import parse
 
 TURNS, THEORIES = 40, 2
 STUDY = """
@@ -64,7 +64,7 @@ class Found(NamedTuple):
 
 def study_of(dialogues: int) -> Study:
     seeds = tuple(range(1, dialogues // THEORIES + 1))
-    return replace(parsed(STUDY, Path("study.toml")), seeds=seeds)
+    return replace(parse(STUDY, Path("study.toml")), seeds=seeds)
 
 
 def idle(study: Study, run: Run) -> Played:

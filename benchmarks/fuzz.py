@@ -341,12 +341,12 @@ def _study(folder: Path) -> Reader:
 def _lexicon(folder: Path) -> Reader:
     from kille.dialogue import lexicon
     from kille.lab.study import Theory
-    from kille.lab.study_files.languages import _of_lexicon
+    from kille.lab.study_files.languages import _lexicon_problems
 
     def read(path: Path) -> object:
         lexicon._lexicon.cache_clear()
         theory = Theory("a", language="en", grammar=path.parent)
-        return list(_of_lexicon(theory, path))
+        return list(_lexicon_problems(theory, path))
 
     seeds = _texts("grammars/lexicon.en.toml")
     return Reader(seeds, _file(folder, "own/lexicon.en.toml", read), ())

@@ -216,7 +216,7 @@ def wait_some(
 def counted(results: Path) -> int:
     """How many dialogues are over."""
     with suppress(StudyError):
-        return log.over(results)
+        return log.count_outcomes(results)
     return 0
 
 
@@ -234,7 +234,7 @@ def kill_often(kills: int, seed: int, outcome: Outcome) -> None:
             try:
                 while not disturb(folder, chance, seconds, outcome):
                     on_terminal(outcome)
-                outcome.broken += len(log.broken(folder / "results"))
+                outcome.broken += len(log.broken_runs(folder / "results"))
                 outcome.dialogues += len(over(folder))
                 outcome.differing += tables(folder) != tables(undisturbed)
             except StudyError as error:

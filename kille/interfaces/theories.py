@@ -18,11 +18,11 @@ from kille.agent.agent import Agent
 from kille.dialogue.sources import FILES, STRATEGIES
 from kille.dialogue.theory_files import SOURCE
 from kille.lab.errors import StudyError
-from kille.lab.settings import unknown
+from kille.lab.settings import suggest_name
 from kille.lab.study import PERSON, Theory
 from kille.lab.study_files import read
 from kille.lab.study_files.consent import check_allowed
-from kille.lab.study_files.theory_trials import troubles
+from kille.lab.study_files.theory_trials import theory_problems
 from kille.lab.theories import agent_of
 from kille.memory import Memory
 from kille.sensors.sensor import Sensor
@@ -45,7 +45,7 @@ def theory_named(
         theory = _of_study(Path(study), name, consent)
     else:
         theory = _of_files(Path(named), Theory(named, language, mode, wording), consent)
-    if wrong := [*troubles(theory, {"whole"})]:
+    if wrong := [*theory_problems(theory, {"whole"})]:
         raise StudyError(f"{it.at or named}: {it.what}" for it in wrong)
     return theory
 
@@ -73,7 +73,7 @@ def _of_study(file: Path, name: str, consent: Consent) -> Theory:
     check_allowed(study)
     if name not in study.theories:
         raise StudyError(
-            [f"{file} has no theory {name}: {unknown(name, study.theories)}"]
+            [f"{file} has no theory {name}: {suggest_name(name, study.theories)}"]
         )
     theory = study.theories[name]
     if theory.mode == PERSON:

@@ -5,17 +5,17 @@ from __future__ import annotations
 from traceback import extract_tb
 
 
-def why(error: BaseException) -> str:
+def describe_exception(error: BaseException) -> str:
     """What was raised, and the first line of what it says.
 
-    >>> why(ValueError("no weights")), why(SystemExit())
+    >>> describe_exception(ValueError("no weights")), describe_exception(SystemExit())
     ('ValueError: no weights', 'SystemExit')
     """
     first = next(iter(str(error).splitlines()), "")
     return f"{type(error).__name__}: {first}".removesuffix(": ")
 
 
-def line_in(path: str, error: BaseException | None) -> int:
+def failing_line(path: str, error: BaseException | None) -> int:
     """The line of a file at which it failed, the last on the way there; or else 0."""
     if error is None:
         return 0

@@ -83,7 +83,7 @@ class Setting:
 
     def _unfit_list(self, value: object) -> str:
         if not isinstance(value, list | tuple):
-            return f"expected a list, each {self._wanted()}, found {shown(value)}"
+            return f"expected a list, each {self._wanted()}, found {show_value(value)}"
         for one in value:
             if not self._fits(one):
                 return self._expected(one)
@@ -92,7 +92,7 @@ class Setting:
         if self.twice:
             return ""
         again = (it for it, count in Counter(value).items() if count > 1)
-        return next((f"{shown(it)} is there twice" for it in again), "")
+        return next((f"{show_value(it)} is there twice" for it in again), "")
 
     def _fits(self, value: object) -> bool:
         types = self.types if isinstance(self.types, tuple) else (self.types,)
@@ -110,8 +110,8 @@ class Setting:
     def _expected(self, value: object) -> str:
         hint = ""
         if isinstance(value, str) and self.among:
-            hint = near(value, self.among, " (did you mean {}?)")
-        return f"expected {self._wanted()}, found {shown(value)}{hint}"
+            hint = nearest_name(value, self.among, " (did you mean {}?)")
+        return f"expected {self._wanted()}, found {show_value(value)}{hint}"
 
     def _wanted(self) -> str:
         types = self.types if isinstance(self.types, tuple) else (self.types,)
@@ -128,37 +128,43 @@ class Setting:
 
     def _bounds(self) -> str:
         if math.isinf(self.most):
-            return "" if math.isinf(self.least) else f" from {_plain(self.least)} on"
-        return f" from {_plain(self.least)} to {_plain(self.most)}"
+            return (
+                ""
+                if math.isinf(self.least)
+                else f" from {_format_plain(self.least)} on"
+            )
+        return f" from {_format_plain(self.least)} to {_format_plain(self.most)}"
 
 
 Settings = Mapping[str, Setting]
 """What may be set, by the names of the settings."""
 
 
-def filled(given: Mapping[str, Any], declared: Settings) -> dict[str, Any]:
+def fill_settings(given: Mapping[str, Any], declared: Settings) -> dict[str, Any]:
     """All settings: those given, and the defaults of the others.
 
-    >>> filled({"errors": 0.1}, {"errors": Setting(float, 0.0), "n": Setting(int, 9)})
+    >>> declared = {"errors": Setting(float, 0.0), "n": Setting(int, 9)}
+    >>> fill_settings({"errors": 0.1}, declared)
     {'errors': 0.1, 'n': 9}
     """
     return {key: given.get(key, one.default) for key, one in declared.items()}
 
 
-def unfit(
+def setting_problems(
     given: Mapping[str, object], declared: Settings, what: str
 ) -> Iterator[Problem]:
     """What is wrong with settings; what is missing has no key.
 
-    >>> [it] = unfit({"erors": 0.1}, {"errors": Setting(float, 0.0)}, "a tutor")
+    >>> declared = {"errors": Setting(float, 0.0)}
+    >>> [it] = setting_problems({"erors": 0.1}, declared, "a tutor")
     >>> it.key, it.what
     (('erors',), 'a tutor has no erors: did you mean errors?')
     """
     meant = set(given)
     for key, value in given.items():
         if key not in declared:
-            meant.add(near(key, declared, "{}"))
-            told = f"{what} has no {key}: {unknown(key, declared)}"
+            meant.add(nearest_name(key, declared, "{}"))
+            told = f"{what} has no {key}: {suggest_name(key, declared)}"
             yield Problem((key,), told)
         elif why := declared[key].unfit(value):
             yield Problem((key,), f"{key} of {what}: {why}")
@@ -168,10 +174,10 @@ def unfit(
             yield Problem((), told)
 
 
-def near(name: str, known: Collection[str], told: str) -> str:
+def nearest_name(name: str, known: Collection[str], told: str) -> str:
     """The known name that is most like this one, told so; nothing if none is.
 
-    >>> near("NUONS", ["nouns", "relations"], "did you mean {}?")
+    >>> nearest_name("NUONS", ["nouns", "relations"], "did you mean {}?")
     'did you mean nouns?'
     """
     small = {one.casefold(): one for one in known}
@@ -179,50 +185,50 @@ def near(name: str, known: Collection[str], told: str) -> str:
     return told.format(small[found[0]]) if found else ""
 
 
-def unknown(name: str, known: Collection[str]) -> str:
+def suggest_name(name: str, known: Collection[str]) -> str:
     """A way out for a name that nothing has: the nearest known one, or all of them."""
-    if found := near(name, known, "did you mean {}?"):
+    if found := nearest_name(name, known, "did you mean {}?"):
         return found
     listed = ", ".join([*known][:_MOST]) + ", …" * (len(known) > _MOST)
     return f"there is {listed}" if known else "there is none"
 
 
-def no_file(path: Path) -> str:
+def why_no_file(path: Path) -> str:
     """Why this is no file; nothing if it is one."""
     if os.path.isfile(path):
         return ""
     if os.path.isdir(path):
         return f"{path} is a folder, not a file"
-    return _none("file", path, [it for it in _beside(path) if it.is_file()])
+    return _no_such_path("file", path, [it for it in _siblings(path) if it.is_file()])
 
 
-def no_folder(path: Path) -> str:
+def why_no_folder(path: Path) -> str:
     """Why this is no folder; nothing if it is one."""
     if os.path.isdir(path):
         return ""
     if os.path.exists(path):
         return f"{path} is a file, not a folder"
-    return _none("folder", path, [it for it in _beside(path) if it.is_dir()])
+    return _no_such_path("folder", path, [it for it in _siblings(path) if it.is_dir()])
 
 
-def _none(kind: str, path: Path, others: Sequence[Path]) -> str:
+def _no_such_path(kind: str, path: Path, others: Sequence[Path]) -> str:
     """That there is no such path, with the nearest of the others that are there."""
     names = [it.name for it in others if it.suffix == path.suffix]
-    hint = f": {unknown(path.name, names)}" if names else ""
+    hint = f": {suggest_name(path.name, names)}" if names else ""
     return f"there is no {kind} {path}{hint}"
 
 
-def _beside(path: Path) -> Sequence[Path]:
+def _siblings(path: Path) -> Sequence[Path]:
     try:
         return sorted(it for it in path.parent.iterdir() if it.name[:1] != ".")
     except (OSError, ValueError):  # no text with a zero in it is a path
         return ()
 
 
-def shown(value: object) -> str:
+def show_value(value: object) -> str:
     """A value as it is told: in short, and as it would be written.
 
-    >>> shown(True), shown("cup"), shown([1, 2])
+    >>> show_value(True), show_value("cup"), show_value([1, 2])
     ('true', '"cup"', 'a list')
     """
     match value:
@@ -237,5 +243,5 @@ def shown(value: object) -> str:
     return str(value)
 
 
-def _plain(number: float) -> str:
+def _format_plain(number: float) -> str:
     return str(int(number)) if float(number).is_integer() else f"{number:g}"

@@ -9,8 +9,8 @@ from kille.interfaces.experiment.people import people_summary
 from kille.interfaces.terminal import FINE, complain, complain_all, console
 from kille.lab.errors import StudyError
 from kille.lab.study import Study
-from kille.lab.study_files import checked
-from kille.lab.study_files.warnings import doubts
+from kille.lab.study_files import read_and_check
+from kille.lab.study_files.warnings import warnings_of
 from ttr import TTRError
 from ttr.safety.consent import Consent
 
@@ -26,7 +26,7 @@ def check_files(files: Sequence[Path], consent: Consent) -> int:
 
 def _check_file(path: Path, consent: Consent) -> int:
     try:
-        study = checked(path, consent)
+        study = read_and_check(path, consent)
     except MISTAKES as error:
         return complain_all(error)
     tell_doubts(study)
@@ -37,7 +37,7 @@ def _check_file(path: Path, consent: Consent) -> int:
 
 def tell_doubts(study: Study) -> None:
     """Report what is no mistake, but probably not intended."""
-    for it in doubts(study):
+    for it in warnings_of(study):
         complain(f"{it} (this can be played)")
 
 

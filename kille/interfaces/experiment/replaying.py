@@ -20,7 +20,7 @@ from kille.interfaces.terminal import (
 )
 from kille.lab import log
 from kille.lab.log import Broken, Outcome, RunError
-from kille.lab.log.sources import changed, sources
+from kille.lab.log.sources import changed_sources, sources
 from kille.lab.running import Difference, Progress, replay
 from kille.lab.study import Run
 
@@ -28,7 +28,9 @@ from kille.lab.study import Run
 def replay_all(folder: Path, names: Sequence[str], request: Request) -> int:
     """Replay dialogues of a folder, all if none is named; returns 1 if any differs."""
     try:
-        befores = [log.named(folder, it) for it in names] or [*log.outcomes(folder)]
+        befores = [log.find_outcome(folder, it) for it in names] or [
+            *log.outcomes(folder)
+        ]
         found = _replay(folder, befores, request)
     except MISTAKES as error:
         return complain_all(error)
@@ -53,7 +55,7 @@ def _replay(
                 f"a person takes part in {it.run} of {folder}, and would type anew: "
                 "name dialogues that are played without people, if there are any"
             )
-    for name in changed(log.about(folder).sources, sources(study)):
+    for name in changed_sources(log.about(folder).sources, sources(study)):
         complain(f"{name} has changed since these dialogues were played")
     workers = 1 if len(befores) == 1 else request.workers
     by = choose_crew(workers, request.scheduler)

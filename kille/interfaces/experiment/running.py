@@ -25,7 +25,7 @@ from kille.lab.errors import StudyError
 from kille.lab.log import write_tables
 from kille.lab.running import Progress, Scheduler, Summary, run
 from kille.lab.study import Study
-from kille.lab.study_files import check, checked, read
+from kille.lab.study_files import check, read, read_and_check
 from kille.lab.study_files.consent import check_allowed, python_in
 from ttr.safety.consent import OWN_FOLDER, Consent
 
@@ -58,7 +58,7 @@ def run_study(path: Path, folder: Path | None, request: Request) -> int:
     """Play a study into a folder, or go on with it; returns the exit code."""
     folder = folder or Path(f"{path.stem}.results")
     try:
-        study = checked(path, request.consent)
+        study = read_and_check(path, request.consent)
         tell_doubts(study)
         return _run(study, folder, request)
     except MISTAKES as error:
@@ -108,7 +108,7 @@ def _run(study: Study, folder: Path, request: Request) -> int:
 
 
 def _report_stop(study: Study, folder: Path, code: int) -> int:
-    over, planned = log.over(folder), log.about(folder).planned
+    over, planned = log.count_outcomes(folder), log.about(folder).planned
     return complain(
         f"stopped with {over:,} of {planned:,} dialogues over; go on with: "
         f"{_resume_command(study, folder)}",
@@ -133,7 +133,7 @@ def _tell(study: Study, folder: Path, page: Path, summary: Summary) -> None:
     out.print(f"report: {page}", markup=False)
     if not summary.broken:
         return
-    broken = log.broken(folder)
+    broken = log.broken_runs(folder)
     complain(f"{len(broken):,} of {summary.planned:,} dialogues broke:")
     for it in broken[:SHOWN]:
         complain(f"{it.run}: {it.reason}")

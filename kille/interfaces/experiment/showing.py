@@ -38,7 +38,7 @@ def show(folder: Path, name: str | None, report: Report) -> int:
         if name is None:
             _show_all(folder)
             return FINE
-        found = log.named(folder, name)
+        found = log.find_outcome(folder, name)
     except MISTAKES as error:
         return complain_all(error)
     report(found)
@@ -58,7 +58,7 @@ def _show_all(folder: Path) -> None:
     heads = "theory", "dialogues", "broken", "turns", "answers", "seconds each"
     note = f"{over:,} of {about.planned:,} dialogues are over"
     print_table(out, Table(about.title, heads, rows, note))
-    broken = log.broken(folder)
+    broken = log.broken_runs(folder)
     for it in broken[:SHOWN]:
         out.print(hang_text(f"{it.run}  ", f"broken: {it.reason}"), markup=False)
     if more := len(broken) - len(broken[:SHOWN]):

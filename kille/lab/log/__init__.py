@@ -9,15 +9,16 @@ from kille.lab.log.about import About
 from kille.lab.log.outcomes import Broken, Finished, Outcome, RunError
 from kille.lab.log.reading import (
     about,
-    broken,
-    named,
+    broken_runs,
+    count_outcomes,
+    find_outcome,
     outcomes,
-    over,
     read,
     study,
 )
 from kille.lab.log.tables import write_tables
 from kille.lab.log.writing import Log
+from ttr.aliases import former_names
 
 __all__ = [
     "About",
@@ -27,11 +28,16 @@ __all__ = [
     "Outcome",
     "RunError",
     "about",
-    "broken",
-    "named",
+    "broken_runs",
+    "find_outcome",
     "outcomes",
-    "over",
+    "count_outcomes",
     "read",
     "study",
     "write_tables",
 ]
+
+__getattr__ = former_names(
+    __name__,
+    {"broken": "broken_runs", "named": "find_outcome", "over": "count_outcomes"},
+)

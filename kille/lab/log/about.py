@@ -14,7 +14,7 @@ from pathlib import Path
 
 from kille.lab.log.outcomes import RunError
 from kille.lab.log.schema import check_ours
-from kille.lab.log.sources import changed, sources
+from kille.lab.log.sources import changed_sources, sources
 from kille.lab.study import Study
 
 
@@ -34,7 +34,7 @@ class About:
     """The digests of the study and of the files that it names."""
 
 
-def facts(study: Study, folder: Path) -> dict[str, str]:
+def about_rows(study: Study, folder: Path) -> dict[str, str]:
     """What a new log keeps of a study, by name."""
     return {
         "title": study.title,
@@ -71,7 +71,7 @@ def about_in(connection: sqlite3.Connection, folder: Path) -> About:
 
 def check_same(before: About, study: Study, folder: Path) -> None:
     """Refuses what would mix dialogues that are not of one study."""
-    differs = changed(before.sources, sources(study))
+    differs = changed_sources(before.sources, sources(study))
     if differs:
         raise RunError(
             f"{folder} has dialogues of another study: {differs[0]} has changed since; "

@@ -50,12 +50,12 @@ def cells(value: tuple[Any, ...]) -> tuple[Cell, ...]:
     return tuple(column.to(it) for column, it in parts)
 
 
-def of_cells(of: type[Row], found: Sequence[Any]) -> Row:
+def read_cells(of: type[Row], found: Sequence[Any]) -> Row:
     """The turn or answer that these are the cells of.
 
     >>> from kille.lab.dialogues import Turn
     >>> turn = Turn(1, "first", "Ann", "instruct", "This is a cup.", "OK.", 4)
-    >>> of_cells(Turn, cells(turn)) == turn
+    >>> read_cells(Turn, cells(turn)) == turn
     True
     """
     parts = zip(columns(of), found, strict=True)
@@ -67,23 +67,23 @@ def _column(name: str, hint: Any) -> Column:
     return Column(name, kind, to, back)
 
 
-def _number(value: float) -> float | None:
+def _format_number(value: float) -> float | None:
     return None if math.isnan(value) else float(value)
 
 
-def _of_number(cell: float | None) -> float:
+def _read_number(cell: float | None) -> float:
     return math.nan if cell is None else cell
 
 
-def _listed(value: Sequence[str]) -> str:
+def _format_list(value: Sequence[str]) -> str:
     return json.dumps(list(value), ensure_ascii=False)
 
 
-def _of_listed(cell: str) -> tuple[str, ...]:
+def _read_list(cell: str) -> tuple[str, ...]:
     return tuple(json.loads(cell))
 
 
-def _mapped(value: Mapping[str, float]) -> str:
+def _format_mapping(value: Mapping[str, float]) -> str:
     found = {word: float(p) for word, p in value.items()}
     return json.dumps(found, ensure_ascii=False)
 
@@ -92,7 +92,7 @@ _KINDS: Mapping[Any, tuple[str, Callable[[Any], Cell], Callable[[Any], Any]]] = 
     str: ("TEXT", str, str),
     int: ("INTEGER", int, int),
     bool: ("INTEGER", int, bool),
-    float: ("REAL", _number, _of_number),
-    tuple: ("TEXT", _listed, _of_listed),
-    Mapping: ("TEXT", _mapped, json.loads),
+    float: ("REAL", _format_number, _read_number),
+    tuple: ("TEXT", _format_list, _read_list),
+    Mapping: ("TEXT", _format_mapping, json.loads),
 }

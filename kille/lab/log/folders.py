@@ -21,13 +21,13 @@ FILE, LOCK = "log.db", ".lock"
 
 
 @contextmanager
-def locked(folder: Path) -> Iterator[None]:
+def lock_folder(folder: Path) -> Iterator[None]:
     """Keeps all other writers out of a folder, which is made."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         file = open(folder / LOCK, "a+", opener=open_private)  # noqa: SIM115
     except OSError as error:
-        raise _unwritten(folder, error) from error
+        raise _why_unwritten(folder, error) from error
     with file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -38,14 +38,14 @@ def locked(folder: Path) -> Iterator[None]:
                 f"{file.read().strip() or 'unknown'}): wait for it, or name another "
                 f"folder with --out"
             ) from None
-        with explained(folder):
+        with explain_errors(folder):
             file.truncate(0)
             file.write(f"{os.getpid()}\n")
             file.flush()
         yield
 
 
-def connected(path: Path, mode: str = "mode=rw") -> sqlite3.Connection:
+def connect(path: Path, mode: str = "mode=rw") -> sqlite3.Connection:
     """A connection to a file. RunError for a journal that kille never writes."""
     if has_strange_journal(path):
         raise RunError(
@@ -69,7 +69,7 @@ def reading_mode(path: Path) -> str:
 
 
 @contextmanager
-def explained(folder: Path) -> Iterator[None]:
+def explain_errors(folder: Path) -> Iterator[None]:
     """What the system says of a folder, as a line for people."""
     try:
         yield
@@ -80,10 +80,10 @@ def explained(folder: Path) -> Iterator[None]:
             raise
         raise RunError(told.format(folder, folder / FILE)) from error
     except OSError as error:
-        raise _unwritten(folder, error) from error
+        raise _why_unwritten(folder, error) from error
 
 
-def _unwritten(folder: Path, error: OSError) -> RunError:
+def _why_unwritten(folder: Path, error: OSError) -> RunError:
     if error.errno == ENOSPC:
         return RunError(_FULL.format(folder))
     why = (error.strerror or str(error)).lower()

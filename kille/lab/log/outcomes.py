@@ -54,34 +54,37 @@ DEADLY = "every worker that played it died: is there memory enough?"
 """Why a dialogue is broken that nobody lived through."""
 
 
-def outcome(study: Study, run: Run, play: Play) -> Outcome:
+def play_to_outcome(study: Study, run: Run, play: Play) -> Outcome:
     """What becomes of a run, whatever the theory or the tutor in it does.
 
     >>> def play(study, run):
     ...     return {}[run.theory]
-    >>> outcome(Study("", {}, {}, {}, (), ()), Run("a", "Ann", "table", 1), play).reason
+    >>> study, run = Study("", {}, {}, {}, (), ()), Run("a", "Ann", "table", 1)
+    >>> play_to_outcome(study, run, play).reason
     "KeyError: 'a' (<doctest ...>, line 2, in play)"
     """
     start = time.perf_counter()
     try:
         played = play(study, run)
     except (Exception, SystemExit) as error:
-        return broken(run, error, time.perf_counter() - start)
+        return broken_run(run, error, time.perf_counter() - start)
     return Finished(run, played, time.perf_counter() - start)
 
 
-def broken(run: Run, error: BaseException, seconds: float) -> Broken:
+def broken_run(run: Run, error: BaseException, seconds: float) -> Broken:
     """A run of which this error is the end, after so many seconds."""
     trace = "".join(traceback.format_exception(error))
-    return Broken(run, _whole(reason_of(_root(error))), _whole(trace), seconds)
+    return Broken(
+        run, _keepable(reason_of(_root_cause(error))), _keepable(trace), seconds
+    )
 
 
-def _whole(text: str) -> str:
+def _keepable(text: str) -> str:
     """A text that can be kept: halves of characters are spelled out."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
-def _root(error: BaseException) -> BaseException:
+def _root_cause(error: BaseException) -> BaseException:
     """What was first to go wrong: what a learner of one's own raised, not who told."""
     while error.__cause__ is not None:
         error = error.__cause__

@@ -14,8 +14,8 @@ from typing import Any, TypeVar
 
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.log.about import About, about_in
-from kille.lab.log.cells import of_cells
-from kille.lab.log.folders import FILE, connected, explained, reading_mode
+from kille.lab.log.cells import read_cells
+from kille.lab.log.folders import FILE, connect, explain_errors, reading_mode
 from kille.lab.log.outcomes import Broken, Finished, Outcome, RunError
 from kille.lab.log.schema import check_ours, check_rows, table
 from kille.lab.study import Run, Study
@@ -38,51 +38,51 @@ def read(folder: Path) -> Iterator[Finished]:
             yield it
 
 
-def broken(folder: Path) -> tuple[Broken, ...]:
+def broken_runs(folder: Path) -> tuple[Broken, ...]:
     """All dialogues that were not, in the order of the study."""
-    with _reading(folder) as connection:
+    with _open_log(folder) as connection:
         rows = connection.execute(f"{_RUNS} WHERE reason <> '' ORDER BY place")
-        return tuple(_broken(row) for row in rows)
+        return tuple(_read_broken(row) for row in rows)
 
 
 def outcomes(folder: Path) -> Iterator[Outcome]:
     """What became of all runs so far, in the order of the study."""
-    with _reading(folder) as connection:
+    with _open_log(folder) as connection:
         rows = connection.execute(f"{_RUNS} ORDER BY place")
         for row in rows:
-            yield _outcome(connection, row)
+            yield _read_outcome(connection, row)
 
 
-def named(folder: Path, name: str) -> Outcome:
+def find_outcome(folder: Path, name: str) -> Outcome:
     """What became of a run, by its name or its number, from 1.
 
     RunError where there is no such run in the log.
     """
-    with _reading(folder) as connection:
+    with _open_log(folder) as connection:
         for row in connection.execute(f"{_RUNS} ORDER BY place"):
             if name in (str(row[0] + 1), str(Run(*row[1:5]))):
-                return _outcome(connection, row)
+                return _read_outcome(connection, row)
         example = connection.execute(f"{_RUNS} ORDER BY place LIMIT 1").fetchone()
     hint = "none is over yet" if example is None else f"one is {Run(*example[1:5])}"
     raise RunError(f"there is no dialogue {name} in {folder}: {hint}")
 
 
-def over(folder: Path) -> int:
+def count_outcomes(folder: Path) -> int:
     """How many runs are over, as they should be or not."""
-    with _reading(folder) as connection:
+    with _open_log(folder) as connection:
         (found,) = connection.execute("SELECT count(*) FROM runs").fetchone()
         return int(found)
 
 
 def about(folder: Path) -> About:
     """What the log in a folder is of; RunError where there is none."""
-    with _reading(folder) as connection:
+    with _open_log(folder) as connection:
         return about_in(connection, folder)
 
 
-def facts(folder: Path) -> tuple[str, ...]:
+def fact_names(folder: Path) -> tuple[str, ...]:
     """The names of what else was counted in any dialogue, in order."""
-    with _reading(folder) as connection:
+    with _open_log(folder) as connection:
         found = connection.execute("SELECT DISTINCT facts FROM runs").fetchall()
     return tuple(sorted({name for (it,) in found for name in json.loads(it)}))
 
@@ -93,10 +93,10 @@ def study(folder: Path, consent: Consent = NO_PYTHON) -> Study:
     A log says itself where its files are. So none of the Python that it names may be
     run, unless there is consent to that.
     """
-    from kille.lab.study_files import parsed
+    from kille.lab.study_files import parse
 
     it = about(folder)
-    return parsed(it.source, it.file, consent)
+    return parse(it.source, it.file, consent)
 
 
 _RUNS = """
@@ -105,38 +105,43 @@ _RUNS = """
 """
 
 
-def _outcome(connection: sqlite3.Connection, row: tuple[Any, ...]) -> Outcome:
+def _read_outcome(connection: sqlite3.Connection, row: tuple[Any, ...]) -> Outcome:
     place, *run, seconds, lessons, facts, reason, _ = row
     if reason:
-        return _broken(row)
+        return _read_broken(row)
     played = Played(
-        _rows(connection, place, Turn),
-        _rows(connection, place, Answer),
+        _read_rows(connection, place, Turn),
+        _read_rows(connection, place, Answer),
         lessons,
         json.loads(facts),
     )
     return Finished(Run(*run), played, seconds)
 
 
-def _broken(row: tuple[Any, ...]) -> Broken:
+def _read_broken(row: tuple[Any, ...]) -> Broken:
     _, *run, seconds, _, _, reason, trace = row
     return Broken(Run(*run), reason, trace, seconds)
 
 
-def _rows(connection: sqlite3.Connection, place: int, of: type[Row]) -> tuple[Row, ...]:
+def _read_rows(
+    connection: sqlite3.Connection, place: int, of: type[Row]
+) -> tuple[Row, ...]:
     told = f"SELECT * FROM {table(of)} WHERE run = ? ORDER BY line"
-    return tuple(of_cells(of, row[2:]) for row in connection.execute(told, (place,)))
+    return tuple(read_cells(of, row[2:]) for row in connection.execute(told, (place,)))
 
 
 @contextmanager
-def _reading(folder: Path) -> Iterator[sqlite3.Connection]:
+def _open_log(folder: Path) -> Iterator[sqlite3.Connection]:
     path = folder / FILE
     if not path.is_file():
         raise RunError(
             f"there is no {FILE} in {folder}: name a folder of results, such as "
             f"kille experiment run makes"
         )
-    with explained(folder), closing(connected(path, reading_mode(path))) as connection:
+    with (
+        explain_errors(folder),
+        closing(connect(path, reading_mode(path))) as connection,
+    ):
         check_ours(connection, folder)
         check_rows(connection, folder)
         try:

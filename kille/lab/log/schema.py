@@ -31,7 +31,7 @@ def marks(values: tuple[object, ...]) -> str:
     return ", ".join("?" * len(values))
 
 
-def _of(of: type) -> str:
+def _create_table(of: type) -> str:
     """The table for turns or answers of runs, in their order."""
     kinds = ", ".join(f'"{it.name}" {it.kind}' for it in columns(of))
     return f"""
@@ -61,8 +61,8 @@ TABLES = (
         UNIQUE (theory, tutor, scene, seed)
     )
     """,
-    _of(Turn),
-    _of(Answer),
+    _create_table(Turn),
+    _create_table(Answer),
     f"PRAGMA user_version = {VERSION}",
     f"PRAGMA application_id = {APPLICATION_ID}",
 )
@@ -93,16 +93,16 @@ def check_ours(connection: sqlite3.Connection, folder: Path) -> None:
                 f"take the kille that wrote it, or name another folder"
             )
     for fault in schema_faults(connection, _parts()):
-        raise _untrusted(folder, fault)
+        raise _untrusted_error(folder, fault)
 
 
 def check_rows(connection: sqlite3.Connection, folder: Path) -> None:
     """RunError where a log, whose tables are ours, has rows that no kille wrote."""
     for fault in row_faults(connection):
-        raise _untrusted(folder, fault)
+        raise _untrusted_error(folder, fault)
 
 
-def _untrusted(folder: Path, fault: str) -> RunError:
+def _untrusted_error(folder: Path, fault: str) -> RunError:
     return RunError(
         f"{folder / FILE} has {fault}: put back a copy, or name another folder"
     )

@@ -36,13 +36,16 @@ def sources(study: Study) -> dict[str, str]:
     paths = (study.folder / os.path.expanduser(name) for name in names)
     found = {it: _digest(it) for it in paths if _is_part(it, study)}
     named = {os.path.relpath(it, study.folder): found[it] for it in found}
-    return {STUDY: _hashed([study.source.encode()]), **named}
+    return {STUDY: _hash([study.source.encode()]), **named}
 
 
-def changed(before: Mapping[str, str], now: Mapping[str, str]) -> tuple[str, ...]:
+def changed_sources(
+    before: Mapping[str, str], now: Mapping[str, str]
+) -> tuple[str, ...]:
     """What is not as it was, the study itself first.
 
-    >>> changed({"the study": "1", "a.py": "2"}, {"the study": "1", "a.py": "3"})
+    >>> before, now = {"the study": "1", "a.py": "2"}, {"the study": "1", "a.py": "3"}
+    >>> changed_sources(before, now)
     ('a.py',)
     """
     names = dict.fromkeys([*before, *now])
@@ -60,12 +63,12 @@ def _paths(study: Study) -> Iterator[str]:
 def _is_part(path: Path, study: Study) -> bool:
     """Whether there is such a file or folder, and not one that all of this is in."""
     try:
-        return path.exists() and path.resolve() not in _around(study)
+        return path.exists() and path.resolve() not in _enclosing_folders(study)
     except (OSError, ValueError):  # a sentence is no path
         return False
 
 
-def _around(study: Study) -> tuple[Path, ...]:
+def _enclosing_folders(study: Study) -> tuple[Path, ...]:
     folder = study.folder.resolve()
     return folder, *folder.parents
 
@@ -88,7 +91,7 @@ def _texts(value: Any) -> Iterator[str]:
 
 def _digest(path: Path) -> str:
     if path.is_file():
-        return _hashed(_pieces(path))
+        return _hash(_pieces(path))
     files = sorted(it for it in path.rglob("*") if it.is_file() and _is_source(it))
     sizes = [it.stat().st_size for it in files]
     names = [str(it.relative_to(path)) for it in files]
@@ -96,8 +99,8 @@ def _digest(path: Path) -> str:
         f"{name} {size}\n".encode() for name, size in zip(names, sizes, strict=True)
     ]
     if sum(sizes) <= LARGE:
-        return _hashed(chain(parts, *map(_pieces, files)))
-    return _hashed(parts)
+        return _hash(chain(parts, *map(_pieces, files)))
+    return _hash(parts)
 
 
 def _pieces(path: Path) -> Iterator[bytes]:
@@ -116,7 +119,7 @@ def _is_source(path: Path) -> bool:
     return "__pycache__" not in path.parts
 
 
-def _hashed(parts: Iterable[bytes]) -> str:
+def _hash(parts: Iterable[bytes]) -> str:
     found = hashlib.sha256()
     for part in parts:
         found.update(part)

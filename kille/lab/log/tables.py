@@ -17,7 +17,7 @@ from typing import TypeAlias
 from kille.lab.dialogues import Answer, Turn
 from kille.lab.log.cells import Cell, cells, columns
 from kille.lab.log.outcomes import Broken, Finished, Outcome, RunError
-from kille.lab.log.reading import facts, outcomes
+from kille.lab.log.reading import fact_names, outcomes
 from ttr.escapes import csv_line
 from ttr.safety.files import why_unwritten
 
@@ -33,15 +33,19 @@ def write_tables(folder: Path) -> tuple[Path, ...]:
 
     RunError where there is no log, or they cannot be written.
     """
-    counted = facts(folder)
+    counted = fact_names(folder)
     with ExitStack() as files:
         paths, sinks = [], []
         for name in TABLES:
             heads, rows = _MADE[name]
-            kinds = {**_RUN, **heads, **(_counted(counted) if name == "runs" else {})}
+            kinds = {
+                **_RUN,
+                **heads,
+                **(_fact_columns(counted) if name == "runs" else {}),
+            }
             for ending, writing in _writers().items():
                 path = folder / f"{name}.{ending}"
-                write = files.enter_context(_drafted(path, kinds, writing))
+                write = files.enter_context(_write_draft(path, kinds, writing))
                 paths.append(path)
                 sinks.append((rows, write))
         for it in outcomes(folder):
@@ -51,7 +55,7 @@ def write_tables(folder: Path) -> tuple[Path, ...]:
     return tuple(paths)
 
 
-def _counted(names: Iterable[str]) -> dict[str, str]:
+def _fact_columns(names: Iterable[str]) -> dict[str, str]:
     return dict.fromkeys((f"fact_{name}" for name in names), REAL)
 
 
@@ -75,10 +79,10 @@ def _turn_rows(it: Outcome, _: tuple[str, ...]) -> Iterable[Row]:
 
 def _answer_rows(it: Outcome, _: tuple[str, ...]) -> Iterable[Row]:
     answers = it.played.answers if isinstance(it, Finished) else ()
-    return ((*cells(one), *_derived(one)) for one in answers)
+    return ((*cells(one), *_derived_cells(one)) for one in answers)
 
 
-def _derived(it: Answer) -> Row:
+def _derived_cells(it: Answer) -> Row:
     return int(it.is_right), it.margin if it.degrees else None
 
 
@@ -156,7 +160,7 @@ def _parquet(kinds: Mapping[str, str], path: Path) -> Iterator[_Write]:
 
 
 @contextmanager
-def _drafted(
+def _write_draft(
     path: Path, kinds: Mapping[str, str], writing: _Writing
 ) -> Iterator[_Write]:
     """Writes a file beside it that takes its place when it is whole."""

@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Any, Self
 
 from kille.lab.dialogues import Answer, Turn
-from kille.lab.log.about import about_in, check_same, facts
+from kille.lab.log.about import about_in, about_rows, check_same
 from kille.lab.log.cells import cells
-from kille.lab.log.folders import FILE, connected, explained, locked
-from kille.lab.log.outcomes import Broken, Finished, Outcome, broken
+from kille.lab.log.folders import FILE, connect, explain_errors, lock_folder
+from kille.lab.log.outcomes import Broken, Finished, Outcome, broken_run
 from kille.lab.log.schema import check_rows, is_empty, make, marks, table
 from kille.lab.study import Run, Study
 from kille.safety.private_files import create_private_file
@@ -38,7 +38,10 @@ class Log:
         RunError where another study's log is there, where another writes to it, or
         where it cannot be written.
         """
-        with locked(folder), closing(_prepared(study, folder)) as connection:
+        with (
+            lock_folder(folder),
+            closing(_open_connection(study, folder)) as connection,
+        ):
             yield cls(study, folder, connection)
             # One file is easier to keep; what still reads it may leave it as it is.
             with suppress(sqlite3.OperationalError):
@@ -53,7 +56,7 @@ class Log:
     def forget_broken(self) -> int:
         """Drops what is kept of broken runs, so that they are played again."""
         told = "DELETE FROM runs WHERE reason <> ''"
-        with explained(self.folder), self._connection:
+        with explain_errors(self.folder), self._connection:
             return self._connection.execute(told).rowcount
 
     def write(self, outcome: Outcome) -> Outcome:
@@ -65,13 +68,13 @@ class Log:
         try:
             self._write(outcome)
         except (TypeError, ValueError, OverflowError) as error:
-            outcome = broken(outcome.run, error, outcome.seconds)
+            outcome = broken_run(outcome.run, error, outcome.seconds)
             self._write(outcome)
         return outcome
 
     def _write(self, outcome: Outcome) -> None:
         place = self._places[outcome.run]
-        with explained(self.folder), self._connection:
+        with explain_errors(self.folder), self._connection:
             match outcome:
                 case Finished(run, played, seconds):
                     facts = json.dumps(dict(played.facts), ensure_ascii=False)
@@ -92,11 +95,11 @@ class Log:
             self._connection.executemany(told, found)
 
 
-def _prepared(study: Study, folder: Path) -> sqlite3.Connection:
+def _open_connection(study: Study, folder: Path) -> sqlite3.Connection:
     """A connection to a log that is this study's, made where there is none."""
-    with explained(folder):
+    with explain_errors(folder):
         create_private_file(folder / FILE)
-        connection = connected(folder / FILE)
+        connection = connect(folder / FILE)
         try:
             _prepare(connection, study, folder)
         except BaseException:
@@ -108,7 +111,7 @@ def _prepared(study: Study, folder: Path) -> sqlite3.Connection:
 def _prepare(connection: sqlite3.Connection, study: Study, folder: Path) -> None:
     # First of all: another program's database stays as it is.
     if is_empty(connection):
-        _begin(connection, study, folder)
+        _create_log(connection, study, folder)
     else:
         check_same(about_in(connection, folder), study, folder)
         check_rows(connection, folder)
@@ -118,10 +121,10 @@ def _prepare(connection: sqlite3.Connection, study: Study, folder: Path) -> None
     connection.execute("PRAGMA foreign_keys = ON")
 
 
-def _begin(connection: sqlite3.Connection, study: Study, folder: Path) -> None:
+def _create_log(connection: sqlite3.Connection, study: Study, folder: Path) -> None:
     """Makes the tables of a new log, and says what it is of."""
     with connection:
         connection.execute("BEGIN IMMEDIATE")
         make(connection)
-        rows = facts(study, folder).items()
+        rows = about_rows(study, folder).items()
         connection.executemany("INSERT INTO about VALUES (?, ?)", rows)

@@ -14,7 +14,7 @@ from kille.lab.robots import Robot
 from kille.lab.robots.simulated import SimulatedRobot
 from kille.lab.robots.whole import WholeRobot
 from kille.lab.scenes import WHOLE, Scene
-from kille.lab.settings import filled
+from kille.lab.settings import fill_settings
 from kille.lab.study import PERSON, Run, Study, Theory
 from kille.lab.theories import agent_of, game_of, language_of
 from kille.lab.theories.meanings import meanings_of
@@ -51,7 +51,7 @@ def robot_of(study: Study, run: Run, scene: Scene) -> Robot:
 def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
     """The tutor of this name, as he is in a run: he speaks the robot's language."""
     named, theory = study.tutors[name], study.theories[run.theory]
-    set_ = filled(named.settings, SETTINGS[named.kind])
+    set_ = fill_settings(named.settings, SETTINGS[named.kind])
     match named.kind:
         case "scripted":
             return read_script(name, study.folder / os.path.expanduser(set_["file"]))

@@ -19,7 +19,7 @@ from random import Random
 from kille.lab import scenes
 from kille.lab.scenes import Scene
 from kille.lab.scenes.occasions import KINDS, ORDERS, Occasion, order_occasions
-from kille.lab.settings import Problem, Setting, Settings, filled, unknown
+from kille.lab.settings import Problem, Setting, Settings, fill_settings, suggest_name
 from kille.lab.study import Named, Phase, Run, Study
 from kille.lab.tutors.tutor import Task
 
@@ -110,7 +110,7 @@ def _of_change(phase: Phase, study: Study) -> Iterator[str]:
         return
     to = phase.settings.get("to", "")
     if to and to not in study.tutors:
-        yield f"there is no tutor {to}: {unknown(to, study.tutors)}"
+        yield f"there is no tutor {to}: {suggest_name(to, study.tutors)}"
     if not to and len(study.tutors) < 2:
         yield "there is no other tutor: write one more, or to = NAME"
 
@@ -137,7 +137,7 @@ def _more_to_see(phase: Phase, scene: Named) -> str:
 
 def _count(scene: Named, of: str) -> int:
     """How many things there are of `each` kind together, or of the `new` ones."""
-    set_ = filled(scene.settings, scenes.SETTINGS[scene.kind])
+    set_ = fill_settings(scene.settings, scenes.SETTINGS[scene.kind])
     return len(set_["kinds"]) * int(set_[of])
 
 
@@ -150,7 +150,7 @@ def successor(study: Study, phase: Phase, now: str) -> str:
 
 def length(phase: Phase, scene: Scene) -> int:
     """How many tasks there are in a phase, in front of a scene."""
-    set_ = filled(phase.settings, SETTINGS[phase.do])
+    set_ = fill_settings(phase.settings, SETTINGS[phase.do])
     if phase.do == "forget":
         return len(set_["words"])
     if phase.do in (*RESTING, *CHANGING):
@@ -169,7 +169,7 @@ def tasks(study: Study, run: Run, scene: Scene) -> Iterator[tuple[Phase, Task]]:
     """
     number = count(1)
     for phase in study.phases:
-        set_ = filled(phase.settings, SETTINGS[phase.do])
+        set_ = fill_settings(phase.settings, SETTINGS[phase.do])
         for of, settings in _occasions(phase, set_, run, scene):
             now = next(number)
             at = None if of is None else of.at(now * LOOKS)

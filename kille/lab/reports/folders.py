@@ -91,7 +91,7 @@ def _subject(folder: Path, command: str, study: Study) -> Subject:
         lead=study.about,
         numbers=_numbers(study, len(dialogues), log.about(folder).planned),
         source=study.source,
-        broken=[(str(it.run), it.reason) for it in log.broken(folder)],
+        broken=[(str(it.run), it.reason) for it in log.broken_runs(folder)],
         warnings=[*_cut_short(theories, study.turns), *idle(shown, theories)],
         files=sorted(
             it.name for it in folder.iterdir() if it.suffix in (".csv", ".parquet")

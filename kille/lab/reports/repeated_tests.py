@@ -12,7 +12,7 @@ from itertools import chain
 from kille.lab.measures.measures import ACCURACY, REFERENCES, Measure
 from kille.lab.measures.scored_dialogues import Dialogue, Scored, parted
 from kille.lab.protocols.phases import SETTINGS
-from kille.lab.settings import filled
+from kille.lab.settings import fill_settings
 from kille.lab.study import Phase
 
 Tests = Sequence[Sequence[str]]
@@ -36,7 +36,7 @@ def tests_of(phases: Iterable[Phase]) -> tuple[tuple[str, ...], ...]:
     """
     found: dict[object, list[str]] = {}
     for phase in phases:
-        set_ = filled(phase.settings, SETTINGS[phase.do])
+        set_ = fill_settings(phase.settings, SETTINGS[phase.do])
         told = sorted((key, str(it)) for key, it in set_.items() if key not in _ANY)
         found.setdefault((phase.do, *told), []).append(phase.name)
     return tuple(map(tuple, found.values()))

@@ -35,7 +35,7 @@ from kille.lab.log.outcomes import (
     Play,
     PlayAll,
     RunError,
-    outcome,
+    play_to_outcome,
 )
 from kille.lab.running.schedulers import Scheduler
 from kille.lab.running.threads import one_thread
@@ -55,14 +55,14 @@ CLOSING = 5.0
 
 
 @contextmanager
-def elsewhere(scheduler: Scheduler, study: Study, play: Play) -> Iterator[PlayAll]:
+def cluster_crew(scheduler: Scheduler, study: Study, play: Play) -> Iterator[PlayAll]:
     """The workers of a cluster that is there already.
 
     RunError where nobody is at this address, the certificates do not fit, or the
     workers have no such kille.
     """
     place = scheduler.address
-    with quietly(), _connected(scheduler, CONNECTING) as client:
+    with silence_dask(), _connect(scheduler, CONNECTING) as client:
         _check_workers(client, place)
         yield _Cluster(client, place, study, play).play_all
 
@@ -209,12 +209,12 @@ _ONE_AT_A_TIME = threading.Lock()
 def play_batch(payload: bytes, runs: Sequence[Run]) -> list[Outcome]:
     """Plays these runs in a worker, one after the other, whatever threads it has."""
     with _ONE_AT_A_TIME, one_thread():
-        study, play = _loaded(payload)
-        return [outcome(study, run, play) for run in runs]
+        study, play = _load_study(payload)
+        return [play_to_outcome(study, run, play) for run in runs]
 
 
 @lru_cache(1)
-def _loaded(payload: bytes) -> tuple[Study, Play]:
+def _load_study(payload: bytes) -> tuple[Study, Play]:
     """The study and who plays it, taken out once in each process."""
     found: tuple[Study, Play] = cloudpickle.loads(payload)
     return found
@@ -248,7 +248,7 @@ class _Connecting(Client):  # type: ignore[misc]
 
 
 @contextmanager
-def _connected(scheduler: Scheduler, seconds: float) -> Iterator[Client]:
+def _connect(scheduler: Scheduler, seconds: float) -> Iterator[Client]:
     security = _security(scheduler)
     try:
         client = _Connecting(
@@ -258,7 +258,7 @@ def _connected(scheduler: Scheduler, seconds: float) -> Iterator[Client]:
             security=security,
         )
     except (OSError, ValueError, RuntimeError) as error:
-        raise RunError(_unreached(scheduler, error)) from error
+        raise RunError(_why_unreached(scheduler, error)) from error
     try:
         yield client
     finally:
@@ -284,7 +284,7 @@ def _security(scheduler: Scheduler) -> Security:
     return found
 
 
-def _unreached(scheduler: Scheduler, error: BaseException) -> str:
+def _why_unreached(scheduler: Scheduler, error: BaseException) -> str:
     """Why nobody is reached at an address."""
     cause: BaseException | None = error
     while cause and not isinstance(cause, SSLError):
@@ -332,7 +332,7 @@ _LOGGERS = (
 
 
 @contextmanager
-def quietly() -> Iterator[None]:
+def silence_dask() -> Iterator[None]:
     """What Dask logs is for those who mend it: one line of an error says enough."""
     loggers = [logging.getLogger(name) for name in _LOGGERS]
     before = [it.level for it in loggers]

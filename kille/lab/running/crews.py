@@ -13,7 +13,7 @@ from functools import partial
 from importlib.util import find_spec
 from typing import TypeAlias
 
-from kille.lab.log.outcomes import Outcome, Play, PlayAll, RunError, outcome
+from kille.lab.log.outcomes import Outcome, Play, PlayAll, RunError, play_to_outcome
 from kille.lab.running.schedulers import Scheduler
 from kille.lab.running.threads import one_thread
 from kille.lab.study import Run, Study
@@ -25,7 +25,7 @@ Crew: TypeAlias = Callable[[Study, Play], AbstractContextManager[PlayAll]]
 
 
 @contextmanager
-def playing(
+def play_runs(
     study: Study,
     runs: Sequence[Run],
     play: Play | None = None,
@@ -33,17 +33,17 @@ def playing(
 ) -> Iterator[Iterator[Outcome]]:
     """What becomes of these runs, as they end; who plays them is let go after it.
 
-    They are played `as_studied` by this process, if nothing else is said.
+    They are played `default_play` by this process, if nothing else is said.
     """
     if not runs:
         yield iter(())
         return
-    crew = (by or alone)(study, play or as_studied())
+    crew = (by or alone)(study, play or default_play())
     with crew as play_all, closing(play_all(runs)) as outcomes:
         yield outcomes
 
 
-def as_studied() -> Play:
+def default_play() -> Play:
     """What plays a dialogue as its theory, tutor and scene have it."""
     from kille.lab.playing import play
 
@@ -60,15 +60,15 @@ def crew(workers: int | None = None, scheduler: Scheduler | None = None) -> Crew
         scheduler.check()
         if not find_spec("distributed"):
             raise RunError(f"{MISSING}, or play on this machine without --scheduler")
-        from kille.lab.running.clusters import elsewhere
+        from kille.lab.running.clusters import cluster_crew
 
-        return partial(elsewhere, scheduler)
+        return partial(cluster_crew, scheduler)
     workers = cores() if workers is None else workers
     if workers == 1:
         return alone
-    from kille.lab.running.local import here
+    from kille.lab.running.local import local_crew
 
-    return partial(here, workers)
+    return partial(local_crew, workers)
 
 
 def cores() -> int:
@@ -83,6 +83,6 @@ def alone(study: Study, play: Play) -> Iterator[PlayAll]:
     def play_all(runs: Sequence[Run]) -> Generator[Outcome, None, None]:
         with one_thread():
             for it in runs:
-                yield outcome(study, it, play)
+                yield play_to_outcome(study, it, play)
 
     yield play_all

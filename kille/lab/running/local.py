@@ -38,7 +38,7 @@ _NONE_BEGIN = "no workers can be begun on this machine: try --workers 1"
 
 
 @contextmanager
-def here(workers: int, study: Study, play: Play) -> Iterator[PlayAll]:
+def local_crew(workers: int, study: Study, play: Play) -> Iterator[PlayAll]:
     """So many processes of this machine, as `Crew` has it."""
     # What a script defines itself can only be sent by value.
     by_value = wrap_non_picklable_objects(play, keep_wrapper=False)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from kille.lab.dialogues import Played
 from kille.lab.log.outcomes import Broken, Finished, Outcome, Play
-from kille.lab.running.crews import Crew, playing
+from kille.lab.running.crews import Crew, play_runs
 from kille.lab.study import Study
 
 
@@ -29,7 +29,7 @@ def replay(
 ) -> Iterator[tuple[Outcome, Difference | None]]:
     """Plays these dialogues of a study again, each with the first that differs."""
     known = {it.run: it for it in befores}
-    with playing(study, tuple(known), play, by) as outcomes:
+    with play_runs(study, tuple(known), play, by) as outcomes:
         for now in outcomes:
             before = known[now.run]
             yield before, difference(before, now)
@@ -45,10 +45,10 @@ def difference(before: Outcome, now: Outcome) -> Difference | None:
             return _difference(before.played, now.played)
         case Broken(), Broken() if before.reason == now.reason:
             return None
-    return Difference("at the end", _told(before), _told(now))
+    return Difference("at the end", _format_outcome(before), _format_outcome(now))
 
 
-def _told(it: Outcome) -> str:
+def _format_outcome(it: Outcome) -> str:
     return f"broken: {it.reason}" if isinstance(it, Broken) else "played to its end"
 
 
@@ -56,7 +56,7 @@ def _difference(before: Played, now: Played) -> Difference | None:
     return (
         _first("turn", before.turns, now.turns)
         or _first("answer", before.answers, now.answers)
-        or _first_part("at the end", _counted(before), _counted(now))
+        or _first_part("at the end", _counts(before), _counts(now))
     )
 
 
@@ -76,22 +76,22 @@ def _first_part(
 ) -> Difference | None:
     for name in dict.fromkeys((*before, *now)):
         one, other = before.get(name), now.get(name)
-        if not _same(one, other):
+        if not _is_same(one, other):
             told = name.replace("_", " ")
             return Difference(f"{where}, {told}", str(one), str(other))
     return None
 
 
-def _same(one: Any, other: Any) -> bool:
+def _is_same(one: Any, other: Any) -> bool:
     """Equal; and what is no number is as good as another such."""
     if isinstance(one, float) and isinstance(other, float):
         return one == other or (math.isnan(one) and math.isnan(other))
     if isinstance(one, Mapping) and isinstance(other, Mapping):
-        return [*one] == [*other] and all(_same(one[key], other[key]) for key in one)
+        return [*one] == [*other] and all(_is_same(one[key], other[key]) for key in one)
     return bool(one == other)
 
 
-def _counted(it: Played) -> dict[str, float]:
+def _counts(it: Played) -> dict[str, float]:
     return {"lessons": it.lessons, **it.facts}
 
 

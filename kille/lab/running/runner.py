@@ -12,7 +12,7 @@ from pathlib import Path
 
 from kille.lab.log import Log
 from kille.lab.log.outcomes import Broken, Play
-from kille.lab.running.crews import Crew, playing
+from kille.lab.running.crews import Crew, play_runs
 from kille.lab.study import Study
 
 
@@ -54,7 +54,7 @@ def run(
         left = [it for it in planned if it not in before]
         over, broken = len(before), sum(map(bool, before.values()))
         told(Progress(over, len(planned), broken))
-        with playing(study, left, play, by) as outcomes:
+        with play_runs(study, left, play, by) as outcomes:
             for it in outcomes:
                 over += 1
                 broken += isinstance(log.write(it), Broken)

@@ -21,7 +21,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from multiprocessing.connection import Connection
 
-from kille.lab.log.outcomes import Outcome, Play, RunError, broken, outcome
+from kille.lab.log.outcomes import Outcome, Play, RunError, broken_run, play_to_outcome
 from kille.lab.running.threads import one_thread
 from kille.lab.study import Run, Study
 
@@ -81,7 +81,7 @@ def serve(channel: Connection) -> None:
         with one_thread():
             while True:
                 run = channel.recv()
-                channel.send_bytes(_played(study, run, play))
+                channel.send_bytes(_play_pickled(study, run, play))
     except EOFError:
         return
     except RunError as error:
@@ -97,13 +97,13 @@ def _load_study(payload: bytes) -> tuple[Study, Play]:
     return study, play
 
 
-def _played(study: Study, run: Run, play: Play) -> bytes:
+def _play_pickled(study: Study, run: Run, play: Play) -> bytes:
     """What became of a run, pickled; one whose results cannot be sent is broken."""
-    found: Outcome = outcome(study, run, play)
+    found: Outcome = play_to_outcome(study, run, play)
     try:
         return pickle.dumps(found)
     except Exception as error:
-        return pickle.dumps(broken(run, error, found.seconds))
+        return pickle.dumps(broken_run(run, error, found.seconds))
 
 
 def load() -> None:

@@ -15,7 +15,7 @@ from kille.lab.scenes.labelled import Scenes, open_scenes
 from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE
 from kille.lab.scenes.theatre import Capture, Picture, Theatre
-from kille.lab.settings import unknown
+from kille.lab.settings import suggest_name
 from kille.lab.worlds.worlds import Thing, World
 from kille.sensors.captures import Shot
 
@@ -81,7 +81,7 @@ def open_pictures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Capt
     kept: list[Shown] = []
     for word in set_["kinds"] or gallery.categories:
         if word not in gallery.categories:
-            why = unknown(word, gallery.categories)
+            why = suggest_name(word, gallery.categories)
             raise StudyError([f"{folder} has no pictures of {word}: {why}"])
         paths = gallery.categories[word]
         drawn = chance.sample(paths, len(paths))

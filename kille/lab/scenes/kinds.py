@@ -15,7 +15,14 @@ from kille.lab.errors import StudyError
 from kille.lab.results import ExperimentError
 from kille.lab.scenes.occasions import KINDS as WORDS
 from kille.lab.scenes.occasions import Scene
-from kille.lab.settings import Problem, Setting, Settings, filled, no_folder, unknown
+from kille.lab.settings import (
+    Problem,
+    Setting,
+    Settings,
+    fill_settings,
+    suggest_name,
+    why_no_folder,
+)
 from kille.lab.study import Named, Run, Study
 from kille.lab.worlds.worlds import COLOURS, FRONTS, KINDS
 from kille.sensors.sensor import SensorError
@@ -107,7 +114,7 @@ SETTINGS: Mapping[str, Settings] = {
 def open_scene(study: Study, run: Run) -> Scene:
     """The scene of a run: drawn by its seed, whoever plays."""
     named = study.scenes[run.scene]
-    set_ = filled(named.settings, SETTINGS[named.kind])
+    set_ = fill_settings(named.settings, SETTINGS[named.kind])
     chance = Random(f"scene {run.scene} {run.seed}")
     make = _opener(named.kind)
     if "folder" in set_:
@@ -163,7 +170,7 @@ def _setting_problems(named: Named) -> Iterator[Problem]:
     """What is wrong with what is set of a scene."""
     if named.kind == "rendered":
         yield from _rendering_problems(named)
-    set_ = filled(named.settings, SETTINGS[named.kind])
+    set_ = fill_settings(named.settings, SETTINGS[named.kind])
     if "target" in set_ and set_["target"] == set_["landmark"]:
         told = f"both target and landmark are the {set_['target']}: name two kinds"
         key = "target" if "target" in named.settings else "landmark"
@@ -178,7 +185,7 @@ def _folder_problems(named: Named, study: Study) -> Iterator[Problem]:
     folder = named.settings.get("folder")
     if folder is None:
         return
-    if told := no_folder(study.folder / os.path.expanduser(folder)):
+    if told := why_no_folder(study.folder / os.path.expanduser(folder)):
         yield Problem(("folder",), told)
 
 
@@ -196,7 +203,7 @@ def _empty_phases(scene: Scene, named: Named, study: Study) -> Iterator[Problem]
 
 def _how_to_keep(named: Named) -> str:
     """What has something kept for later."""
-    set_ = filled(named.settings, SETTINGS[named.kind])
+    set_ = fill_settings(named.settings, SETTINGS[named.kind])
     if named.kind == "captures":
         return "name the scenes that are, new = […]"
     if named.kind in ("pictures", "statements") and set_["new"]:
@@ -209,12 +216,12 @@ def _rendering_problems(named: Named) -> Iterator[Problem]:
     from kille.sensors.synthetic import open_synthetic
     from kille.sensors.synthetic.catalogue import NAMES
 
-    set_ = filled(named.settings, SETTINGS["rendered"])
+    set_ = fill_settings(named.settings, SETTINGS["rendered"])
     things = [("kinds", name) for name in set_["kinds"]]
     things += [(key, set_[key]) for key in ("target", "landmark")]
     for key, name in things:
         if name not in NAMES:
-            told = f"there is no {name} to be rendered: {unknown(name, NAMES)}"
+            told = f"there is no {name} to be rendered: {suggest_name(name, NAMES)}"
             yield Problem((key,), told)
     try:
         open_synthetic(f"synthetic:empty?faults={quote(set_['faults'])}").close()

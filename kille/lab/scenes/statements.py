@@ -19,7 +19,7 @@ from kille.lab.errors import StudyError
 from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE, occasion_alone, round_place
 from kille.lab.scenes.published_judgements import read
-from kille.lab.settings import unknown
+from kille.lab.settings import suggest_name
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
 from kille.scene import Configuration
 
@@ -62,7 +62,7 @@ def open_statements(
     wanted = set_["words"] or tuple(said)
     for word in wanted:
         if word not in said:
-            raise StudyError([f"{folder} has no {word}: {unknown(word, said)}"])
+            raise StudyError([f"{folder} has no {word}: {suggest_name(word, said)}"])
     taught: list[tuple[str, Place]] = []
     kept: list[tuple[str, Place]] = []
     for word in wanted:

@@ -14,48 +14,48 @@ from kille.lab.errors import StudyError
 from kille.lab.protocols import phases
 from kille.lab.settings import Key, Problem
 from kille.lab.study import Run, Study, Theory
-from kille.lab.study_files.consent import unallowed
-from kille.lab.study_files.file import data_of, study_of, text_of
-from kille.lab.study_files.phases import unreached
-from kille.lab.study_files.problems import told
-from kille.lab.study_files.shape import STUDY, faults
-from kille.lab.study_files.theory_trials import troubles
-from kille.lab.study_files.words import misheard, names_in, unsaid
+from kille.lab.study_files.consent import refused_names
+from kille.lab.study_files.file import parse_data, read_source, study_of
+from kille.lab.study_files.phases import unreached_phases
+from kille.lab.study_files.problems import format_problems
+from kille.lab.study_files.shape import STUDY, shape_problems
+from kille.lab.study_files.theory_trials import theory_problems
+from kille.lab.study_files.words import misheard_words, names_in_scenes, unused_words
 from ttr.safety.consent import OWN_FOLDER, Consent
 
 
-def checked(path: Path, consent: Consent = OWN_FOLDER) -> Study:
+def read_and_check(path: Path, consent: Consent = OWN_FOLDER) -> Study:
     """The study in a file, ready to be played; `StudyError` with a line for each
     mistake, in how it is written and in what it names.
 
     Of a study that names what there is no consent to, nothing is tried.
     """
-    text = text_of(path)
-    data = data_of(text, path)
-    wrong = [*faults(data)]
-    left = sound(data, [it.key for it in wrong]) if wrong else data
+    text = read_source(path)
+    data = parse_data(text, path)
+    wrong = [*shape_problems(data)]
+    left = valid_part(data, [it.key for it in wrong]) if wrong else data
     study = study_of(left, text, path, consent)
-    if lines := told([*wrong, *_troubles(study)], text, path):
+    if lines := format_problems([*wrong, *_study_problems(study)], text, path):
         raise StudyError(lines)
     return study
 
 
 def check(study: Study) -> tuple[str, ...]:
     """A line for everything that is wrong with a study, in the order of its file."""
-    return told(_troubles(study), study.source, study.file)
+    return format_problems(_study_problems(study), study.source, study.file)
 
 
-def _troubles(study: Study) -> Iterator[Problem]:
+def _study_problems(study: Study) -> Iterator[Problem]:
     """What a study must not use; or else what is wrong with its parts."""
-    refused = [*unallowed(study)]
-    yield from refused or _tried(study)
+    refused = [*refused_names(study)]
+    yield from refused or _part_problems(study)
 
 
-def _tried(study: Study) -> Iterator[Problem]:
+def _part_problems(study: Study) -> Iterator[Problem]:
     """What is wrong with the parts of a study, and with how they fit together."""
     known = [it.kind for it in study.scenes.values() if it.kind != UNKNOWN]
     eyes = {"whole" if kind in scenes.WHOLE else "simulated" for kind in known}
-    of_theories = [*_of_theories(study.theories, eyes)]
+    of_theories = [*_theory_problems(study.theories, eyes)]
     yield from of_theories
     for name, tutor in study.tutors.items():
         yield from (it.within("tutors", name) for it in tutors.faults(tutor, study))
@@ -67,19 +67,19 @@ def _tried(study: Study) -> Iterator[Problem]:
             yield from (it.within("scenes", name) for it in wrong)
         elif scene.kind != UNKNOWN:
             opened[name] = scenes.open_scene(study, Run("", "", name, 0))
-    yield from unreached(study, opened)
+    yield from unreached_phases(study, opened)
     modes = [theory.mode for theory in study.theories.values()]
     if len(opened) == len(study.scenes) and UNKNOWN not in modes:
-        names = names_in(study, opened)
-        yield from unsaid(study, names)
-        yield from misheard(study, names) if not of_theories else ()
+        names = names_in_scenes(study, opened)
+        yield from unused_words(study, names)
+        yield from misheard_words(study, names) if not of_theories else ()
 
 
-def _of_theories(
+def _theory_problems(
     theories: Mapping[str, Theory], eyes: Collection[str]
 ) -> Iterator[Problem]:
     for name, theory in theories.items():
-        for it in troubles(theory, eyes) if theory.mode != UNKNOWN else ():
+        for it in theory_problems(theory, eyes) if theory.mode != UNKNOWN else ():
             yield it.within("theories", name)
 
 
@@ -105,9 +105,11 @@ PLAIN: Mapping[str, Any] = {
 """What takes the place of wrong values; so many turns that all phases are reached."""
 
 
-def sound(data: Mapping[str, Any], wrong: Collection[Key]) -> Mapping[str, Any]:
+def valid_part(data: Mapping[str, Any], wrong: Collection[Key]) -> Mapping[str, Any]:
     """A study without what is written wrongly, so that the rest of it can be tried."""
-    left = {key: _sound(data, key, wrong) for key in ("theories", "tutors", "scenes")}
+    left = {
+        key: _valid_table(data, key, wrong) for key in ("theories", "tutors", "scenes")
+    }
     phases = data.get("phases")
     named = [
         STAND_INS["phases"]
@@ -123,7 +125,7 @@ def sound(data: Mapping[str, Any], wrong: Collection[Key]) -> Mapping[str, Any]:
     return {"title": "", "seeds": 1, **plain, **left, "phases": named}
 
 
-def _sound(
+def _valid_table(
     data: Mapping[str, Any], table: str, wrong: Collection[Key]
 ) -> Mapping[str, Any]:
     """What is left of a table of named things."""

@@ -13,60 +13,62 @@ from kille.dialogue.sources import FILES
 from kille.lab.errors import StudyError
 from kille.lab.settings import Key, Problem
 from kille.lab.study import Study, Theory
-from kille.lab.study_files.problems import told
+from kille.lab.study_files.problems import format_problems
 from ttr.safety.consent import NotAllowedError, check_called
 
 
 def python_in(study: Study) -> tuple[str, ...]:
     """The Python files and modules that a study names, each once."""
-    return tuple(dict.fromkeys(name for _, name in _python(study)))
+    return tuple(dict.fromkeys(name for _, name in _python_named(study)))
 
 
 def check_allowed(study: Study) -> None:
     """Raises `StudyError`, a line for each name of what a study must not use."""
-    if found := [*unallowed(study)]:
-        raise StudyError(told(found, study.source, study.file))
+    if found := [*refused_names(study)]:
+        raise StudyError(format_problems(found, study.source, study.file))
 
 
-def unallowed(study: Study) -> Iterator[Problem]:
+def refused_names(study: Study) -> Iterator[Problem]:
     """What a study must not use; nothing of one that was made in Python."""
     consent = study.consent
     if consent is None:
         return
-    for key, name in _python(study):
-        yield from _refused(
+    for key, name in _python_named(study):
+        yield from _refusals(
             key, lambda it: consent.check_python(it, study.folder), name
         )
     for name, theory in study.theories.items():
-        for inner, path in _files(theory):
+        for inner, path in _files_named(theory):
             key = ("theories", name, *inner)
-            yield from _refused(key, lambda it: check_called(it, _ending(it)), path)
+            yield from _refusals(
+                key, lambda it: check_called(it, _expected_ending(it)), path
+            )
     for name, tutor in study.tutors.items():
         if tutor.kind == "scripted":
             path = str(study.folder / os.path.expanduser(tutor.settings["file"]))
             key = ("tutors", name, "file")
-            yield from _refused(key, lambda it: check_called(it, ".dlg"), path)
+            yield from _refusals(key, lambda it: check_called(it, ".dlg"), path)
 
 
-def _python(study: Study) -> Iterator[tuple[Key, str]]:
+def _python_named(study: Study) -> Iterator[tuple[Key, str]]:
     """The Python that a study names, and where it does."""
     for name, theory in study.theories.items():
-        if (module := _module(theory.rules)).endswith(".py"):
+        if (module := _module_named(theory.rules)).endswith(".py"):
             yield ("theories", name, "rules"), module
         for kind, learner in theory.learners.items():
-            if module := _module(learner):
+            if module := _module_named(learner):
                 yield ("theories", name, "learners", kind), module
     for name, tutor in study.tutors.items():
-        if tutor.kind == "own" and (module := _module(tutor.settings["make"])):
+        if tutor.kind == "own" and (module := _module_named(tutor.settings["make"])):
             yield ("tutors", name, "make"), module
 
 
-def _module(reference: str) -> str:
+def _module_named(reference: str) -> str:
     """The file or module in FILE.py:NAME or MODULE:NAME; nothing in another name."""
     return os.path.expanduser(reference.rpartition(":")[0])
 
 
-def _files(theory: Theory) -> Iterator[tuple[Key, str]]:
+def _files_named(theory: Theory) -> Iterator[tuple[Key, str]]:
     """The files of a theory that are read as something, and where they are named."""
     if theory.rules.endswith(".ttr"):
         yield ("rules",), theory.rules
@@ -77,13 +79,13 @@ def _files(theory: Theory) -> Iterator[tuple[Key, str]]:
         yield ("grammar",), str(theory.grammar / file.format(theory.language))
 
 
-def _ending(path: str) -> str:
+def _expected_ending(path: str) -> str:
     """What a file has to be called: as what comes with the package, or a theory."""
     ending = Path(path).suffix
     return ending if ending in {Path(it).suffix for it in FILES} else ".ttr"
 
 
-def _refused(key: Key, check: Callable[[str], None], name: str) -> Iterator[Problem]:
+def _refusals(key: Key, check: Callable[[str], None], name: str) -> Iterator[Problem]:
     try:
         check(name)
     except NotAllowedError as error:

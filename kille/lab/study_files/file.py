@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from kille.lab.errors import StudyError
-from kille.lab.settings import no_file
+from kille.lab.settings import why_no_file
 from kille.lab.study import Named, Phase, Study, Theory
-from kille.lab.study_files.problems import told
-from kille.lab.study_files.shape import APART, STUDY, faults
+from kille.lab.study_files.problems import format_problems
+from kille.lab.study_files.shape import APART, STUDY, shape_problems
 from ttr.safety.consent import OWN_FOLDER, Consent
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import parse_toml, read_text
@@ -33,32 +33,32 @@ _OWN = re.compile(r"\.py(?=:)|\.ttr$")
 
 def read(path: Path, consent: Consent = OWN_FOLDER) -> Study:
     """The study in a file; `StudyError` with a line for each mistake."""
-    return parsed(text_of(path), path, consent)
+    return parse(read_source(path), path, consent)
 
 
-def parsed(text: str, path: Path, consent: Consent = OWN_FOLDER) -> Study:
+def parse(text: str, path: Path, consent: Consent = OWN_FOLDER) -> Study:
     """The study of a text that is, or once was, in this file; `StudyError` as `read`.
 
     Paths in it begin at the folder of the file. Python there, or below, is what it may
     run, and what else there is consent to.
     """
-    data = data_of(text, path)
-    if found := [*faults(data)]:
-        raise StudyError(told(found, text, path))
+    data = parse_data(text, path)
+    if found := [*shape_problems(data)]:
+        raise StudyError(format_problems(found, text, path))
     return study_of(data, text, path, consent)
 
 
-def text_of(path: Path) -> str:
+def read_source(path: Path) -> str:
     """The text of a file; `StudyError` where there is none."""
     try:
         return read_text(path, SETTINGS)
     except FileNotFoundError as error:
-        raise StudyError([no_file(path)]) from error
+        raise StudyError([why_no_file(path)]) from error
     except (OSError, UnicodeDecodeError) as error:
         raise StudyError([why_unread(path, error)]) from error
 
 
-def data_of(text: str, path: Path) -> Mapping[str, Any]:
+def parse_data(text: str, path: Path) -> Mapping[str, Any]:
     """What is in a text; `StudyError` where it is no TOML."""
     try:
         return parse_toml(text)
@@ -77,12 +77,12 @@ def study_of(
     return Study(
         title=data["title"],
         theories={
-            name: _theory(name, one, folder, allowed)
+            name: _read_theory(name, one, folder, allowed)
             for name, one in data["theories"].items()
         },
-        tutors={name: _named(name, one) for name, one in data["tutors"].items()},
-        scenes={name: _named(name, one) for name, one in data["scenes"].items()},
-        phases=tuple(_phases(data["phases"])),
+        tutors={name: _read_named(name, one) for name, one in data["tutors"].items()},
+        scenes={name: _read_named(name, one) for name, one in data["scenes"].items()},
+        phases=tuple(_read_phases(data["phases"])),
         seeds=tuple(range(1, seeds + 1) if isinstance(seeds, int) else seeds),
         about=data.get("about", "").strip(),
         turns=data.get("turns", STUDY["turns"].default),
@@ -95,7 +95,7 @@ def study_of(
     )
 
 
-def _theory(
+def _read_theory(
     name: str, given: Mapping[str, Any], folder: Path, consent: Consent
 ) -> Theory:
     known = {one.name for one in fields(Theory)} - {"consent"}
@@ -103,32 +103,34 @@ def _theory(
     if "without" in values:
         values["without"] = tuple(values["without"])
     if "rules" in values:
-        values["rules"] = _found(values["rules"], folder)
+        values["rules"] = _resolve_name(values["rules"], folder)
     if isinstance(values.get("meanings"), str):
-        values["meanings"] = str(_path(values["meanings"], folder))
+        values["meanings"] = str(_resolve_path(values["meanings"], folder))
     if "grammar" in values:
-        values["grammar"] = _path(values["grammar"], folder)
+        values["grammar"] = _resolve_path(values["grammar"], folder)
     if "learners" in values:
         own = values["learners"].items()
-        values["learners"] = {kind: _found(one, folder) for kind, one in own}
+        values["learners"] = {kind: _resolve_name(one, folder) for kind, one in own}
     return Theory(name, consent=consent, **values)
 
 
-def _found(reference: str, folder: Path) -> str:
+def _resolve_name(reference: str, folder: Path) -> str:
     """What a name in a file of one's own is named from everywhere."""
-    return str(_path(reference, folder)) if _OWN.search(reference) else reference
+    return (
+        str(_resolve_path(reference, folder)) if _OWN.search(reference) else reference
+    )
 
 
-def _path(name: str, folder: Path) -> Path:
+def _resolve_path(name: str, folder: Path) -> Path:
     return folder / expanduser(name)
 
 
-def _named(name: str, given: Mapping[str, Any]) -> Named:
+def _read_named(name: str, given: Mapping[str, Any]) -> Named:
     settings = {key: value for key, value in given.items() if key != "kind"}
     return Named(name, given["kind"], settings)
 
 
-def _phases(given: list[Mapping[str, Any]]) -> Iterator[Phase]:
+def _read_phases(given: list[Mapping[str, Any]]) -> Iterator[Phase]:
     """The phases; each has a name of its own, by which its answers are known."""
     taken: set[str] = set()
     for one in given:
@@ -165,23 +167,23 @@ def why_not_toml(text: str, error: Exception) -> tuple[int, str]:
     found = re.search(r"line (\d+)", place)
     number = int(found[1]) if found else text.removesuffix("\n").count("\n") + 1
     line = lines[number - 1] if number <= len(lines) else ""
-    return number, f"this is no TOML: {_plain(what, line, text)}"
+    return number, f"this is no TOML: {_plain_reason(what, line, text)}"
 
 
-def _plain(what: str, line: str, text: str) -> str:
+def _plain_reason(what: str, line: str, text: str) -> str:
     """What the reader says, in the words of who writes, and a way out."""
     if what == "Cannot overwrite a value" and "=" in line:
         return f"{line.partition('=')[0].strip()} is there twice"
     header = re.match(r"\s*\[+\s*([^\]]+?)\s*\]", line)
     if header and what.startswith("Cannot "):
-        return _again(header[1], text)
+        return _twice(header[1], text)
     if what.startswith("Cannot mutate"):
         return "it adds to what is whole, between { and }: write it in there"
     slips = (hint for slip, hint in _SLIPS if slip.search(line))
     return f"{what[:1].lower()}{what[1:]}; {next(slips, _SEE)}"
 
 
-def _again(table: str, text: str) -> str:
+def _twice(table: str, text: str) -> str:
     """That a table is there twice, or once as one of several and once alone."""
     several = f"[[{table}]]"
     if several in text:

@@ -15,8 +15,8 @@ from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.parsing import Grammar
 from kille.dialogue.sources import FILES, STRATEGIES
 from kille.dialogue.strategies import strategy
-from kille.lab.own_code import why
-from kille.lab.settings import Key, Problem, no_folder, unknown
+from kille.lab.own_code import describe_exception
+from kille.lab.settings import Key, Problem, suggest_name, why_no_folder
 from kille.lab.study import Theory
 from kille.lab.study_files.problems import line_of, lines_of
 from kille.lab.theories.games import language_of
@@ -52,11 +52,11 @@ _ODD = (ValueError, TypeError, AttributeError, LookupError)
 """What becomes of tables that are not what a lexicon is made of."""
 
 
-def of_language(theory: Theory) -> Iterator[Problem]:
+def language_problems(theory: Theory) -> Iterator[Problem]:
     """What is wrong with the grammar and the lexicon in a theory's own folder."""
     if theory.grammar is None:
         return
-    if told := no_folder(theory.grammar):
+    if told := why_no_folder(theory.grammar):
         hint = ": name the folder that it is in" if theory.grammar.is_file() else ""
         yield Problem(_KEY, f"{told}{hint}")
         return
@@ -64,28 +64,28 @@ def of_language(theory: Theory) -> Iterator[Problem]:
     if not any(file.is_file() for file in (*own, theory.grammar / STRATEGIES)):
         names = " or ".join(file.name for file in own)
         told = f"expected {names} in {theory.grammar}, found neither"
-        yield Problem(_KEY, f"{told}{_others(theory)}")
+        yield Problem(_KEY, f"{told}{_other_language(theory)}")
         return
     grammar, words = own
-    wrong = [*_of_lexicon(theory, words)] if words.is_file() else []
+    wrong = [*_lexicon_problems(theory, words)] if words.is_file() else []
     yield from wrong
     if grammar.is_file():
         texts = () if wrong else _TRIED[theory.language]
-        yield from _of_grammar(theory, grammar, texts)
+        yield from _grammar_problems(theory, grammar, texts)
 
 
-def of_strategies(theory: Theory) -> Iterator[Problem]:
+def strategy_file_problems(theory: Theory) -> Iterator[Problem]:
     """What is wrong with a file of strategies in a theory's own folder."""
     if theory.grammar is None or not (theory.grammar / STRATEGIES).is_file():
         return
     try:
         strategy(theory.mode, theory.wording, language_of(theory))
     except (OSError, *_ODD) as error:
-        told = f"these strategies cannot be used: {why(error)}"
+        told = f"these strategies cannot be used: {describe_exception(error)}"
         yield Problem(_KEY, told, f"{theory.grammar / STRATEGIES}:1")
 
 
-def _others(theory: Theory) -> str:
+def _other_language(theory: Theory) -> str:
     """That the folder has files of another language, if it has."""
     assert theory.grammar is not None
     for language in LANGUAGES:
@@ -94,7 +94,9 @@ def _others(theory: Theory) -> str:
     return ""
 
 
-def _of_grammar(theory: Theory, file: Path, texts: Iterable[str]) -> Iterator[Problem]:
+def _grammar_problems(
+    theory: Theory, file: Path, texts: Iterable[str]
+) -> Iterator[Problem]:
     language = language_of(theory)
     try:
         grammar = Grammar(grammar_text(language))
@@ -121,7 +123,7 @@ def _of_grammar(theory: Theory, file: Path, texts: Iterable[str]) -> Iterator[Pr
             return
 
 
-def _of_lexicon(theory: Theory, file: Path) -> Iterator[Problem]:
+def _lexicon_problems(theory: Theory, file: Path) -> Iterator[Problem]:
     packaged, at = lexicon(theory.language), f"{file}:1"
     try:
         own = lexicon(language_of(theory), theory.wording or "paper")
@@ -137,11 +139,11 @@ def _of_lexicon(theory: Theory, file: Path) -> Iterator[Problem]:
         yield Problem(_KEY, f"this lexicon does not read: {error}", at)
     else:
         lines = lines_of(read_text(file, SETTINGS))
-        for key, what in _of_wordings(own, packaged):
+        for key, what in _wording_problems(own, packaged):
             yield Problem(_KEY, what, f"{file}:{line_of(lines, key)}")
 
 
-def _of_wordings(own: Lexicon, packaged: Lexicon) -> Iterator[tuple[Key, str]]:
+def _wording_problems(own: Lexicon, packaged: Lexicon) -> Iterator[tuple[Key, str]]:
     for table in ("says", "tells"):
         mine, theirs = getattr(own, table), getattr(packaged, table)
         lacking = sorted(theirs.keys() - mine.keys())
@@ -153,14 +155,14 @@ def _of_wordings(own: Lexicon, packaged: Lexicon) -> Iterator[tuple[Key, str]]:
             continue
         for act, wordings in acts.items():
             several = wordings if isinstance(wordings, list) else [wordings]
-            yield from ((((section, act)), it) for it in _unfilled(several, known))
+            yield from ((((section, act)), it) for it in _slot_problems(several, known))
 
 
 _FILED = {"says": "says", "tells": "tutor"}
 """What the tables of a lexicon are called in its file."""
 
 
-def _unfilled(wordings: list[Any], known: list[str]) -> Iterator[str]:
+def _slot_problems(wordings: list[Any], known: list[str]) -> Iterator[str]:
     """What is wrong with the wordings of an act, which may be anything in TOML."""
     odd = [it for it in wordings if not isinstance(it, str)]
     if odd:
@@ -173,7 +175,7 @@ def _unfilled(wordings: list[Any], known: list[str]) -> Iterator[str]:
         return
     for slot in found:
         if slot not in known:
-            yield f"there is no slot {{{slot}}}: {unknown(slot, known)}"
+            yield f"there is no slot {{{slot}}}: {suggest_name(slot, known)}"
 
 
 def _kind_of(value: object) -> str:

@@ -6,11 +6,11 @@ from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
 
-from kille.lab.own_code import line_in
+from kille.lab.own_code import failing_line
 from kille.lab.results import ExperimentError
 from kille.lab.scenes import Occasion
 from kille.lab.scenes.theatre import Staged, Stand, Theatre
-from kille.lab.settings import Problem, no_file, shown, unknown
+from kille.lab.settings import Problem, show_value, suggest_name, why_no_file
 from kille.lab.study import Theory
 from kille.lab.theories.classifiers import NAMES, learners_of, words_of
 from kille.lab.worlds.worlds import World
@@ -19,23 +19,23 @@ from kille.perception.relations import RelationMemory
 from kille.scene import Configuration, Percept
 
 
-def of_learners(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
+def learner_problems(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """What is wrong with what judges the words, whether `simulated` or `whole`."""
     for kind in theory.learners:
         for seen in sorted(eyes):
-            yield from _of_learner(kind, theory, seen)
+            yield from _learner_problems(kind, theory, seen)
 
 
-def _of_learner(kind: str, theory: Theory, seen: str) -> Iterator[Problem]:
+def _learner_problems(kind: str, theory: Theory, seen: str) -> Iterator[Problem]:
     name = theory.learners[kind]
     known = tuple(NAMES[seen][kind])
     key = ("learners", kind)
     path, colon, _ = name.rpartition(":")
     if name not in known and (not colon or known == ("default",)):
-        told = f"nothing named {shown(name)} judges {kind}s {_SEEN[seen]}"
-        yield Problem(key, f"{told}: {_meant(name, known)}")
+        told = f"nothing named {show_value(name)} judges {kind}s {_SEEN[seen]}"
+        yield Problem(key, f"{told}: {_suggestion(name, known)}")
         return
-    if path.endswith(".py") and (why_not := no_file(Path(path))):
+    if path.endswith(".py") and (why_not := why_no_file(Path(path))):
         yield Problem(key, why_not)
         return
     alone = Theory("", learners={kind: name}, consent=theory.consent)
@@ -50,7 +50,7 @@ def _of_learner(kind: str, theory: Theory, seen: str) -> Iterator[Problem]:
         elif colon:
             _try_relation(relations)
     except ExperimentError as error:
-        line = line_in(path, error.__cause__)
+        line = failing_line(path, error.__cause__)
         yield Problem(key, str(error), f"{path}:{line}" if line else "")
 
 
@@ -76,11 +76,11 @@ def _percept() -> Percept:
     return table.look(1, None).percepts[0]
 
 
-def _meant(name: str, known: Collection[str]) -> str:
+def _suggestion(name: str, known: Collection[str]) -> str:
     """What somebody may have meant who wrote this for a learner."""
     if name.endswith(".py"):
         return f"write what it is called in the file, {Path(name).name}:NAME"
-    return unknown(name, known)
+    return suggest_name(name, known)
 
 
 _SEEN = {

@@ -45,10 +45,10 @@ def kinds_in(study: Study) -> Collection[str]:
 # --- how long dialogues are -----------------------------------------------------------
 
 
-def unreached(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
+def unreached_phases(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """The first phase that is never reached in front of a scene, and why."""
     for name, scene in opened.items():
-        before = begins(study, scene)
+        before = turns_before(study, scene)
         for number, phase in enumerate(study.phases):
             if before[number] >= study.turns:
                 told = f"{phase.name} is never reached with {name}: what is done before"
@@ -58,7 +58,7 @@ def unreached(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
                 break
 
 
-def begins(study: Study, scene: Scene) -> list[int]:
+def turns_before(study: Study, scene: Scene) -> list[int]:
     """How many turns there are at least before each phase, and in the end.
 
     0 where that is not known, as of tutors who may pass things over.
@@ -67,12 +67,12 @@ def begins(study: Study, scene: Scene) -> list[int]:
     plain = is_plain(study) and not any(it.settings.get("vocabulary") for it in tutors)
     found = [0]
     for phase in study.phases:
-        turns = _least(phase) * length(phase, scene) if plain else 0
+        turns = _least_turns(phase) * length(phase, scene) if plain else 0
         found.append(found[-1] + turns)
     return found
 
 
-def _least(phase: Phase) -> int:
+def _least_turns(phase: Phase) -> int:
     """How many turns a task takes at least: something is shown, and something said."""
     if phase.do in CHANGING:
         return 0

@@ -18,10 +18,11 @@ _FIRST, _LAST = 200, 100
 """Characters of a long line; many a type is longer than anybody reads on one."""
 
 
-def told(found: Iterable[Problem], text: str, path: Path) -> tuple[str, ...]:
+def format_problems(found: Iterable[Problem], text: str, path: Path) -> tuple[str, ...]:
     """A line for each mistake in a text of this file, in the order of the text.
 
-    >>> told([Problem(("seeds",), "there is no seed")], "seeds = 0", "a.toml")
+    >>> found = [Problem(("seeds",), "there is no seed")]
+    >>> format_problems(found, "seeds = 0", "a.toml")
     ('a.toml:1: there is no seed',)
     """
     lines = lines_of(text)
@@ -58,11 +59,11 @@ def lines_of(text: str) -> Mapping[Key, int]:
     counts: Counter[Key] = Counter()
     for number, statement in _statements(text):
         if not statement.startswith("["):
-            for key in _keys(tomllib.loads(statement)):
+            for key in _keys_in(tomllib.loads(statement)):
                 found.setdefault((*here, *key), number)
             continue
-        names = _header(tomllib.loads(statement))
-        here = _numbered(names, counts, statement.startswith("[["))
+        names = _header_names(tomllib.loads(statement))
+        here = _numbered_key(names, counts, statement.startswith("[["))
         found.setdefault(names[:1], number)
         found.setdefault(here, number)
     return found
@@ -107,14 +108,14 @@ def _is_whole(statement: str) -> bool:
     return True
 
 
-def _keys(table: Mapping[str, Any]) -> Iterator[Key]:
+def _keys_in(table: Mapping[str, Any]) -> Iterator[Key]:
     for name, value in table.items():
         yield (name,)
         if isinstance(value, dict):
-            yield from ((name, *key) for key in _keys(value))
+            yield from ((name, *key) for key in _keys_in(value))
 
 
-def _header(table: Any) -> tuple[str, ...]:
+def _header_names(table: Any) -> tuple[str, ...]:
     """The names in a header, which declares one table within another."""
     names: list[str] = []
     while table := table[0] if isinstance(table, list) else table:
@@ -123,7 +124,7 @@ def _header(table: Any) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _numbered(names: tuple[str, ...], counts: Counter[Key], is_listed: bool) -> Key:
+def _numbered_key(names: tuple[str, ...], counts: Counter[Key], is_listed: bool) -> Key:
     """The key of a header, with the numbers of the tables that are in a list."""
     here: Key = ()
     for place, name in enumerate(names, start=1):

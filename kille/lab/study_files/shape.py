@@ -15,10 +15,10 @@ from kille.lab.settings import (
     Problem,
     Setting,
     Settings,
-    near,
-    shown,
-    unfit,
-    unknown,
+    nearest_name,
+    setting_problems,
+    show_value,
+    suggest_name,
 )
 from kille.lab.study import MAIN_MEASURES, PERSON
 
@@ -70,33 +70,33 @@ THEORY: Settings = {
 LEARNERS: Settings = {kind: Setting() for kind in KINDS}
 
 
-def faults(data: Mapping[str, Any]) -> Iterator[Problem]:
+def shape_problems(data: Mapping[str, Any]) -> Iterator[Problem]:
     """What is wrong with how a study is written."""
     shape = dict(data)
     if not isinstance(shape.get("seeds", []), list):
         shape["seeds"] = (
             [min(shape["seeds"], 1)] if _is_count(data) else [data["seeds"]]
         )
-    for it in unfit(shape, STUDY, "a study"):
+    for it in setting_problems(shape, STUDY, "a study"):
         key = str(it.key[0]) if it.key else ""
         is_needed = key in STUDY and STUDY[key].needed
         hint = f": {STUDY[key].about}" if is_needed else ""
         yield it._replace(what=f"{it.what}{hint}")
     if _is_count(data):
-        yield from _wrong_count(data["seeds"])
-    for what in _wrong_contrasts(data):
+        yield from _count_problems(data["seeds"])
+    for what in _contrast_problems(data):
         yield Problem(("contrasts",), what)
-    yield from _each(data, "theories", _wrong_theory)
+    yield from _table_problems(data, "theories", _theory_problems)
     kinds = (
         ("tutors", "kind of tutor", tutors.SETTINGS),
         ("scenes", "kind of scene", scenes.SETTINGS),
     )
     for table, what, known in kinds:
-        yield from _each(data, table, _of_kind("kind", what, known))
+        yield from _table_problems(data, table, _check_kind("kind", what, known))
     phases = data.get("phases")
     for number, phase in enumerate(phases if isinstance(phases, list) else []):
         if isinstance(phase, dict):
-            for it in _wrong_phase(f"phase {number + 1}", phase):
+            for it in _phase_problems(f"phase {number + 1}", phase):
                 yield it.within("phases", number)
 
 
@@ -106,7 +106,7 @@ def _is_count(data: Mapping[str, Any]) -> bool:
     return isinstance(seeds, int) and not isinstance(seeds, bool)
 
 
-def _wrong_count(seeds: int) -> Iterator[Problem]:
+def _count_problems(seeds: int) -> Iterator[Problem]:
     if seeds == 0:
         told = "there is no seed, so nothing to play: write seeds = 20"
         yield Problem(("seeds",), told)
@@ -115,7 +115,7 @@ def _wrong_count(seeds: int) -> Iterator[Problem]:
         yield Problem(("seeds",), f"{told} at most, or a list of seeds")
 
 
-def _wrong_contrasts(data: Mapping[str, Any]) -> Iterator[str]:
+def _contrast_problems(data: Mapping[str, Any]) -> Iterator[str]:
     """What is wrong with the theories that are to be compared, two by two."""
     theories, contrasts = data.get("theories"), data.get("contrasts")
     known = [*theories] if isinstance(theories, dict) else []
@@ -124,13 +124,15 @@ def _wrong_contrasts(data: Mapping[str, Any]) -> Iterator[str]:
         if len(one) != 2 or not all(isinstance(it, str) for it in one):
             yield 'a contrast is of two theories: write contrasts = [["one", "other"]]'
         elif one[0] == one[1]:
-            yield f"a contrast is of two theories, found {shown(one[0])} twice"
+            yield f"a contrast is of two theories, found {show_value(one[0])} twice"
         elif lists.count(one) + lists.count(one[::-1]) > 1:
-            yield f"the contrast of {shown(one[0])} and {shown(one[1])} is there twice"
+            both = " and ".join(map(show_value, one))
+            yield f"the contrast of {both} is there twice"
         for name in one:
             if isinstance(name, str) and known and name not in known:
-                yield f"contrasts: there is no theory {shown(name)}: " + unknown(
-                    name, known
+                yield (
+                    f"contrasts: there is no theory {show_value(name)}: "
+                    + suggest_name(name, known)
                 )
 
 
@@ -138,7 +140,9 @@ Check = Callable[[str, Mapping[str, Any]], Iterator[Problem]]
 """What is wrong with something of this name, as it is written."""
 
 
-def _each(data: Mapping[str, Any], table: str, check: Check) -> Iterator[Problem]:
+def _table_problems(
+    data: Mapping[str, Any], table: str, check: Check
+) -> Iterator[Problem]:
     """What is wrong with each thing of a table of named things."""
     named = data.get(table)
     if not isinstance(named, dict):
@@ -157,48 +161,51 @@ def _each(data: Mapping[str, Any], table: str, check: Check) -> Iterator[Problem
             yield it.within(table, name)
 
 
-def _wrong_theory(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
-    yield from unfit(given, THEORY, f"the theory {name}")
+def _theory_problems(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
+    yield from setting_problems(given, THEORY, f"the theory {name}")
     types = given.get("meanings")
     for key, value in types.items() if isinstance(types, dict) else ():
         if not isinstance(value, str):
-            told = f'a type is written as a text, {key} = "[…]", found {shown(value)}'
+            told = (
+                f'a type is written as a text, {key} = "[…]", found {show_value(value)}'
+            )
             yield Problem(("meanings", key), told)
     learners = given.get("learners")
     if isinstance(learners, dict):
-        for it in unfit(learners, LEARNERS, f"learners of {name}"):
+        for it in setting_problems(learners, LEARNERS, f"learners of {name}"):
             yield it.within("learners")
 
 
-def _wrong_phase(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
+def _phase_problems(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
     called = given.get("name", "")
     if why := Setting().unfit(called):
         yield Problem(("name",), f"name of {name}: {why}")
     elif not called.isprintable():
         told = f"name of {name}: expected one line, found {called!r}"
         yield Problem(("name",), told)
-    yield from _of_kind("do", "phase to do", phases.SETTINGS)(name, given)
+    yield from _check_kind("do", "phase to do", phases.SETTINGS)(name, given)
 
 
-def _of_kind(key_of_kind: str, what: str, known: Mapping[str, Settings]) -> Check:
+def _check_kind(key_of_kind: str, what: str, known: Mapping[str, Settings]) -> Check:
     """What is wrong with something whose kind says what may be set of it."""
 
     def check(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
         kind = given.get(key_of_kind)
         if kind is None:
-            slip = near(key_of_kind, [*given], "{}")
+            slip = nearest_name(key_of_kind, [*given], "{}")
             found = f", and has {slip}" if slip else ""
             told = f"{name} needs {key_of_kind}{found}: {_one_of(known)}"
             yield Problem((slip,) if slip else (), told)
             return
         if not isinstance(kind, str) or kind not in known:
-            meant = near(str(kind), known, "did you mean {}? ")
-            told = f"{name}: there is no {what} {shown(kind)}: {meant}{_one_of(known)}"
+            meant = nearest_name(str(kind), known, "did you mean {}? ")
+            told = f"{name}: there is no {what} {show_value(kind)}: "
+            told += f"{meant}{_one_of(known)}"
             yield Problem((key_of_kind,), told)
             return
         own = {key: it for key, it in given.items() if key not in APART[key_of_kind]}
         named = f'{name} ({key_of_kind} = "{kind}")'
-        yield from unfit(own, known[kind], named)
+        yield from setting_problems(own, known[kind], named)
 
     return check
 

@@ -14,12 +14,12 @@ from pathlib import Path
 
 from kille.dialogue.tutoring import hear, tutoring
 from kille.lab.errors import TheoryError
-from kille.lab.own_code import line_in, why
+from kille.lab.own_code import describe_exception, failing_line
 from kille.lab.results import ExperimentError
-from kille.lab.settings import Key, Problem, no_file
+from kille.lab.settings import Key, Problem, why_no_file
 from kille.lab.study import PERSON, Theory
-from kille.lab.study_files.languages import of_language, of_strategies
-from kille.lab.study_files.learners import of_learners
+from kille.lab.study_files.languages import language_problems, strategy_file_problems
+from kille.lab.study_files.learners import learner_problems
 from kille.lab.theories.games import (
     change_game,
     game_of,
@@ -42,32 +42,34 @@ _OWN = ("meanings", "rules", "without", "learners")
 """What a theory may have of its own that fails only when it is played."""
 
 
-def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
+def theory_problems(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """All that is wrong with a theory that is `simulated`, or of the `whole` robot."""
     if theory.mode == PERSON:
-        yield from _of_person(theory)
+        yield from _person_problems(theory)
         return
     if theory.meanings:
-        yield from _of_meanings(theory, eyes)
+        yield from _meaning_problems(theory, eyes)
     else:
-        yield from _of_all_else(theory, eyes)
+        yield from _other_problems(theory, eyes)
 
 
-def _of_all_else(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
+def _other_problems(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """What is wrong with a theory whose meanings can be read."""
-    found = [*of_strategies(theory)] or [
+    found = [*strategy_file_problems(theory)] or [
         it.within("strategy") for it in strategy_problems(theory)
     ]
-    found += of_learners(theory, eyes)
-    found += of_language(theory)
-    found += _of_rules(replace(theory, strategy={}, grammar=None))
+    found += learner_problems(theory, eyes)
+    found += language_problems(theory)
+    found += _rule_problems(replace(theory, strategy={}, grammar=None))
     yield from found
     if not found and any(getattr(theory, it) for it in _OWN):
         simulated = "simulated" in eyes
-        yield from _tried(theory if simulated else replace(theory, learners={}))
+        yield from _trial_problems(
+            theory if simulated else replace(theory, learners={})
+        )
 
 
-def _of_person(theory: Theory) -> Iterator[Problem]:
+def _person_problems(theory: Theory) -> Iterator[Problem]:
     for key in ("strategy", "learners", "rules", "without", "grammar", "meanings"):
         if getattr(theory, key):
             told = f"{theory.name} is played by a person, who has no {key}"
@@ -77,28 +79,30 @@ def _of_person(theory: Theory) -> Iterator[Problem]:
 # --- meanings -------------------------------------------------------------------------
 
 
-def _of_meanings(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
+def _meaning_problems(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     """What is wrong with meanings of one's own, or else with what is made of them."""
     key: Key = ("meanings",)
     own = theory.meanings
-    if isinstance(own, str) and (told := no_file(Path(own))):
+    if isinstance(own, str) and (told := why_no_file(Path(own))):
         yield Problem(key, told)
         return
     try:
-        if isinstance(own, str) and (failing := [*_failing(key, Path(own), theory)]):
+        if isinstance(own, str) and (
+            failing := [*_failed_claims(key, Path(own), theory)]
+        ):
             yield from failing
             return
         tutoring(types=meanings_of(theory))
-        yield from list(_of_all_else(theory, eyes))
+        yield from list(_other_problems(theory, eyes))
     except TTRError as error:
-        found = _of_error(key, error)
-        yield from found if isinstance(own, str) else _inline(own, error)
+        found = _problems_of_error(key, error)
+        yield from found if isinstance(own, str) else _inline_problems(own, error)
     except Exception as error:
-        told = f"the games cannot be made of it: {why(error)}"
+        told = f"the games cannot be made of it: {describe_exception(error)}"
         yield Problem(key, told, f"{own}:1" if isinstance(own, str) else "")
 
 
-def _inline(types: Mapping[str, str], error: TTRError) -> Iterator[Problem]:
+def _inline_problems(types: Mapping[str, str], error: TTRError) -> Iterator[Problem]:
     """Mistakes in types that stand in the study, each at the type where it is."""
     for one in error.errors if isinstance(error, MistakesError) else (error,):
         line = one.span.text if one.span else one.message
@@ -115,13 +119,17 @@ def _key_of(types: Mapping[str, str], told: str) -> Key:
 # --- rules ----------------------------------------------------------------------------
 
 
-def _of_rules(theory: Theory) -> Iterator[Problem]:
+def _rule_problems(theory: Theory) -> Iterator[Problem]:
     if not (theory.rules or theory.without):
         return
     key: Key = ("rules",) if theory.rules else ("without",)
     try:
         of_file = theory.rules.endswith(".ttr")
-        if failing := [*_failing(key, Path(theory.rules), theory)] if of_file else []:
+        if (
+            failing := [*_failed_claims(key, Path(theory.rules), theory)]
+            if of_file
+            else []
+        ):
             yield from failing
             return
         if wanting := [Problem(("without",), it) for it in missing_rules(theory)]:
@@ -134,28 +142,28 @@ def _of_rules(theory: Theory) -> Iterator[Problem]:
         )
         errors = (it for it in faults_of(game) if _is_error(it))
         wrong = (it for it in errors if not _is_moot(it, packaged))
-        yield from (_of_fault(key, it) for it in wrong)
+        yield from (_problem_of_fault(key, it) for it in wrong)
     except TheoryError as error:
         yield Problem(key, error.message, error.at)
     except TTRError as error:
-        yield from _of_error(key, error)
+        yield from _problems_of_error(key, error)
 
 
-def _of_error(key: Key, error: TTRError) -> Iterator[Problem]:
+def _problems_of_error(key: Key, error: TTRError) -> Iterator[Problem]:
     for one in error.errors if isinstance(error, MistakesError) else (error,):
         hint = f" ({one.hint})" if one.hint else ""
-        yield Problem(key, f"{one.message}{hint}", _place(one.span))
+        yield Problem(key, f"{one.message}{hint}", _format_place(one.span))
 
 
-def _failing(key: Key, file: Path, theory: Theory) -> Iterator[Problem]:
+def _failed_claims(key: Key, file: Path, theory: Theory) -> Iterator[Problem]:
     """What a theory file claims of itself and does not hold."""
     consent = theory.consent or OWN_FOLDER
     report = check(load(file, allow=consent.folders))
     for failure in report.failures:
         because = f", {failure.why}" if failure.why else ""
         told = f"{failure.check.text} does not hold: found {failure.found}{because}"
-        yield Problem(key, told, _place(failure.check.span))
-    yield from (_of_fault(key, it) for it in report.faults if _is_error(it))
+        yield Problem(key, told, _format_place(failure.check.span))
+    yield from (_problem_of_fault(key, it) for it in report.faults if _is_error(it))
 
 
 def _is_error(fault: Fault) -> bool:
@@ -167,12 +175,12 @@ def _is_moot(fault: Fault, packaged: Collection[Rule]) -> bool:
     return fault.sort in NEVER and fault.rule in packaged
 
 
-def _of_fault(key: Key, fault: Fault) -> Problem:
+def _problem_of_fault(key: Key, fault: Fault) -> Problem:
     hint = f": {fault.hint}" if fault.hint else ""
-    return Problem(key, f"{fault.message}{hint}", _place(fault.span))
+    return Problem(key, f"{fault.message}{hint}", _format_place(fault.span))
 
 
-def _place(span: Span | None) -> str:
+def _format_place(span: Span | None) -> str:
     return "" if span is None else f"{span.source}:{span.line}"
 
 
@@ -198,7 +206,7 @@ _SAID = {
 """The number of a thing that is pointed at, and what is said of it, by the language."""
 
 
-def _tried(theory: Theory) -> Iterator[Problem]:
+def _trial_problems(theory: Theory) -> Iterator[Problem]:
     """Why the theory fails at a few sentences, whatever code of its own raises."""
     world = World(_THINGS)
     text = ""
@@ -212,24 +220,24 @@ def _tried(theory: Theory) -> Iterator[Problem]:
                 heard = hear(text, language_of(theory), types=meanings_of(theory))
                 now = now if heard is None else game.take(now, heard).run
     except (Exception, SystemExit) as error:
-        cause = _cause(error)
+        cause = _first_cause(error)
         key: Key = (next(it for it in _OWN if getattr(theory, it)),)
         if isinstance(theory.meanings, Mapping):
             key = _key_of(theory.meanings, str(cause))
         where = f"fails at “{text}”" if text else "cannot begin"
-        yield Problem(key, f"tried out, it {where}: {_why(cause, theory)}")
+        yield Problem(key, f"tried out, it {where}: {_describe_cause(cause, theory)}")
 
 
-def _why(error: BaseException, theory: Theory) -> str:
+def _describe_cause(error: BaseException, theory: Theory) -> str:
     """What an error says; of what it is, too, and where, in rules of one's own."""
     file = theory.rules.rpartition(":")[0]
-    line = line_in(file, error)
+    line = failing_line(file, error)
     if line:
-        return f"{why(error)} ({Path(file).name}, line {line})"
+        return f"{describe_exception(error)} ({Path(file).name}, line {line})"
     return next(iter(str(error).splitlines()), type(error).__name__)
 
 
-def _cause(error: BaseException) -> BaseException:
+def _first_cause(error: BaseException) -> BaseException:
     """What failed first, and made the others fail; a learner's failure names it."""
     while error.__cause__ is not None and not isinstance(error, ExperimentError):
         error = error.__cause__

@@ -19,7 +19,7 @@ from kille.lab.scenes import Scene
 from kille.lab.scenes.captured import Captured
 from kille.lab.scenes.occasions import KINDS as WORDS
 from kille.lab.scenes.statements import Statements
-from kille.lab.settings import Problem, shown, unknown
+from kille.lab.settings import Problem, show_value, suggest_name
 from kille.lab.study import Named, Phase, Study
 from kille.lab.theories.games import language_of
 from kille.lab.tutors.spatial_judges import Person, Speaker, read_ratings
@@ -32,7 +32,7 @@ SPEAKING = ("simulated", "people")
 
 
 @dataclass(frozen=True)
-class Names:
+class NamesInScenes:
     """What things, colours and places are called in a study, before anybody says it.
 
     Those are what tutors name in their settings, whatever they call them.
@@ -43,13 +43,13 @@ class Names:
     relation: tuple[str, ...]
 
 
-def names_in(study: Study, opened: Mapping[str, Scene]) -> Names:
+def names_in_scenes(study: Study, opened: Mapping[str, Scene]) -> NamesInScenes:
     """All that there is in these scenes, and the words for places of all tutors."""
     places = [*_said_in(opened)]
     for tutor in study.tutors.values():
         places += _places(tutor, study) if tutor.kind in SPEAKING else ()
     nouns = (kind for scene in opened.values() for kind in _kinds_in(scene))
-    return Names(_once(nouns), tuple(COLOURS), _once(places))
+    return NamesInScenes(_unique(nouns), tuple(COLOURS), _unique(places))
 
 
 def _kinds_in(scene: Scene) -> Iterator[str]:
@@ -78,40 +78,44 @@ def _places(tutor: Named, study: Study) -> Iterator[str]:
     yield from Speaker(placing or Person()).words
 
 
-def _once(names: Iterable[str]) -> tuple[str, ...]:
+def _unique(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
 # --- what is said of nothing ----------------------------------------------------------
 
 
-def unsaid(study: Study, names: Names) -> Iterator[Problem]:
+def unused_words(study: Study, names: NamesInScenes) -> Iterator[Problem]:
     """Words in settings of tutors and phases that are said of nothing, ever."""
     for name, tutor in study.tutors.items():
         if tutor.kind in SPEAKING:
-            for it in _unsaid_of(tutor, study, names):
+            for it in _unused_words_of(tutor, study, names):
                 yield it.within("tutors", name)
     if any(it.kind not in (*SPEAKING, "several") for it in study.tutors.values()):
         return
     for number, phase in enumerate(study.phases):
-        for what in _unforgettable(phase, study, names):
+        for what in _never_taught(phase, study, names):
             yield Problem(("phases", number, "words"), what)
 
 
-def _unsaid_of(tutor: Named, study: Study, names: Names) -> Iterator[Problem]:
-    things = _once([*names.noun, *names.adjective, *KINDS])
-    known = _once([*things, *names.relation])
+def _unused_words_of(
+    tutor: Named, study: Study, names: NamesInScenes
+) -> Iterator[Problem]:
+    things = _unique([*names.noun, *names.adjective, *KINDS])
+    known = _unique([*things, *names.relation])
     for name in tutor.settings.get("calls", {}):
         if name not in known:
-            told = f"there is nothing that others call {name}: {unknown(name, known)}"
+            told = (
+                f"there is nothing that others call {name}: {suggest_name(name, known)}"
+            )
             yield Problem(("calls", name), told)
     vocabulary = tutor.settings.get("vocabulary", ())
     forms = _forms(things, [tutor], study)
     wrong = [it for it in vocabulary if it not in known and it not in forms]
     for word in wrong:
         told = f"there is nothing of which {tutor.name} could say {word}"
-        yield Problem(("vocabulary",), f"{told}: {unknown(word, known)}")
-    there = _once([*names.noun, *names.adjective, *names.relation])
+        yield Problem(("vocabulary",), f"{told}: {suggest_name(word, known)}")
+    there = _unique([*names.noun, *names.adjective, *names.relation])
     own = {*there, *_forms(there, [tutor], study)}
     if vocabulary and not wrong and not own & {*vocabulary}:
         told = f"of all that {tutor.name} has words for, nothing is in these scenes"
@@ -119,7 +123,7 @@ def _unsaid_of(tutor: Named, study: Study, names: Names) -> Iterator[Problem]:
         yield Problem(("vocabulary",), told)
 
 
-def _unforgettable(phase: Phase, study: Study, names: Names) -> Iterator[str]:
+def _never_taught(phase: Phase, study: Study, names: NamesInScenes) -> Iterator[str]:
     """What is to be forgotten, and is taught by nobody."""
     plural = str(phase.settings.get("what", "nouns"))
     known: tuple[str, ...] = getattr(names, WORDS[plural])
@@ -128,7 +132,7 @@ def _unforgettable(phase: Phase, study: Study, names: Names) -> Iterator[str]:
         if word in known or word in forms:
             continue
         others = [it for it, kind in WORDS.items() if word in getattr(names, kind)]
-        hint = f'write what = "{others[0]}"' if others else unknown(word, known)
+        hint = f'write what = "{others[0]}"' if others else suggest_name(word, known)
         yield f"{word} is none of the {plural} that are taught: {hint}"
 
 
@@ -155,14 +159,16 @@ def words_of(language: str, tutor: Named) -> Words:
 _KINDS = ("noun", "adjective", "relation")
 
 
-def misheard(study: Study, names: Names) -> Iterator[Problem]:
+def misheard_words(study: Study, names: NamesInScenes) -> Iterator[Problem]:
     """Words that are heard as others, or not at all, by the language of a theory."""
     for tutor in study.tutors.values():
         if tutor.kind in SPEAKING:
-            yield from _misheard_of(tutor, study, names)
+            yield from _misheard_words_of(tutor, study, names)
 
 
-def _misheard_of(tutor: Named, study: Study, names: Names) -> Iterator[Problem]:
+def _misheard_words_of(
+    tutor: Named, study: Study, names: NamesInScenes
+) -> Iterator[Problem]:
     theories = [*study.theories.values()]
     languages = {language_of(theory): theory for theory in theories[::-1]}
     for language, theory in languages.items():
@@ -170,37 +176,41 @@ def _misheard_of(tutor: Named, study: Study, names: Names) -> Iterator[Problem]:
         for kind, name in _names_by_kind(names):
             word = words.called(name)
             try:
-                heard = _heard(kind, word, language, theory.language)
+                heard = _words_heard(kind, word, language, theory.language)
             except GrammarError as error:
-                what = f"this grammar cannot be used for lessons in {shown(word)}"
+                what = f"this grammar cannot be used for lessons in {show_value(word)}"
                 yield Problem(("theories", theory.name, "grammar"), f"{what}: {error}")
                 break
             if word not in heard:
                 key = ("tutors", tutor.name, "calls", name)
-                told = _told(word, name, next(iter(heard), ""))
+                told = _describe_mishearing(word, name, next(iter(heard), ""))
                 yield Problem(key, f"to {theory.name} {tutor.name} says {told}")
 
 
-def _names_by_kind(names: Names) -> Iterator[tuple[str, str]]:
+def _names_by_kind(names: NamesInScenes) -> Iterator[tuple[str, str]]:
     return ((kind, name) for kind in _KINDS for name in getattr(names, kind))
 
 
-def _told(word: str, name: str, heard: str) -> str:
-    found = f"which is heard as {shown(heard)}" if heard else "which is not understood"
+def _describe_mishearing(word: str, name: str, heard: str) -> str:
+    found = (
+        f"which is heard as {show_value(heard)}" if heard else "which is not understood"
+    )
     other = heard if heard and heard.casefold() == word.casefold() else "…"
-    hint = f"write calls = {{ {shown(name)} = {shown(other)} }}"
-    return f"{shown(word)}, {found}: {hint}"
+    hint = f"write calls = {{ {show_value(name)} = {show_value(other)} }}"
+    return f"{show_value(word)}, {found}: {hint}"
 
 
 @lru_cache(4096)
-def _heard(kind: str, word: str, language: str, plain: str) -> Sequence[str]:
+def _words_heard(kind: str, word: str, language: str, plain: str) -> Sequence[str]:
     """The words of a kind that a lesson in this word is heard to be of."""
     words = Words(plain)
-    text = words.lesson(kind, word, _beside(words) if kind == "relation" else None)
+    text = words.lesson(
+        kind, word, _example_landmark(words) if kind == "relation" else None
+    )
     readings = [it.type for one in understand(text, language) for it in one.readings]
     signs = [it for said in readings for it in value_at(said, "signs")]
     return tuple(dict.fromkeys(str(it.form) for it in signs if it.kind == kind))
 
 
-def _beside(words: Words) -> Phrase:
+def _example_landmark(words: Words) -> Phrase:
     return words.described(Thing("car", "red"), "adjective")

@@ -14,7 +14,7 @@ from kille.agent.agent import Agent
 from kille.dialogue.sources import language_in
 from kille.dialogue.strategies import strategy
 from kille.lab.errors import TheoryError
-from kille.lab.settings import Problem, Setting, shown, unknown
+from kille.lab.settings import Problem, Setting, show_value, suggest_name
 from kille.lab.study import Theory
 from kille.lab.theories.classifiers import learners_of, words_of
 from kille.lab.theories.meanings import meanings_of
@@ -124,7 +124,7 @@ def _strategy_problems(
         here = (*outer, name)
         path = ".".join(here)
         if name not in known:
-            told = f"a strategy has no {path}: {unknown(name, tuple(known))}"
+            told = f"a strategy has no {path}: {suggest_name(name, tuple(known))}"
             yield Problem(here, told)
         elif isinstance(value, dict) and isinstance(known[name], Record):
             yield from _strategy_problems(value, known[name], here)
@@ -133,7 +133,7 @@ def _strategy_problems(
             yield Problem(here, told)
         elif isinstance(known[name], Record):
             inner = ", ".join(known[name])
-            told = f"is a table of {inner}, found {shown(value)}"
+            told = f"is a table of {inner}, found {show_value(value)}"
             yield Problem(here, f"{path} of a strategy {told}")
         elif why := _NUMBERS.get(here[0], _CHANCE).unfit(value):
             yield Problem(here, f"{path} of a strategy: {why}")

@@ -13,8 +13,8 @@ from kille.dialogue.games import TUTORING
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.rules import bind
 from kille.lab.errors import TheoryError
-from kille.lab.own_code import line_in, why
-from kille.lab.settings import no_file, unknown
+from kille.lab.own_code import describe_exception, failing_line
+from kille.lab.settings import suggest_name, why_no_file
 from kille.lab.study import Theory
 from kille.lab.theories.meanings import meanings_of
 from ttr import TTRError
@@ -65,7 +65,7 @@ def _missing_rules(theory: Theory, whole: Algorithm) -> Iterator[str]:
     known = [one.name for one in rules_of(whole)]
     for name in theory.without:
         if name not in known:
-            yield f"there is no rule {name}: {unknown(name, known)}"
+            yield f"there is no rule {name}: {suggest_name(name, known)}"
 
 
 def _all_rules(theory: Theory) -> Algorithm:
@@ -188,16 +188,18 @@ def _run_python(reference: str, consent: Consent | None) -> Any:
     except NotAllowedError as error:
         raise TheoryError(error.message) from error
     except (Exception, SystemExit) as error:
-        at = f"{path}:{line_in(path, error) or 1}"
-        raise TheoryError(f"{path} cannot be run: {why(error)}", at) from error
+        at = f"{path}:{failing_line(path, error) or 1}"
+        raise TheoryError(
+            f"{path} cannot be run: {describe_exception(error)}", at
+        ) from error
     if name not in vars(module):
         own = tuple(it for it in vars(module) if not it.startswith("_"))
-        raise TheoryError(f"{path} has no {name}: {unknown(name, own)}")
+        raise TheoryError(f"{path} has no {name}: {suggest_name(name, own)}")
     return vars(module)[name]
 
 
 def _check_there(file: Path) -> None:
-    if told := no_file(file):
+    if told := why_no_file(file):
         raise TheoryError(told)
 
 
@@ -209,8 +211,8 @@ def _apply_change(
         made = change(whole)
     except (Exception, SystemExit) as error:
         path = of.rpartition(":")[0]
-        at = f"{path}:{line_in(path, error) or 1}"
-        raise TheoryError(f"{of} failed: {why(error)}", at) from error
+        at = f"{path}:{failing_line(path, error) or 1}"
+        raise TheoryError(f"{of} failed: {describe_exception(error)}", at) from error
     if isinstance(made, Algorithm):
         return made
     raise TheoryError(f"{of} gives no rules: expected an algorithm, found {made!r}")
@@ -241,6 +243,6 @@ def _put_in_place(
         if name not in known:
             raise TheoryError(
                 f"{reference}: there is no rule {name} that it could stand for: "
-                f"{unknown(name, known)}"
+                f"{suggest_name(name, known)}"
             )
     return replace_rules(whole, rules)

@@ -17,10 +17,10 @@ from kille.lab.settings import (
     Problem,
     Setting,
     Settings,
-    no_file,
-    no_folder,
-    shown,
-    unknown,
+    show_value,
+    suggest_name,
+    why_no_file,
+    why_no_folder,
 )
 from kille.lab.study import Named, Study
 from kille.lab.tutors.own import describe_error, load_maker
@@ -110,7 +110,7 @@ def _problems_at(key: str, what: Iterator[str]) -> Iterator[Problem]:
 def _script_problems(name: str, study: Study) -> Iterator[str]:
     """Why a script cannot be played, if it cannot."""
     path = study.folder / os.path.expanduser(name)
-    if told := no_file(path):
+    if told := why_no_file(path):
         yield told
         return
     try:
@@ -124,7 +124,7 @@ def _script_problems(name: str, study: Study) -> Iterator[str]:
 def _ratings_problems(name: str, study: Study) -> Iterator[str]:
     """Why people's ratings cannot be used, if they cannot."""
     path = study.folder / os.path.expanduser(name)
-    if told := no_folder(path):
+    if told := why_no_folder(path):
         yield told
         return
     try:
@@ -138,14 +138,14 @@ def _calls_problems(named: Named) -> Iterator[Problem]:
     for one, called in named.settings.get("calls", {}).items():
         if not isinstance(called, str):
             told = f'a {one} is called a text, as in {{ {one} = "cup" }}'
-            yield Problem(("calls", one), f"{told}, and not {shown(called)}")
+            yield Problem(("calls", one), f"{told}, and not {show_value(called)}")
 
 
 def _several_problems(named: Named, study: Study) -> Iterator[str]:
     of = [*dict.fromkeys(named.settings["of"])]
     for name in of:
         if name not in study.tutors:
-            yield f"there is no tutor {name}: {unknown(name, study.tutors)}"
+            yield f"there is no tutor {name}: {suggest_name(name, study.tutors)}"
         elif study.tutors[name].kind == "several":
             yield f"{name} is several tutors already: name them one by one"
         elif of == [name]:

@@ -13,8 +13,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from kille.lab.errors import StudyError
-from kille.lab.own_code import line_in, why
-from kille.lab.settings import no_file, unknown
+from kille.lab.own_code import describe_exception, failing_line
+from kille.lab.settings import suggest_name, why_no_file
 from kille.lab.tutors.tutor import Tutor
 from ttr.safety.consent import Consent, NotAllowedError
 from ttr.safety.python_files import run_named
@@ -31,7 +31,7 @@ def load_maker(name: str, folder: Path, consent: Consent | None = None) -> Make:
     where, colon, what = name.rpartition(":")
     if not colon:
         raise StudyError([f"{name} names no tutor: write FILE.py:NAME or MODULE:NAME"])
-    if where.endswith(".py") and (told := no_file(_file(where, folder))):
+    if where.endswith(".py") and (told := why_no_file(_file(where, folder))):
         raise StudyError([told])
     try:
         python = os.path.expanduser(where)
@@ -44,7 +44,7 @@ def load_maker(name: str, folder: Path, consent: Consent | None = None) -> Make:
     made: Make | None = getattr(module, what, None)
     if made is None:
         own = [it for it in vars(module) if not it.startswith("_")]
-        raise StudyError([f"{where} has no {what}: {unknown(what, own)}"])
+        raise StudyError([f"{where} has no {what}: {suggest_name(what, own)}"])
     if not callable(made):
         raise StudyError([f"{what} of {where} makes no tutor: name a class"])
     return made
@@ -52,9 +52,13 @@ def load_maker(name: str, folder: Path, consent: Consent | None = None) -> Make:
 
 def describe_error(where: str, folder: Path, error: BaseException) -> str:
     """What was raised, and on which line of the file, if it does not say so itself."""
-    line = line_in(str(_file(where, folder)), error)
+    line = failing_line(str(_file(where, folder)), error)
     says = isinstance(error, SyntaxError) or not line
-    return why(error) if says else f"{why(error)} (line {line})"
+    return (
+        describe_exception(error)
+        if says
+        else f"{describe_exception(error)} (line {line})"
+    )
 
 
 def _file(where: str, folder: Path) -> Path:

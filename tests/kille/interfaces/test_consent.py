@@ -13,8 +13,8 @@ from kille.dialogue.meanings import record_type
 from kille.dialogue.theory_files import theory_of_file
 from kille.lab import log
 from kille.lab.study import Theory
-from kille.lab.study_files import checked, read
-from kille.lab.study_files.consent import unallowed
+from kille.lab.study_files import read, read_and_check
+from kille.lab.study_files.consent import refused_names
 from kille.lab.theories.classifiers import learners_of
 from kille.lab.theories.descriptions import describe
 from ttr.safety.consent import NotAllowedError
@@ -202,7 +202,7 @@ def test_a_study_tells_nothing_of_other_files(
     (home / "mine" / "grammar").mkdir()
     (home / "mine" / "grammar" / "tutor.en.lark").symlink_to("../secret")
     path = study(theory, tutor)
-    assert [*unallowed(read(path))]
+    assert [*refused_names(read(path))]
     done = kille("experiment", "check", str(path))
     assert (done.code, done.err.count("\n")) == (2, 1)
     assert "root:x" not in done.err + done.out
@@ -340,7 +340,7 @@ def test_who_makes_a_theory_in_python_names_what_it_runs(home: Path) -> None:
 
 def test_what_is_checked_from_python_runs_its_folder_alone(home: Path) -> None:
     with pytest.raises(Exception, match="lies in another folder"):
-        checked(by("noun", "link.py"))
+        read_and_check(by("noun", "link.py"))
     assert ran(home) == []
 
 

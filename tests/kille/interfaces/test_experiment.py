@@ -250,7 +250,7 @@ def test_another_study_does_not_go_into_the_same_folder(
     done = kille("experiment", "run", str(study), "--workers", "1")
     assert done.code == 2
     assert "ways.results has dialogues of another study" in done.complaint
-    assert log.over(Path("ways.results")) == 4
+    assert log.count_outcomes(Path("ways.results")) == 4
 
 
 def test_what_happens_is_not_shown_as_if_it_were_said(kille: Run, study: Path) -> None:

@@ -23,7 +23,7 @@ import pytest
 from kille.interfaces.experiment.people import in_turn, people_in
 from kille.lab import log
 from kille.lab.study import Run
-from kille.lab.study_files.file import parsed
+from kille.lab.study_files.file import parse
 
 pytestmark = pytest.mark.slow
 
@@ -231,9 +231,9 @@ def test_a_closed_terminal_loses_nothing_that_was_over(
     it.until("me (you): ")
     it.hang_up()
     assert it.program.wait(PATIENCE) != 0
-    assert log.over(FOLDER) == 1
+    assert log.count_outcomes(FOLDER) == 1
     done = kille("experiment", "resume", str(FOLDER), typed=lines(DIALOGUE))
-    assert (done.code, log.over(FOLDER)) == (0, 2)
+    assert (done.code, log.count_outcomes(FOLDER)) == (0, 2)
 
 
 # --- through a pipe ------------------------------------------------------------------
@@ -253,7 +253,7 @@ def test_a_file_that_ends_too_early_makes_up_no_dialogue(
     assert done.code == 130
     assert done.out.endswith("\nThe input has ended.\n")
     assert done.complaint.startswith("kille: stopped with 0 of 2 dialogues over")
-    assert log.over(FOLDER) == 0
+    assert log.count_outcomes(FOLDER) == 0
 
 
 def test_a_file_in_another_code_is_told_and_not_played(
@@ -264,7 +264,7 @@ def test_a_file_in_another_code_is_told_and_not_played(
     done = program("experiment", "run", str(study), typed=swedish)
     assert done.code == 130
     assert "\nWhat was typed is not UTF-8: save it so" in done.out
-    assert log.over(FOLDER) == 0
+    assert log.count_outcomes(FOLDER) == 0
 
 
 # --- what is played, and kept --------------------------------------------------------
@@ -273,7 +273,7 @@ def test_a_file_in_another_code_is_told_and_not_played(
 def test_theories_are_met_in_an_order_that_does_not_tell_them(study: Path) -> None:
     third = '[theories.third]\n\n[tutors.you]\nkind = "keyboard"\n\n[tutors.me]'
     text = STUDY.replace("seeds = 1", "seeds = 12").replace("[tutors.me]", third)
-    it = parsed(text, study)
+    it = parse(text, study)
     runs = in_turn(it)
     assert sorted(map(str, runs)) == sorted(map(str, it.runs()))
     assert [run.tutor for run in runs] == ["you"] * 36 + ["me"] * 36
@@ -307,7 +307,7 @@ def test_people_come_first(kille: Kille, study: Path) -> None:
     done = kille("experiment", "run", str(study), typed=lines(DIALOGUE, DIALOGUE))
     assert done.code == 0
     assert "Dialogue 2 is over, and kept.\n2 more are played without you.\n" in done.out
-    assert log.over(FOLDER) == 4
+    assert log.count_outcomes(FOLDER) == 4
 
 
 def test_only_what_a_person_has_typed_cannot_be_replayed(
@@ -350,7 +350,7 @@ def test_who_takes_part_is_told(study: Path) -> None:
         '[tutors.Ann]\nkind = "simulated"\n[tutors.me]'
     )
     text = STUDY.replace("[tutors.me]", tutors).replace('"driven"', '"person"')
-    it = parsed(text, study)
+    it = parse(text, study)
     told = {str(run): people_in(it, run) for run in it.runs()}
     assert told == {
         "daring/both/table/1": ("me is the tutor", "daring plays the robot"),
@@ -360,14 +360,14 @@ def test_who_takes_part_is_told(study: Path) -> None:
         "daring/me/table/1": ("me is the tutor", "daring plays the robot"),
         "careful/me/table/1": ("me is the tutor",),
     }
-    swap = parsed(f'{text}\n[[phases]]\ndo = "change_tutor"\nto = "me"\n', study)
+    swap = parse(f'{text}\n[[phases]]\ndo = "change_tutor"\nto = "me"\n', study)
     both = ("me is the tutor", "daring plays the robot")
     told = {run.theory: people_in(swap, run) for run in swap.runs()}
     assert told == {"daring": both, "careful": both[:1]}
-    swap = parsed(f'{text}\n[[phases]]\ndo = "change_tutor"\nto = "Ann"\n', study)
+    swap = parse(f'{text}\n[[phases]]\ndo = "change_tutor"\nto = "Ann"\n', study)
     assert people_in(swap, Run("careful", "Ann", "table", 1)) == ()
     assert people_in(swap, Run("careful", "me", "table", 1)) == both[:1]
-    swap = parsed(f'{text}\n[[phases]]\ndo = "swap"\n', study)
+    swap = parse(f'{text}\n[[phases]]\ndo = "swap"\n', study)
     assert people_in(swap, Run("careful", "Ann", "table", 1)) == both[:1]
 
 
@@ -376,7 +376,7 @@ def test_who_has_two_turns_is_told_once(study: Path) -> None:
         '[tutors.both]\nkind = "several"\nof = ["me", "Ann", "me"]\n'
         '[tutors.Ann]\nkind = "simulated"\n[tutors.me]'
     )
-    it = parsed(STUDY.replace("[tutors.me]", tutors), study)
+    it = parse(STUDY.replace("[tutors.me]", tutors), study)
     run = Run("careful", "both", "table", 1)
     assert people_in(it, run) == ("me is the tutor",)
 
@@ -385,7 +385,7 @@ def test_theories_without_people_do_not_count_for_who_is_first(study: Path) -> N
     robots = '[theories.own]\n\n[theories.second]\nmode = "person"\n\n[tutors.me]'
     text = STUDY.replace('"driven"', '"person"').replace("[tutors.me]", robots)
     text = text.replace('"keyboard"', '"simulated"').replace("seeds = 1", "seeds = 8")
-    runs = in_turn(parsed(text, study))
+    runs = in_turn(parse(text, study))
     assert [run.seed for run in runs] == [seed for seed in range(1, 9) for _ in "ab"]
     firsts = Counter(run.theory for run in runs[::2])
     assert firsts == {"daring": 4, "second": 4}

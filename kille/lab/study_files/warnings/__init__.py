@@ -12,18 +12,18 @@ from collections.abc import Iterator
 from kille.lab.scenes import open_scene
 from kille.lab.settings import Problem
 from kille.lab.study import Run, Study
-from kille.lab.study_files.problems import told
+from kille.lab.study_files.problems import format_problems
 from kille.lab.study_files.warnings import phases, scenes, theories, tutors
 
 
-def doubts(study: Study) -> tuple[str, ...]:
+def warnings_of(study: Study) -> tuple[str, ...]:
     """A line for all that is probably not meant, of a study without mistakes."""
-    return told(_doubts(study), study.source, study.file)
+    return format_problems(_all_warnings(study), study.source, study.file)
 
 
-def _doubts(study: Study) -> Iterator[Problem]:
+def _all_warnings(study: Study) -> Iterator[Problem]:
     seen = {name: open_scene(study, Run("", "", name, 0)) for name in study.scenes}
-    yield from theories.doubts(study)
-    yield from tutors.doubts(study, seen)
-    yield from scenes.doubts(study, seen)
-    yield from phases.doubts(study, seen)
+    yield from theories.theory_warnings(study)
+    yield from tutors.tutor_warnings(study, seen)
+    yield from scenes.scene_warnings(study, seen)
+    yield from phases.phase_warnings(study, seen)

@@ -8,38 +8,44 @@ from random import Random
 from kille.lab.scenes import Scene
 from kille.lab.settings import Problem
 from kille.lab.study import PERSON, Study
-from kille.lab.study_files.phases import TEACHING, begins, is_plain, kind_of, kinds_of
-from kille.lab.study_files.warnings.tutors import lines_of
+from kille.lab.study_files.phases import (
+    TEACHING,
+    is_plain,
+    kind_of,
+    kinds_of,
+    turns_before,
+)
+from kille.lab.study_files.warnings.tutors import script_lines
 from kille.lab.study_files.words import SPEAKING
 
 _ASKING = ("ask", "practise", "find")
 
 
-def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
+def phase_warnings(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """What is probably not meant in the phases of a study."""
-    yield from _unmeasured(study)
+    yield from _nothing_asked(study)
     if any(theory.mode != PERSON for theory in study.theories.values()):
-        yield from _untaught(study)
-        yield from _nameless(study)
-    yield from _faceless(study, opened)
-    yield from _known_before(study)
-    yield from _cut_short(study, opened)
+        yield from _untaught_kinds(study)
+        yield from _unnamed_landmarks(study)
+    yield from _missing_fronts(study, opened)
+    yield from _taught_before(study)
+    yield from _missing_turns(study, opened)
 
 
-def _unmeasured(study: Study) -> Iterator[Problem]:
+def _nothing_asked(study: Study) -> Iterator[Problem]:
     """That nothing is asked to which an answer is right or wrong."""
     asked = any(phase.do in _ASKING for phase in study.phases)
     kinds = {tutor.kind for tutor in study.tutors.values()}
     if kinds & {"own", "keyboard"} or (asked and kinds & {*SPEAKING}):
         return
     scripts = [it for it in study.tutors.values() if it.kind == "scripted"]
-    marks = {line.mark for it in scripts for line in lines_of(it, study)}
+    marks = {line.mark for it in scripts for line in script_lines(it, study)}
     if "S>" not in marks:
         told = 'nothing is asked, so that no answers are measured: write do = "ask"'
         yield Problem(("phases",), told)
 
 
-def _untaught(study: Study) -> Iterator[Problem]:
+def _untaught_kinds(study: Study) -> Iterator[Problem]:
     """Phases in which a robot needs words of a kind of which none is ever taught."""
     taught = {kind_of(it) for it in study.phases if it.do in TEACHING}
     if any(it.settings.get("colours") != "taught" for it in study.scenes.values()):
@@ -51,7 +57,7 @@ def _untaught(study: Study) -> Iterator[Problem]:
                 yield Problem(("phases", number), told)
 
 
-def _nameless(study: Study) -> Iterator[Problem]:
+def _unnamed_landmarks(study: Study) -> Iterator[Problem]:
     """The first phase about places before which no nouns are taught.
 
     Whoever has no noun for a landmark cannot say where something is.
@@ -68,7 +74,7 @@ def _nameless(study: Study) -> Iterator[Problem]:
             return
 
 
-def _faceless(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
+def _missing_fronts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """Phases that say which way things face, where nothing has a front."""
     for number, phase in enumerate(study.phases):
         for name, scene in opened.items() if phase.do == "align" else ():
@@ -79,7 +85,7 @@ def _faceless(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
                 yield Problem(("phases", number), f"{told} {phase.name}")
 
 
-def _known_before(study: Study) -> Iterator[Problem]:
+def _taught_before(study: Study) -> Iterator[Problem]:
     """Phases of what is new in which that has been taught before.
 
     Who asks for what is not new as well knows that there are two sorts of things.
@@ -100,9 +106,11 @@ def _known_before(study: Study) -> Iterator[Problem]:
             before.setdefault(kind, phase.name)
 
 
-def _cut_short(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
+def _missing_turns(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """That dialogues end before all is done."""
-    needed = max((begins(study, scene)[-1] for scene in opened.values()), default=0)
+    needed = max(
+        (turns_before(study, scene)[-1] for scene in opened.values()), default=0
+    )
     if needed > study.turns:
         told = f"a dialogue takes {needed} turns at least, and ends after {study.turns}"
         yield Problem(("turns",), f"{told}: write turns = {needed} or more")

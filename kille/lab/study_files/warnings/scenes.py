@@ -8,24 +8,24 @@ from collections.abc import Iterator, Mapping, Sequence
 from kille.lab.scenes import SETTINGS, Scene
 from kille.lab.scenes.captured import Captured
 from kille.lab.scenes.statements import Statements
-from kille.lab.settings import Problem, filled
+from kille.lab.settings import Problem, fill_settings
 from kille.lab.study import Named, Study
 from kille.lab.study_files.phases import TEACHING, kind_of
 
 
-def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
+def scene_warnings(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """What is probably not meant in the scenes of a study."""
     for name, scene in study.scenes.items():
         pictured = scene.kind in ("pictures", "statements")
         found = (
-            *_unshifted(scene, study),
-            *(_fewer(scene, opened[name], study) if pictured else ()),
-            *_less_in_view(scene, study),
+            *_useless_shift(scene, study),
+            *(_missing_examples(scene, opened[name], study) if pictured else ()),
+            *_missing_things(scene, study),
         )
         yield from (it.within("scenes", name) for it in found)
 
 
-def _unshifted(scene: Named, study: Study) -> Iterator[Problem]:
+def _useless_shift(scene: Named, study: Study) -> Iterator[Problem]:
     """A landmark that moves when it is not asked about."""
     asked = [it for it in study.phases if it.settings.get("of") == "new"]
     if scene.settings.get("shift") and "relation" not in map(kind_of, asked):
@@ -33,10 +33,10 @@ def _unshifted(scene: Named, study: Study) -> Iterator[Problem]:
         yield Problem(("shift",), told)
 
 
-def _fewer(scene: Named, opened: Scene, study: Study) -> Iterator[Problem]:
+def _missing_examples(scene: Named, opened: Scene, study: Study) -> Iterator[Problem]:
     """Words of which the data have fewer examples than are to be taught and kept."""
     taught, kept = (Counter(it) for it in _examples(opened))
-    set_ = filled(scene.settings, SETTINGS[scene.kind])
+    set_ = fill_settings(scene.settings, SETTINGS[scene.kind])
     is_asked = any(it.settings.get("of") == "new" for it in study.phases)
     for word in {**taught, **kept}:
         for key, found in (("each", taught[word]), ("new", kept[word])):
@@ -55,11 +55,11 @@ def _examples(opened: Scene) -> tuple[Sequence[str], Sequence[str]]:
     return (), ()
 
 
-def _less_in_view(scene: Named, study: Study) -> Iterator[Problem]:
+def _missing_things(scene: Named, study: Study) -> Iterator[Problem]:
     """Phases in which fewer things are in view than there should be."""
     if scene.kind != "drawn":
         return
-    set_ = filled(scene.settings, SETTINGS["drawn"])
+    set_ = fill_settings(scene.settings, SETTINGS["drawn"])
     for phase in study.phases:
         if phase.do not in ("ask", "find", *TEACHING) or kind_of(phase) == "relation":
             continue

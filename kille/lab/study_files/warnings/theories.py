@@ -14,28 +14,28 @@ from kille.lab.theories import strategy_of
 from kille.lab.theories.classifiers import WORDS
 
 
-def doubts(study: Study) -> Iterator[Problem]:
+def theory_warnings(study: Study) -> Iterator[Problem]:
     """What is probably not meant in the theories of a study."""
-    yield from _alike(study)
+    yield from _same_theories(study)
     for name, theory in study.theories.items():
         if theory.mode == PERSON:
             continue
-        for it in (*_disordered(theory), *_idle(theory, study)):
+        for it in (*_swapped_bands(theory), *_idle_learners(theory, study)):
             yield it.within("theories", name)
 
 
-def _alike(study: Study) -> Iterator[Problem]:
+def _same_theories(study: Study) -> Iterator[Problem]:
     """Theories that are the same as one before them."""
     before: list[Theory] = []
     for name, theory in study.theories.items():
-        same = [it.name for it in before if _bare(it) == _bare(theory)]
+        same = [it.name for it in before if _normal_form(it) == _normal_form(theory)]
         if same and theory.mode != PERSON:
             told = f"{name} is the same theory as {same[0]}: they will not differ"
             yield Problem(("theories", name), told)
         before.append(theory)
 
 
-def _bare(theory: Theory) -> tuple[object, ...]:
+def _normal_form(theory: Theory) -> tuple[object, ...]:
     """A theory without what it is called, and what is set to what it is anyhow."""
     bare = replace(
         theory,
@@ -50,7 +50,7 @@ def _bare(theory: Theory) -> tuple[object, ...]:
     return bare, strategy_of(theory) if theory.mode != PERSON else PERSON
 
 
-def _disordered(theory: Theory) -> Iterator[Problem]:
+def _swapped_bands(theory: Theory) -> Iterator[Problem]:
     """Bands that begin below weaker ones, and so take their place."""
     bands = strategy_of(theory).bands
     for stronger, weaker in pairwise(("sure", "think", "likely")):
@@ -60,7 +60,7 @@ def _disordered(theory: Theory) -> Iterator[Problem]:
             yield Problem(("strategy", "bands", stronger), told)
 
 
-def _idle(theory: Theory, study: Study) -> Iterator[Problem]:
+def _idle_learners(theory: Theory, study: Study) -> Iterator[Problem]:
     """Learners that judge nothing in the study."""
     kinds = kinds_in(study)
     for kind, name in theory.learners.items():
@@ -70,12 +70,14 @@ def _idle(theory: Theory, study: Study) -> Iterator[Problem]:
         if is_plain(study) and kind not in kinds:
             told = f"no phase is about {kind}s, so that {name} judges nothing"
             yield Problem(key, told)
-        elif kind == "adjective" and name not in WORDS and not _taught(study):
+        elif (
+            kind == "adjective" and name not in WORDS and not _has_taught_colours(study)
+        ):
             told = f"{name} judges no colours, as the robot knows them beforehand"
             yield Problem(key, f'{told}: write colours = "taught" for the scenes')
 
 
-def _taught(study: Study) -> bool:
+def _has_taught_colours(study: Study) -> bool:
     """Whether colours are taught in a scene, or it is not simulated."""
     return any(
         it.kind in WHOLE or it.settings.get("colours") == "taught"

@@ -11,7 +11,7 @@ from kille.lab.scenes import Scene
 from kille.lab.settings import Problem
 from kille.lab.study import PERSON, Named, Study
 from kille.lab.study_files.phases import TEACHING, kind_of
-from kille.lab.study_files.words import SPEAKING, names_in, words_of
+from kille.lab.study_files.words import SPEAKING, names_in_scenes, words_of
 from kille.lab.theories import language_of
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.tutors.words import Words
@@ -19,17 +19,20 @@ from kille.lab.worlds.worlds import KINDS
 from ttr.dialogues.stories import Line, read_stories
 
 
-def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
+def tutor_warnings(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
     """What is probably not meant in the tutors of a study."""
     for name, tutor in study.tutors.items():
         if tutor.kind in SPEAKING:
-            found = (*_unused(tutor, study, opened), *_speechless(tutor, study, opened))
+            found = (
+                *_unused_settings(tutor, study, opened),
+                *_missing_words(tutor, study, opened),
+            )
             yield from (it.within("tutors", name) for it in found)
         if tutor.kind == "scripted":
-            yield from _of_script(tutor, study)
+            yield from _script_warnings(tutor, study)
 
 
-def _unused(
+def _unused_settings(
     tutor: Named, study: Study, opened: Mapping[str, Scene]
 ) -> Iterator[Problem]:
     """What is set and never comes to bear."""
@@ -37,7 +40,7 @@ def _unused(
     if "feedback" in tutor.settings and not does & {"practise", "talk"}:
         told = "feedback makes no difference: no phase is practise or talk"
         yield Problem(("feedback",), told)
-    there = names_in(study, opened).noun
+    there = names_in_scenes(study, opened).noun
     for name in tutor.settings.get("calls", ()):
         if name in KINDS and name not in there:
             told = f"there is no {name} in any scene that he could call so"
@@ -56,7 +59,7 @@ def _is_frontless(scene: Named) -> bool:
     return alone or scene.kind == "statements"
 
 
-def _speechless(
+def _missing_words(
     tutor: Named, study: Study, opened: Mapping[str, Scene]
 ) -> Iterator[Problem]:
     """Phases for which he has no word, and in which he says nothing."""
@@ -66,7 +69,7 @@ def _speechless(
     languages = {theory.language for theory in study.theories.values()}
     spoken = [words_of(language, tutor) for language in sorted(languages)]
     for name, scene in opened.items():
-        names = names_in(study, {name: scene})
+        names = names_in_scenes(study, {name: scene})
         for phase in study.phases:
             if phase.do not in (*TEACHING, "ask"):
                 continue
@@ -85,27 +88,31 @@ def _has_one(words: Words, own: Iterable[str], there: Iterable[str]) -> bool:
 # --- scripts --------------------------------------------------------------------------
 
 
-def lines_of(tutor: Named, study: Study) -> tuple[Line, ...]:
+def script_lines(tutor: Named, study: Study) -> tuple[Line, ...]:
     """The lines of a scripted tutor's file."""
     path = study.folder / os.path.expanduser(tutor.settings["file"])
     return tuple(line for story in read_stories(path) for line in story.lines)
 
 
-def _of_script(tutor: Named, study: Study) -> Iterator[Problem]:
+def _script_warnings(tutor: Named, study: Study) -> Iterator[Problem]:
     key = ("tutors", tutor.name, "file")
-    lines = lines_of(tutor, study)
+    lines = script_lines(tutor, study)
     for line in lines:
         if line.mark in ("S~", "="):
             told = f"what {line.mark} expects is not measured: write S> and all of it"
             yield Problem(key, told, line.place)
     for line, after in zip_longest(lines, lines[1:]):
         is_expected = after is not None and after.mark[0] == "S"
-        if line.mark == "U>" and not is_expected and (lost := _lost(line.text, study)):
+        if (
+            line.mark == "U>"
+            and not is_expected
+            and (lost := _who_is_lost(line.text, study))
+        ):
             told = f"{lost} does not understand “{line.text}”"
             yield Problem(key, told, line.place)
 
 
-def _lost(text: str, study: Study) -> str:
+def _who_is_lost(text: str, study: Study) -> str:
     """The first theory that does not understand a text, if there is one."""
     heard = (
         name

@@ -28,7 +28,7 @@ from kille.lab import log
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.log import Log
 from kille.lab.log.folders import FILE
-from kille.lab.log.outcomes import Broken, Finished, RunError, outcome
+from kille.lab.log.outcomes import Broken, Finished, RunError, play_to_outcome
 from kille.lab.log.sources import sources
 from kille.lab.study import Named, Run, Study, Theory
 
@@ -69,7 +69,7 @@ def run_of(study: Study, number: int) -> Run:
 
 
 def finished(study: Study, run: Run) -> Finished:
-    found = outcome(study, run, little_study.play)
+    found = play_to_outcome(study, run, little_study.play)
     assert isinstance(found, Finished)
     return found
 
@@ -107,11 +107,11 @@ def test_a_dialogue_is_found_by_its_name_and_by_its_number(tmp_path: Path) -> No
         for run in STUDY.runs():
             kept.write(finished(STUDY, run))
     for number, run in enumerate(STUDY.runs(), start=1):
-        found = log.named(tmp_path, str(run))
-        assert found == log.named(tmp_path, str(number))
+        found = log.find_outcome(tmp_path, str(run))
+        assert found == log.find_outcome(tmp_path, str(number))
         assert found.run == run
     with pytest.raises(RunError, match=r"no dialogue good/Ann/table/9 .* one is good/"):
-        log.named(tmp_path, "good/Ann/table/9")
+        log.find_outcome(tmp_path, "good/Ann/table/9")
 
 
 def test_what_broke_is_kept_with_its_reason_until_it_is_forgotten(
@@ -120,17 +120,17 @@ def test_what_broke_is_kept_with_its_reason_until_it_is_forgotten(
     study = little_study.study(theories=(little_study.GOOD, little_study.BAD))
     with Log.opened(study, tmp_path) as kept:
         for run in study.runs():
-            kept.write(outcome(study, run, little_study.play))
-    (broken,) = log.broken(tmp_path)
+            kept.write(play_to_outcome(study, run, little_study.play))
+    (broken,) = log.broken_runs(tmp_path)
     assert broken.run == Run("bad", "Ann", "table", 2)
     assert broken.reason.startswith("ValueError: nobody likes")
     assert "little_study.py, line" in broken.reason
     assert "Traceback" in broken.trace
-    assert len(list(log.read(tmp_path))) == log.over(tmp_path) - 1 == 5
+    assert len(list(log.read(tmp_path))) == log.count_outcomes(tmp_path) - 1 == 5
     with Log.opened(study, tmp_path) as kept:
         assert kept.forget_broken() == 1
         assert broken.run not in kept.over()
-    assert log.over(tmp_path) == 5
+    assert log.count_outcomes(tmp_path) == 5
 
 
 # --- of one study --------------------------------------------------------------------
@@ -145,7 +145,7 @@ def test_another_study_is_refused_and_nothing_lost(tmp_path: Path) -> None:
         Log.opened(other, tmp_path),
     ):
         pass
-    assert log.over(tmp_path) == 1
+    assert log.count_outcomes(tmp_path) == 1
 
 
 def test_a_study_whose_learner_has_changed_is_another(tmp_path: Path) -> None:
@@ -204,7 +204,7 @@ def test_a_second_writer_is_refused_at_once_and_a_reader_is_not(tmp_path: Path) 
             Log.opened(STUDY, tmp_path),
         ):
             pass
-        assert log.over(tmp_path) == 1
+        assert log.count_outcomes(tmp_path) == 1
     with Log.opened(STUDY, tmp_path) as kept:
         assert len(kept.over()) == 1
 
@@ -215,7 +215,7 @@ def test_dialogues_are_whole_or_not_there_whenever_the_writer_is_killed(
     chance, before = random.Random(5), 0
     for _ in range(3):
         acknowledged = before + killed(tmp_path, chance.uniform(0, 0.1))
-        before = log.over(tmp_path)
+        before = log.count_outcomes(tmp_path)
         assert acknowledged <= before <= acknowledged + 1
     study = little_study.study(SEEDS)
     for run, played, _ in log.read(tmp_path):
@@ -228,7 +228,7 @@ import os, signal, sys
 from pathlib import Path
 import little_study
 from kille.lab.log import Log
-from kille.lab.log.outcomes import outcome
+from kille.lab.log.outcomes import play_to_outcome
 
 study = little_study.study({SEEDS})
 with Log.opened(study, Path(sys.argv[1])) as kept:
@@ -236,7 +236,7 @@ with Log.opened(study, Path(sys.argv[1])) as kept:
     os.write(1, b".")
     for run in study.runs():
         if run not in over:
-            kept.write(outcome(study, run, little_study.play))
+            kept.write(play_to_outcome(study, run, little_study.play))
             os.write(1, b".")
     signal.pause()
 """
@@ -271,7 +271,7 @@ def test_a_full_disk_is_one_line_and_loses_nothing_that_was_kept(
             long = Turn(1, "lessons", "Ann", "instruct", "x" * 100_000, "")
             with pytest.raises(RunError, match=r"full: all dialogues .* are kept"):
                 kept.write(Finished(second, Played((long,), ()), 1))
-        assert log.over(tmp_path) == 1
+        assert log.count_outcomes(tmp_path) == 1
         kept.write(finished(STUDY, second))
     assert list(log.read(tmp_path)) == [
         finished(STUDY, run)._replace(seconds=it.seconds)
@@ -403,7 +403,7 @@ def test_what_cannot_be_kept_breaks_its_own_dialogue_alone(
         found = kept.write(Finished(first, Played((odd,), ()), 1))
         kept.write(finished(STUDY, second))
     assert isinstance(found, Broken)
-    assert (log.broken(tmp_path), log.over(tmp_path)) == ((found,), 2)
+    assert (log.broken_runs(tmp_path), log.count_outcomes(tmp_path)) == ((found,), 2)
     assert re.search(told, found.reason)
     assert "Traceback" in found.trace
 
@@ -413,8 +413,8 @@ def test_a_reason_with_half_a_character_can_be_kept(tmp_path: Path) -> None:
         raise ValueError("\ud800")
 
     with Log.opened(STUDY, tmp_path) as kept:
-        kept.write(outcome(STUDY, run_of(STUDY, 0), play))
-    (broken,) = log.broken(tmp_path)
+        kept.write(play_to_outcome(STUDY, run_of(STUDY, 0), play))
+    (broken,) = log.broken_runs(tmp_path)
     assert broken.reason.startswith(r"ValueError: \ud800 (")
 
 
@@ -422,7 +422,7 @@ def test_a_reason_is_one_line_however_long_the_message() -> None:
     def play(study: Study, run: Run) -> Played:
         raise RuntimeError("so\n" * 1000)
 
-    found = outcome(STUDY, run_of(STUDY, 0), play)
+    found = play_to_outcome(STUDY, run_of(STUDY, 0), play)
     assert isinstance(found, Broken)
     assert "\n" not in found.reason
     assert len(found.reason) < 400
@@ -432,7 +432,7 @@ def test_a_tutor_who_leaves_the_program_breaks_his_own_dialogue_alone() -> None:
     def play(study: Study, run: Run) -> Played:
         raise SystemExit(0)
 
-    found = outcome(STUDY, run_of(STUDY, 0), play)
+    found = play_to_outcome(STUDY, run_of(STUDY, 0), play)
     assert isinstance(found, Broken)
     assert found.reason.startswith("SystemExit")
 

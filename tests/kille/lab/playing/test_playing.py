@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from kille.lab.playing import play
 from kille.lab.study import Named, Phase, Run, Study, Theory
-from kille.lab.study_files import checked
+from kille.lab.study_files import read_and_check
 
 PROTOCOLS = Path(__file__).parents[4] / "examples/studies/protocols"
 
@@ -180,13 +180,13 @@ def test_another_seed_is_another_dialogue():
 def test_it_is_the_same_in_every_process():
     """Whatever the order of hashes, and whatever was played before."""
     file = PROTOCOLS / "frames.toml"
-    made = checked(file)
+    made = read_and_check(file)
     runs = list(made.runs())
     code = (
         "import hashlib, sys; from pathlib import Path;"
-        "from kille.lab.study_files import checked;"
+        "from kille.lab.study_files import read_and_check;"
         "from kille.lab.playing import play;"
-        "made = checked(Path(sys.argv[1])); run = list(made.runs())[1];"
+        "made = read_and_check(Path(sys.argv[1])); run = list(made.runs())[1];"
         "print(hashlib.sha256(repr(play(made, run)).encode()).hexdigest())"
     )
 
@@ -211,7 +211,7 @@ def test_every_protocol_that_is_shipped_can_be_played(file, request):
         beside = PROTOCOLS.parents[3] / "shared/data"
         if not request.getfixturevalue("data").samefile(beside):
             pytest.skip("the captures are not where the study has them")
-    made = checked(file)
+    made = read_and_check(file)
     if "rendered" in {it.kind for it in made.scenes.values()}:
         made = replace(made, turns=6)
     it = play(made, next(made.runs()))

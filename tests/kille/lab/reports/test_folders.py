@@ -13,9 +13,9 @@ import little_study
 from kille.lab import reports
 from kille.lab.errors import StudyError
 from kille.lab.log import Log, RunError
-from kille.lab.log.outcomes import outcome
+from kille.lab.log.outcomes import play_to_outcome
 from kille.lab.results import Estimate, Result, Table
-from kille.lab.study_files import parsed
+from kille.lab.study_files import parse
 
 STUDY = """
 title = "Numbers & <guesses>"
@@ -49,10 +49,10 @@ def ran(
     folder: Path, seeds: str = "4", other: str = "other", text: str = STUDY
 ) -> Path:
     """A folder of results; of a theory called bad one dialogue breaks."""
-    study = parsed(text.format(seeds=seeds, other=other), Path("numbers.toml"))
+    study = parse(text.format(seeds=seeds, other=other), Path("numbers.toml"))
     with Log.opened(study, folder) as log:
         for run in study.runs():
-            log.write(outcome(study, run, little_study.play))
+            log.write(play_to_outcome(study, run, little_study.play))
     return folder
 
 
@@ -93,10 +93,10 @@ def test_what_broke_is_told_and_the_rest_is_there(tmp_path: Path) -> None:
 
 def test_theories_are_shown_though_all_their_dialogues_broke(tmp_path: Path) -> None:
     folder, study = tmp_path / "results", STUDY.replace("[theories.good]", "")
-    found = parsed(study.format(seeds="[2]", other="bad"), Path("numbers.toml"))
+    found = parse(study.format(seeds="[2]", other="bad"), Path("numbers.toml"))
     with Log.opened(found, folder) as log:
         for run in found.runs():
-            log.write(outcome(found, run, little_study.play))
+            log.write(play_to_outcome(found, run, little_study.play))
     page, results = reports.report(folder)
     assert not results
     assert "No dialogue was played to its end." in page.read_text("utf-8")

@@ -12,7 +12,7 @@ import little_study
 from kille.lab import log
 from kille.lab.dialogues import Played
 from kille.lab.log import Broken, Finished, Outcome
-from kille.lab.log.outcomes import outcome
+from kille.lab.log.outcomes import play_to_outcome
 from kille.lab.running import crew, replay, run
 from kille.lab.running.replaying import difference
 from kille.lab.study import Run, Study
@@ -36,7 +36,7 @@ def test_others_may_play_it_again(tmp_path: Path) -> None:
 
 
 def before() -> Finished:
-    found = outcome(STUDY, next(STUDY.runs()), play)
+    found = play_to_outcome(STUDY, next(STUDY.runs()), play)
     assert isinstance(found, Finished)
     return found
 
@@ -89,7 +89,7 @@ def test_what_broke_breaks_again_or_differs() -> None:
         raise ValueError("no cups")
 
     it = next(STUDY.runs())
-    broken: Outcome = outcome(STUDY, it, as_ever)
+    broken: Outcome = play_to_outcome(STUDY, it, as_ever)
     assert isinstance(broken, Broken)
     assert difference(broken, broken._replace(trace="", seconds=7.0)) is None
     found = difference(broken, before())

@@ -27,8 +27,8 @@ from kille.lab import log
 from kille.lab.errors import StudyError
 from kille.lab.log import Log, write_tables
 from kille.lab.log.outcomes import Outcome, RunError
-from kille.lab.running.clusters import _Cluster, _connected
-from kille.lab.running.crews import alone, crew, playing
+from kille.lab.running.clusters import _Cluster, _connect
+from kille.lab.running.crews import alone, crew, play_runs
 from kille.lab.running.local import MOST, Workers
 from kille.lab.running.runner import Progress, forget_broken, run
 from kille.lab.running.schedulers import Scheduler
@@ -62,7 +62,7 @@ def test_what_breaks_stops_no_other_dialogue(tmp_path: Path) -> None:
     study = little_study.study(theories=(BAD, GOOD))
     summary = run(study, tmp_path, play)
     assert (summary.played, summary.broken) == (6, 1)
-    assert [str(it.run) for it in log.broken(tmp_path)] == ["bad/Ann/table/2"]
+    assert [str(it.run) for it in log.broken_runs(tmp_path)] == ["bad/Ann/table/2"]
     assert run(study, tmp_path, play).played == 0
     assert forget_broken(study, tmp_path) == 1
     assert run(study, tmp_path, play).played == 1
@@ -80,7 +80,7 @@ def test_it_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
 
     with pytest.raises(KeyboardInterrupt):
         run(study, tmp_path, counting)  # type: ignore[arg-type]
-    assert log.over(tmp_path) == 3
+    assert log.count_outcomes(tmp_path) == 3
     assert run(study, tmp_path, counting).played == 3  # type: ignore[arg-type]
     assert played == [*list(study.runs())[:4], *list(study.runs())[3:]]
 
@@ -111,7 +111,10 @@ def test_results_are_the_same_bytes_for_any_number_of_workers(tmp_path: Path) ->
         assert run(study, folder, play, crew(workers)).played == 80
         write_tables(folder)
     assert folder_of(tmp_path / "1") == folder_of(tmp_path / "2")
-    assert log.broken(tmp_path / "2")[0].reason == log.broken(tmp_path / "1")[0].reason
+    assert (
+        log.broken_runs(tmp_path / "2")[0].reason
+        == log.broken_runs(tmp_path / "1")[0].reason
+    )
 
 
 def test_a_dialogue_that_kills_its_workers_is_found_and_the_others_played(
@@ -120,7 +123,7 @@ def test_a_dialogue_that_kills_its_workers_is_found_and_the_others_played(
     study = little_study.study(seeds=10, theories=(GOOD, DEADLY))
     summary = run(study, tmp_path, play, crew(2))
     assert (summary.played, summary.broken) == (20, 1)
-    (broken,) = log.broken(tmp_path)
+    (broken,) = log.broken_runs(tmp_path)
     assert str(broken.run) == "deadly/Ann/table/2"
     assert "every worker that played it died" in broken.reason
 
@@ -155,7 +158,7 @@ def test_a_scheduler_that_goes_away_is_one_line_and_loses_nothing(
 
         with pytest.raises(RunError, match="is gone: what was over is kept"):
             run(study, tmp_path, play, crew(None, Scheduler(address)), told)
-    over = log.over(tmp_path)
+    over = log.count_outcomes(tmp_path)
     assert 200 <= over < 10_000
     assert run(study, tmp_path, play).played == 10_000 - over
 
@@ -173,7 +176,7 @@ def test_a_cluster_without_workers_is_one_line_and_loses_nothing(
 
         with pytest.raises(RunError, match="no worker is left at tcp"):
             run(study, tmp_path, play, crew(None, Scheduler(address)), told)
-    assert 100 <= log.over(tmp_path) < 600
+    assert 100 <= log.count_outcomes(tmp_path) < 600
 
 
 def test_a_scheduler_that_is_gone_when_runs_are_to_be_sent_is_one_line() -> None:
@@ -213,7 +216,7 @@ def test_what_dask_leaves_unheard_is_not_told(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     with cluster(workers=1) as (address, _, _):
-        with _connected(Scheduler(address), SETTLED) as client:
+        with _connect(Scheduler(address), SETTLED) as client:
             future = client.loop.asyncio_loop.create_future()
             future.set_exception(TimeoutError())
         del future
@@ -223,7 +226,7 @@ def test_what_dask_leaves_unheard_is_not_told(
 def played_by(scheduler: Scheduler) -> list[Outcome]:
     study = little_study.study()
     by = crew(None, scheduler)
-    with playing(study, list(study.runs()), play, by) as outcomes:
+    with play_runs(study, list(study.runs()), play, by) as outcomes:
         return list(outcomes)
 
 
@@ -548,7 +551,7 @@ def test_dialogues_that_always_kill_their_workers_are_all_found(
 def test_what_cannot_be_sent_breaks_its_own_dialogue(tmp_path: Path) -> None:
     unsendable = little_study.give_what_cannot_be_sent
     assert run(little_study.study(), tmp_path, unsendable, crew(2)).broken == 6
-    assert "cannot pickle" in log.broken(tmp_path)[0].reason
+    assert "cannot pickle" in log.broken_runs(tmp_path)[0].reason
 
 
 def test_what_is_large_is_sent_whole(tmp_path: Path) -> None:
@@ -696,7 +699,7 @@ def test_a_stop_is_clean_and_quick(
         _, told = program.communicate(timeout=60)
     assert program.returncode == 128 + number
     assert told == b""
-    assert 50 <= log.over(tmp_path) < 4_000
+    assert 50 <= log.count_outcomes(tmp_path) < 4_000
 
 
 def test_what_was_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
@@ -706,7 +709,7 @@ def test_what_was_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
         with started(killed, "2", over, seeds=300) as program:
             program.kill()
             program.communicate(timeout=SETTLED)
-        assert over <= log.over(killed) < 600
+        assert over <= log.count_outcomes(killed) < 600
     run(study, killed, play)
     run(study, whole, play)
     for folder in (killed, whole):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from kille.lab.errors import StudyError
-from kille.lab.study_files import check, checked, parsed
+from kille.lab.study_files import check, parse, read_and_check
 from kille.sensors.captures import read_sequence
 
 HEAD = "title = 'Trying'\nseeds = 1\n"
@@ -84,7 +84,7 @@ def found(tmp_path: Path, theories: str, scene: str = "drawn") -> tuple[str, ...
     file = tmp_path / "study.toml"
     file.write_text(HEAD + theories + REST.format(scene=scene))
     try:
-        checked(file)
+        read_and_check(file)
     except StudyError as error:
         return tuple(it.replace(f"{tmp_path}/", "") for it in error.faults)
     return ()
@@ -255,7 +255,7 @@ def test_people_may_type_to_a_theory_with_meanings(tmp_path: Path) -> None:
     (tmp_path / "own.ttr").write_text(packaged("tutor.ttr"), encoding="utf-8")
     text = f"{HEAD}[theories.one]\nmeanings = 'own.ttr'\n" + REST.format(scene="drawn")
     text += "[tutors.me]\nkind = 'keyboard'\n"
-    assert check(parsed(text, tmp_path / "study.toml")) == ()
+    assert check(parse(text, tmp_path / "study.toml")) == ()
 
 
 @pytest.mark.parametrize(
@@ -452,7 +452,7 @@ def wrong(folder: Path, *changes: tuple[str, str]) -> list[str]:
         text = text.replace(old, new, 1)
     (folder / "study.toml").write_text(text, encoding="utf-8")
     try:
-        checked(folder / "study.toml")
+        read_and_check(folder / "study.toml")
     except StudyError as error:
         return [it.replace(f"{folder}/", "") for it in error.faults]
     return []
@@ -678,6 +678,6 @@ def test_what_tutors_scenes_and_phases_miss_is_told(tmp_path: Path) -> None:
     text = HEAD + "[theories.one]\n" + REST.format(scene="drawn")
     text += "[[phases]]\ndo = 'change_tutor'\nto = 'Bob'\n"
     text += "[tutors.both]\nkind = 'several'\nof = ['Ann', 'Bo']\n"
-    told = check(parsed(text, tmp_path / "study.toml"))
+    told = check(parse(text, tmp_path / "study.toml"))
     assert any("Bob" in it for it in told)
     assert any("Bo" in it and "both" in it for it in told)

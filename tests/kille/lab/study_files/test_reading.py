@@ -16,9 +16,9 @@ from kille.dialogue.strategies import strategy
 from kille.lab import scenes, tutors
 from kille.lab.errors import StudyError
 from kille.lab.protocols import phases
-from kille.lab.settings import Key, Setting, unfit
+from kille.lab.settings import Key, Setting, setting_problems
 from kille.lab.study import Run, Study
-from kille.lab.study_files import checked, parsed, read
+from kille.lab.study_files import parse, read, read_and_check
 from kille.lab.study_files.problems import line_of, lines_of
 from kille.lab.study_files.shape import LEARNERS, THEORY
 from kille.lab.study_files.shape import STUDY as STUDY_KEYS
@@ -68,12 +68,12 @@ PATH = Path("studies/sure.toml")
 
 
 def study(text: str = STUDY) -> Study:
-    return parsed(text, PATH)
+    return parse(text, PATH)
 
 
 def faults(text: str) -> tuple[str, ...]:
     with pytest.raises(StudyError) as raised:
-        parsed(text, PATH)
+        parse(text, PATH)
     return raised.value.faults
 
 
@@ -146,7 +146,7 @@ def test_seeds_are_a_number_or_a_list(seeds: str, wanted: tuple[int, ...]) -> No
 def test_a_file_is_read_as_its_text(tmp_path: Path) -> None:
     file = tmp_path / "sure.toml"
     file.write_text(STUDY)
-    assert read(file) == parsed(STUDY, file)
+    assert read(file) == parse(STUDY, file)
 
 
 # --- what is wrong --------------------------------------------------------------------
@@ -296,7 +296,7 @@ def test_a_mark_of_byte_order_is_no_mistake(tmp_path: Path) -> None:
     """Some editors put it at the beginning of a file."""
     file = tmp_path / "sure.toml"
     file.write_text(STUDY, encoding="utf-8-sig")
-    assert read(file) == parsed(STUDY, file)
+    assert read(file) == parse(STUDY, file)
 
 
 def test_a_name_much_like_that_of_a_file_is_told(tmp_path: Path) -> None:
@@ -323,7 +323,7 @@ def test_whatever_is_written_is_a_study_or_told(at: int, gone: int, new: str) ->
     text = STUDY[:at] + new + STUDY[at + gone :]
     try:
         found: tuple[str, ...] = ()
-        assert parsed(text, PATH).source == text
+        assert parse(text, PATH).source == text
     except StudyError as error:
         found = error.faults or ("nothing",)
     assert all(it.startswith(f"{PATH}:") for it in found)
@@ -423,8 +423,8 @@ def test_only_tutors_may_be_named_twice(
 
 def test_a_slip_in_a_needed_key_is_told_once() -> None:
     declared = {"folder": Setting(needed=True)}
-    assert len(list(unfit({"foldr": "a"}, declared, "a scene"))) == 1
-    assert len(list(unfit({}, declared, "a scene"))) == 1
+    assert len(list(setting_problems({"foldr": "a"}, declared, "a scene"))) == 1
+    assert len(list(setting_problems({}, declared, "a scene"))) == 1
 
 
 # --- the reference --------------------------------------------------------------------
@@ -506,7 +506,7 @@ def test_the_reference_names_all_learners() -> None:
 def test_the_study_in_the_reference_is_fine(tmp_path: Path) -> None:
     text = PAGE.read_text("utf-8").split("```toml\n", 1)[1].split("```", 1)[0]
     (tmp_path / "sure.toml").write_text(text)
-    assert len(list(checked(tmp_path / "sure.toml").runs())) == 40
+    assert len(list(read_and_check(tmp_path / "sure.toml").runs())) == 40
 
 
 def with_plan(plan: str) -> str:
@@ -515,10 +515,10 @@ def with_plan(plan: str) -> str:
 
 def test_a_study_says_what_it_compares_and_by_which_measure(tmp_path: Path) -> None:
     path = tmp_path / "a.toml"
-    plain = parsed(STUDY, path)
+    plain = parse(STUDY, path)
     assert (plain.main, plain.contrasts) == ("accuracy", ())
     text = with_plan('main = "kappa"\ncontrasts = [["plain", "sure"]]')
-    planned = parsed(text, path)
+    planned = parse(text, path)
     assert (planned.main, planned.contrasts) == ("kappa", (("plain", "sure"),))
 
 
@@ -543,7 +543,7 @@ def test_a_plan_that_cannot_be_is_told_on_its_line(
     plan: str, told: str, tmp_path: Path
 ) -> None:
     with pytest.raises(StudyError) as caught:
-        parsed(with_plan(plan), tmp_path / "a.toml")
+        parse(with_plan(plan), tmp_path / "a.toml")
     line, *_ = str(caught.value).splitlines()
     assert told in line
     assert "a.toml:6: " in line

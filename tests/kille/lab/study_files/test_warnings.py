@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 import pytest
 
-from kille.lab.study_files import checked
-from kille.lab.study_files.warnings import doubts
+from kille.lab.study_files import read_and_check
+from kille.lab.study_files.warnings import warnings_of
 
 STUDY = """\
 title = "Trying"
@@ -53,7 +53,7 @@ def found(folder: Path, *changes: Change) -> list[str]:
         text = text.replace(old, new, 1)
     (folder / "study.toml").write_text(text, encoding="utf-8")
     (folder / "own.py").write_text(OWN)
-    told = doubts(checked(folder / "study.toml"))
+    told = warnings_of(read_and_check(folder / "study.toml"))
     return [it.replace(f"{folder}/", "") for it in told]
 
 
@@ -73,7 +73,7 @@ def test_of_the_studies_that_are_shipped_there_is_none(
 ) -> None:
     if "shared/data" in file.read_text("utf-8"):
         request.getfixturevalue("data")
-    assert doubts(checked(file)) == ()
+    assert warnings_of(read_and_check(file)) == ()
 
 
 # --- theories -------------------------------------------------------------------------

@@ -25,7 +25,7 @@ from kille.lab.errors import TheoryError
 from kille.lab.playing import play
 from kille.lab.robots.simulated import SimulatedRobot
 from kille.lab.study import Run, Study, Theory
-from kille.lab.study_files import parsed, read
+from kille.lab.study_files import parse, read
 from kille.lab.theories import agent_of, game_of, strategy_of
 from kille.lab.theories.classifiers import learners_of
 from kille.lab.theories.descriptions import describe, rules_apart
@@ -391,7 +391,7 @@ class Nearest:
 @pytest.mark.parametrize("name", ["default", "own"])
 def test_colours_that_are_taught_are_learned(tmp_path: Path, name: str) -> None:
     (tmp_path / "own.py").write_text(NEAREST)
-    study = parsed(COLOURS, tmp_path / "study.toml")
+    study = parse(COLOURS, tmp_path / "study.toml")
     answers = play(study, Run(name, "Ann", "table", 1)).answers
     assert sum(it.is_right for it in answers) > len(answers) / 2
     assert all(it.degrees for it in answers)
@@ -431,7 +431,7 @@ do = "ask"
 
 def test_what_a_learner_draws_follows_from_the_run(tmp_path: Path) -> None:
     (tmp_path / "own.py").write_text(DRAWING)
-    study = parsed(DRAWN, tmp_path / "study.toml")
+    study = parse(DRAWN, tmp_path / "study.toml")
     once, again, other = (
         play(study, Run(it, "Ann", "table", 1)) for it in ("one", "one", "other")
     )
