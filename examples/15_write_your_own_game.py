@@ -13,8 +13,8 @@ from kille.dialogue.games import TUTORING
 from kille.dialogue.meanings import noun
 from kille.dialogue.moves import answering, content_of, plan, said_of
 from kille.dialogue.reference import thing_at
-from kille.lab.worlds.games import simulated
-from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.games import simulated_game
+from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.worlds import Thing, World
 from ttr.updates import replace_rules, rule
 
@@ -33,7 +33,7 @@ rules = replace_rules(TUTORING, {"admit_name": make_up})
 kinds = ("cup", "book", "box")
 things = [Thing(kind, "red", place=(3 * n, 3)) for n, kind in enumerate(kinds)]
 world = World(tuple(things))
-robots = [simulated(world, rules=rules, mode="driven") for _ in range(2)]
+robots = [simulated_game(world, rules=rules, mode="driven") for _ in range(2)]
 now = [robot.begin() for robot in robots]
 
 
@@ -46,9 +46,9 @@ def hears(one: int, event: object) -> list[str]:
 
 for turn in range(12):
     asker, asked = turn % 2, (turn + 1) % 2
-    world, before = world.pointed(turn % 3 + 1).looked(), world
+    world, before = world.point_at(turn % 3 + 1).look_again(), world
     for robot in range(2):
-        hears(robot, glanced(world, before))
+        hears(robot, glance_event(world, before))
     [name] = hears(asked, robots[asked].hear("What is this?"))
     learned = hears(asker, robots[asker].hear(name))
     print(f"{kinds[turn % 3]}: {name}", *learned)

@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from kille.interfaces.showing import in_short
-from kille.lab.worlds.games import simulated
-from kille.lab.worlds.perception import seen
+from kille.lab.worlds.games import simulated_game
+from kille.lab.worlds.perception import look_event
 from kille.lab.worlds.worlds import Thing, World
 from ttr import Record
 from ttr.types.records import differences
@@ -66,7 +66,7 @@ def _section(game: Mapping[str, Any]) -> Iterator[str]:
     yield "| said | rules | state before → after |"
     yield "| --- | --- | --- |"
     world = World(tuple(Thing(**_placed(it)) for it in game.get("things", ())))
-    playing = simulated(world)
+    playing = simulated_game(world)
     now = playing.begin()
     for text in game["dialogue"]:
         world, event = _happening(playing, world, text)
@@ -80,16 +80,16 @@ def _happening(game: Game, world: World, text: str) -> tuple[World, object]:
     """What a line makes happen: words, or a change of the scene that is then seen."""
     match text.split():
         case ["@", "put", number, right, away]:
-            after = world.moved(int(number), (int(right), int(away)))
+            after = world.move(int(number), (int(right), int(away)))
         case ["@", "take", number]:
-            after = world.moved(int(number), None)
+            after = world.move(int(number), None)
         case ["@", "point", number]:
-            after = world.pointed(int(number))
+            after = world.point_at(int(number))
         case _:
             assert game.hear is not None
             return world, game.hear(text)
-    after = after.looked()
-    return after, seen(after, world)
+    after = after.look_again()
+    return after, look_event(after, world)
 
 
 def _placed(thing: Mapping[str, Any]) -> dict[str, Any]:

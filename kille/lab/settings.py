@@ -57,9 +57,10 @@ class Setting:
     is there `twice` unless that says something. What is `needed` has no default, and is
     not empty.
 
-    >>> Setting((str, float), "viewer", among=("viewer", "landmark"), most=1.0).unfit(2)
+    >>> frame = Setting((str, float), "viewer", among=("viewer", "landmark"), most=1.0)
+    >>> frame.problem_with(2)
     'expected viewer, landmark or a number from 0 to 1, found 2'
-    >>> Setting(float, 0.0).unfit(1)
+    >>> Setting(float, 0.0).problem_with(1)
     ''
     """
 
@@ -74,19 +75,20 @@ class Setting:
     unit: str = ""
     about: str = ""
 
-    def unfit(self, value: object) -> str:
+    def problem_with(self, value: object) -> str:
         """Why a value is none for it, as a sentence without an end; else nothing."""
         if self.several:
-            return self._unfit_list(value)
+            return self._problem_with_list(value)
         is_blank = self.needed and isinstance(value, str) and not value.strip()
-        return self._expected(value) if is_blank or not self._fits(value) else ""
+        return self._expectation(value) if is_blank or not self._fits(value) else ""
 
-    def _unfit_list(self, value: object) -> str:
+    def _problem_with_list(self, value: object) -> str:
         if not isinstance(value, list | tuple):
-            return f"expected a list, each {self._wanted()}, found {show_value(value)}"
+            each, found = self._wanted_values(), show_value(value)
+            return f"expected a list, each {each}, found {found}"
         for one in value:
             if not self._fits(one):
-                return self._expected(one)
+                return self._expectation(one)
         if self.needed and not value:
             return "expected one at least, found an empty list"
         if self.twice:
@@ -107,13 +109,13 @@ class Setting:
                 return str in types and (not self.among or value in self.among)
         return isinstance(value, types)
 
-    def _expected(self, value: object) -> str:
+    def _expectation(self, value: object) -> str:
         hint = ""
         if isinstance(value, str) and self.among:
             hint = nearest_name(value, self.among, " (did you mean {}?)")
-        return f"expected {self._wanted()}, found {show_value(value)}{hint}"
+        return f"expected {self._wanted_values()}, found {show_value(value)}{hint}"
 
-    def _wanted(self) -> str:
+    def _wanted_values(self) -> str:
         types = self.types if isinstance(self.types, tuple) else (self.types,)
         wanted: list[str] = []
         for one in types:
@@ -166,7 +168,7 @@ def setting_problems(
             meant.add(nearest_name(key, declared, "{}"))
             told = f"{what} has no {key}: {suggest_name(key, declared)}"
             yield Problem((key,), told)
-        elif why := declared[key].unfit(value):
+        elif why := declared[key].problem_with(value):
             yield Problem((key,), f"{key} of {what}: {why}")
     for key, one in declared.items():
         if one.needed and key not in meant:

@@ -141,7 +141,7 @@ def _lines(turn: Turn, answers: Sequence[Answer]) -> Iterator[str]:
 
 def _describe_input(turn: Turn) -> str:
     """What the tutor said or did; of a simulated look, only the things in view."""
-    world = World.named(turn.given)
+    world = World.from_name(turn.given)
     if world is None and turn.given:
         return turn.given if turn.words else f"({turn.act}: {turn.given})"
     if world is None:

@@ -20,6 +20,7 @@ from kille.lab.log.outcomes import Broken, Finished, Outcome, broken_run
 from kille.lab.log.schema import check_rows, is_empty, make, marks, table
 from kille.lab.study import Run, Study
 from kille.safety.private_files import create_private_file
+from ttr.aliases import Alias
 
 
 class Log:
@@ -32,7 +33,7 @@ class Log:
 
     @classmethod
     @contextmanager
-    def opened(cls, study: Study, folder: Path) -> Iterator[Self]:
+    def open(cls, study: Study, folder: Path) -> Iterator[Self]:
         """The log of this study in a folder, for one writer at a time.
 
         RunError where another study's log is there, where another writes to it, or
@@ -47,7 +48,7 @@ class Log:
             with suppress(sqlite3.OperationalError):
                 connection.execute("PRAGMA journal_mode = DELETE")
 
-    def over(self) -> Mapping[Run, str]:
+    def reasons(self) -> Mapping[Run, str]:
         """The runs that are over, each with the reason why it broke, if it did."""
         told = "SELECT theory, tutor, scene, seed, reason FROM runs ORDER BY place"
         rows: list[tuple[Any, ...]] = self._connection.execute(told).fetchall()
@@ -78,21 +79,26 @@ class Log:
             match outcome:
                 case Finished(run, played, seconds):
                     facts = json.dumps(dict(played.facts), ensure_ascii=False)
-                    self._run(place, run, seconds, played.lessons, facts, "", "")
-                    self._rows(place, Turn, played.turns)
-                    self._rows(place, Answer, played.answers)
+                    self._insert_run(place, run, seconds, played.lessons, facts, "", "")
+                    self._insert_rows(place, Turn, played.turns)
+                    self._insert_rows(place, Answer, played.answers)
                 case Broken(run, reason, trace, seconds):
-                    self._run(place, run, seconds, 0, "{}", reason or "broken", trace)
+                    self._insert_run(
+                        place, run, seconds, 0, "{}", reason or "broken", trace
+                    )
 
-    def _run(self, place: int, run: Run, *rest: object) -> None:
+    def _insert_run(self, place: int, run: Run, *rest: object) -> None:
         values = (place, run.theory, run.tutor, run.scene, run.seed, *rest)
         self._connection.execute(f"INSERT INTO runs VALUES ({marks(values)})", values)
 
-    def _rows(self, place: int, of: type, rows: Sequence[Turn | Answer]) -> None:
+    def _insert_rows(self, place: int, of: type, rows: Sequence[Turn | Answer]) -> None:
         found = [(place, number, *cells(row)) for number, row in enumerate(rows)]
         if found:
             told = f"INSERT INTO {table(of)} VALUES ({marks(found[0])})"
             self._connection.executemany(told, found)
+
+    opened = Alias("open")
+    over = Alias("reasons")
 
 
 def _open_connection(study: Study, folder: Path) -> sqlite3.Connection:

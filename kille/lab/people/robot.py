@@ -86,7 +86,7 @@ class TypedReply(Reply):
         return self.asks and not self.wants
 
     @property
-    def pointed(self) -> int | None:
+    def pointed_thing(self) -> int | None:
         """The thing whose number is named."""
         return self.points
 
@@ -100,7 +100,7 @@ class TypedReply(Reply):
         """The first word that is claimed."""
         return next((word for _, word in self.claimed), "")
 
-    def said(self, kind: str) -> str:
+    def claimed_word(self, kind: str) -> str:
         """The word of a kind that is claimed, the last of several: it sets right."""
         return dict(self.claimed).get(kind, "")
 
@@ -118,7 +118,7 @@ class TypedRobot:
     def see(self, occasion: Occasion) -> Reply:
         """What is seen is told with what is said next."""
         self._occasion = occasion
-        self._seen = f"\n{format_view(occasion, occasion.shown)}"
+        self._seen = f"\n{format_view(occasion, occasion.world_seen)}"
         return self._reply("")
 
     def wait(self, occasion: Occasion) -> Reply:
@@ -140,7 +140,7 @@ class TypedRobot:
         if command == "restart":
             return self.rest()
         if now is not None and command == "look":
-            return self.wait(now.looked())
+            return self.wait(now.look_again())
         if now is None or now.view is not None:
             self._before += f"\nWhat happens: {command}"
             return self._reply("")
@@ -163,12 +163,14 @@ class TypedRobot:
     def _line(self, told: str) -> str:
         """The line that they type, with what has happened since the last one."""
         before, self._before, self._seen = f"{self._before}{self._seen}", "", ""
-        line = self._typed(f"{before}\n{told}" if before else told)
-        while line == "?" or (_POINTS.search(line) and self._pointed(line) is None):
-            line = self._typed(self._help() if line == "?" else self._numbers())
+        line = self._read(f"{before}\n{told}" if before else told)
+        while line == "?" or (
+            _POINTS.search(line) and self._thing_pointed_at(line) is None
+        ):
+            line = self._read(self._help() if line == "?" else self._numbers())
         return "" if line == "." else line
 
-    def _typed(self, told: str) -> str:
+    def _read(self, told: str) -> str:
         return self._ask(f"{told}\nRobot (you): ").strip()
 
     def _help(self) -> str:
@@ -180,11 +182,11 @@ class TypedRobot:
 
     @property
     def _in_view(self) -> tuple[int, ...]:
-        return () if self._occasion is None else self._occasion.shown.in_view
+        return () if self._occasion is None else self._occasion.world_seen.in_view
 
     # --- what is made of it ----------------------------------------------------------
 
-    def _pointed(self, line: str) -> int | None:
+    def _thing_pointed_at(self, line: str) -> int | None:
         """The first thing in view whose number is named."""
         known = {str(it): it for it in self._in_view}
         return next((known[it] for it in _POINTS.findall(line) if it in known), None)
@@ -194,14 +196,14 @@ class TypedRobot:
         if not line or line.endswith("?"):
             return True
         if kind == "reference":
-            return self._pointed(line) is not None
+            return self._thing_pointed_at(line) is not None
         moves = acts(line, self._language)
         return "okay" in moves or kind in dict(claimed_words(line, self._language))
 
     def _reply(self, line: str) -> Reply:
         text, model = _POINTS.sub("", line), self._model
         read, now = sentences(text, self._language), self._occasion
-        points = self._pointed(line)
+        points = self._thing_pointed_at(line)
         return TypedReply(
             line,
             tuple(_move(it.readings[0], model) for it in read if it.readings),

@@ -71,7 +71,9 @@ def question(task: Task, language: str) -> str:
     """A question to which the answer would be kept."""
     words, it = Words(language), task.occasion
     if task.do == "find":
-        return words.finding(words.described(it.thing, *BY[task.settings["by"]]))
+        return words.which_question(
+            words.phrase_for(it.thing, *BY[task.settings["by"]])
+        )
     return words.question(it.kind)
 
 
@@ -84,10 +86,10 @@ def example(kind: str, language: str) -> str:
     words, car = Words(language), Thing("car", "red")
     match kind:
         case "noun":
-            return words.lesson(kind, words.called(car.kind))
+            return words.lesson(kind, words.word_for(car.kind))
         case "adjective":
-            return words.lesson(kind, words.called(car.colour))
+            return words.lesson(kind, words.word_for(car.colour))
         case "relation":
-            landmark = words.described(car, "noun")
-            return words.lesson(kind, words.called("behind"), landmark)
+            landmark = words.phrase_for(car, "noun")
+            return words.lesson(kind, words.word_for("behind"), landmark)
     return "#2"

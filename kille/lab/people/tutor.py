@@ -75,7 +75,7 @@ class _Step:
         self._who, self._task = who, task
         self._now = task.of
         if self._now is not None and task.do == "find":
-            self._now = self._now.unpointed()
+            self._now = self._now.without_pointing()
         self._last: Reply | None = None
         self._owes = bool(kept_kind(task))
         self._reminded = False
@@ -85,11 +85,11 @@ class _Step:
         task = self._task
         told = f"\nStep {task.number}, {task.phase}: {instruction(task)}."
         if self._now is not None:
-            told += f"\n{yield from self._taken(Shows(self._now))}"
+            told += f"\n{yield from self._make_move(Shows(self._now))}"
         told += f"\n{self._help() if self._task.number == 1 else _HINT}"
         line = self._line(told)
         while line != ON or self._is_owing():
-            line = self._line((yield from self._told(line)))
+            line = self._line((yield from self._respond(line)))
 
     def _line(self, told: str) -> str:
         return self._who.ask(f"{told}\n{self._who.name} (you): ").strip()
@@ -98,7 +98,7 @@ class _Step:
         has_table = self._now is not None and self._now.view is None
         return _HELP.format(
             language=_LANGUAGES[self._who.language],
-            help=Words(self._who.language).plainly("ask_help"),
+            help=Words(self._who.language).plain_move("ask_help"),
             table=_TABLE if has_table else "",
         )
 
@@ -109,7 +109,7 @@ class _Step:
 
     # --- what comes of a line --------------------------------------------------------
 
-    def _told(self, line: str) -> Generator[Move, Reply, str]:
+    def _respond(self, line: str) -> Generator[Move, Reply, str]:
         """What they are told after a line: the robot's reply, or why there is none."""
         if line == HELP:
             return self._help()
@@ -117,11 +117,11 @@ class _Step:
             return _UNASKED.format(question(self._task, self._who.language))
         try:
             move = self._move(line)
-            return (yield from self._taken(move))
+            return (yield from self._make_move(move))
         except (StudyError, SensorError) as error:
             return str(error)
 
-    def _taken(self, move: Move) -> Generator[Move, Reply, str]:
+    def _make_move(self, move: Move) -> Generator[Move, Reply, str]:
         reply = yield move
         self._last = reply
         said = f"Robot: {reply.text}" if reply.text else ""
@@ -138,23 +138,23 @@ class _Step:
     def _move(self, line: str) -> Move:
         """The move that a line is; `StudyError` where it is none."""
         if line.startswith("@"):
-            return self._happening(line.removeprefix("@").strip())
+            return self._command_move(line.removeprefix("@").strip())
         if not line:
-            return self._waiting()
+            return self._wait()
         moves = acts(line, self._who.language)
         act = moves[0] if moves else "says"
-        return Says(line, act, self._asked(moves), self._corrects(act))
+        return Says(line, act, self._question_asked(moves), self._corrects(act))
 
-    def _waiting(self) -> Move:
+    def _wait(self) -> Move:
         if self._now is None:
             raise StudyError(["There is nothing to look at: type what you say."])
-        return Waits(self._now.looked())
+        return Waits(self._now.look_again())
 
-    def _happening(self, command: str) -> Move:
+    def _command_move(self, command: str) -> Move:
         if command == "restart":
             return Happens(command)
         if command == "look":
-            return self._waiting()
+            return self._wait()
         if self._now is None or self._now.view is not None:
             told = "write `look` or `restart`, nothing else can happen here"
             raise StudyError([f"@ {command or '…'}: {told}"])
@@ -172,13 +172,13 @@ class _Step:
             and not last.asks
         )
 
-    def _asked(self, moves: tuple[str, ...]) -> Asked | None:
+    def _question_asked(self, moves: tuple[str, ...]) -> Asked | None:
         """The question that the step is for, if it is this one."""
         kind, now = kept_kind(self._task), self._now
         asks = kind in {QUESTIONS.get(it) for it in moves}
         if not self._owes or not asks or now is None:
             return None
-        x = now.x if kind == "reference" else now.world.attended
+        x = now.x if kind == "reference" else now.world.attended_thing
         if x is None or (kind == "relation" and x != now.x):
             return None
         right = self._right(kind, now, x)
@@ -193,10 +193,10 @@ class _Step:
             case "reference":
                 return now.name(x)
             case "noun":
-                return words.called(thing.kind)
+                return words.word_for(thing.kind)
             case "adjective":
-                return words.called(thing.colour)
-        return words.called(now.said) if now.said else self._place()
+                return words.word_for(thing.colour)
+        return words.word_for(now.said) if now.said else self._place()
 
     def _place(self) -> str:
         """The word for a place that they would use themselves."""

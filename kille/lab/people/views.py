@@ -10,7 +10,7 @@ def format_view(occasion: Occasion, world: World) -> str:
     """What there is in a world of an occasion, or in what a camera has taken.
 
     >>> from kille.lab.worlds.worlds import Thing
-    >>> world = World((Thing("cup", "red", place=(2, 3)),)).pointed(1)
+    >>> world = World((Thing("cup", "red", place=(2, 3)),)).point_at(1)
     >>> print(format_view(Occasion("noun", world, 1), world))
     On the table:
       #1 red cup, 2 right 3 away  <- pointed at

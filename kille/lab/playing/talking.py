@@ -55,7 +55,7 @@ def play(study: Study, run: Run) -> Played:
                 talk.rest(task)
             else:
                 talk.play(task, tutor)
-    return talk.played()
+    return talk.record()
 
 
 class _Dialogue:
@@ -88,22 +88,22 @@ class _Dialogue:
             move = next(moves, None)
             while move is not None:
                 try:
-                    reply = self._taken(task, tutor, move)
+                    reply = self._make_move(task, tutor, move)
                 except (StudyError, SensorError) as error:
                     move = _move_instead(moves, error)
                     continue
                 if isinstance(move, Says) and move.asks is not None:
                     asked = move.asks
                 if asked is not None and _is_answer(move, reply, asked):
-                    self._answered(task, tutor, asked, reply)
+                    self._record_answer(task, tutor, asked, reply)
                     asked = None
                 if self.is_over:
                     break
                 move = _next_move(moves, reply)
         if asked is not None and self._last is not None:
-            self._answered(task, tutor, asked, self._last)
+            self._record_answer(task, tutor, asked, self._last)
 
-    def played(self) -> Played:
+    def record(self) -> Played:
         """The dialogue, as far as it went."""
         known = [] if self._last is None else list(words(self._last.state))
         facts = {"words known": float(len(known)), "not understood": float(self._lost)}
@@ -116,7 +116,7 @@ class _Dialogue:
         private = self._last.state.private
         return len(private.lessons) + int(sum(it.lessons for it in private.taught))
 
-    def _taken(self, task: Task, tutor: Tutor, move: Move) -> Reply:
+    def _make_move(self, task: Task, tutor: Tutor, move: Move) -> Reply:
         """What the robot replies to a move, which is recorded."""
         length, corrects = 0, False
         match move:
@@ -149,7 +149,9 @@ class _Dialogue:
         self._turns.append(turn)
         return reply
 
-    def _answered(self, task: Task, tutor: Tutor, asked: Asked, reply: Reply) -> None:
+    def _record_answer(
+        self, task: Task, tutor: Tutor, asked: Asked, reply: Reply
+    ) -> None:
         """Record what the robot has answered to a question."""
         kind, found = asked.kind, self._degrees(asked, reply)
         said = _answer_given(task, asked, reply)
@@ -210,11 +212,11 @@ def _is_answer(move: Move, reply: Reply, asked: Asked) -> bool:
 def _answer_given(task: Task, asked: Asked, reply: Reply) -> str:
     match asked.kind:
         case "reference":
-            pointed = reply.pointed
+            pointed = reply.pointed_thing
             return "" if pointed is None else task.occasion.name(pointed)
         case "reply":
             return reply.text
-    return reply.said(asked.kind)
+    return reply.claimed_word(asked.kind)
 
 
 def _thing_asked(task: Task, asked: Asked) -> str:
@@ -227,4 +229,4 @@ def _thing_asked(task: Task, asked: Asked) -> str:
 
 def _look_name(occasion: Occasion) -> str:
     """What was shown, from which it can be shown again."""
-    return occasion.shown.name if occasion.view is None else str(occasion.view)
+    return occasion.world_seen.name if occasion.view is None else str(occasion.view)

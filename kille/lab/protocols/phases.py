@@ -172,7 +172,7 @@ def tasks(study: Study, run: Run, scene: Scene) -> Iterator[tuple[Phase, Task]]:
         set_ = fill_settings(phase.settings, SETTINGS[phase.do])
         for of, settings in _occasions(phase, set_, run, scene):
             now = next(number)
-            at = None if of is None else of.at(now * LOOKS)
+            at = None if of is None else of.at_glance(now * LOOKS)
             yield phase, Task(run, phase.name, phase.do, now, at, settings)
 
 

@@ -14,10 +14,10 @@ def happening(given: str) -> str:
     >>> world = World((Thing("cup", "red", 0.5, (2, 3)), Thing("car", "blue")))
     >>> happening(world.name)
     'sees a red cup at 2.0,3.0'
-    >>> happening(world.cleared().name), happening("stage=empty")
+    >>> happening(world.clear().name), happening("stage=empty")
     ('sees nothing', 'stage=empty')
     """
-    world = World.named(given)
+    world = World.from_name(given)
     if world is None:
         return given if len(given) <= _LONGEST else f"{given[: _LONGEST - 1]}…"
     return f"sees {_things(world) or 'nothing'}"
@@ -25,7 +25,7 @@ def happening(given: str) -> str:
 
 def _things(world: World) -> str:
     """The things in view, that which is attended to first."""
-    numbers = sorted(world.in_view, key=lambda it: (it != world.attended, it))
+    numbers = sorted(world.in_view, key=lambda it: (it != world.attended_thing, it))
     return ", ".join(_thing(world, number) for number in numbers)
 
 

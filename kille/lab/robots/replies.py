@@ -10,6 +10,7 @@ from kille.dialogue.beliefs import degree
 from kille.dialogue.meanings import CLAIMS, claims, predicate_at, value_at, word_of
 from kille.dialogue.reference.perspectives import front_of
 from ttr import Model, Record, RecordType
+from ttr.aliases import Alias
 from ttr.judging import Judgement
 from ttr.types import Negation
 
@@ -99,7 +100,7 @@ class Reply:
         return next((way for way in ways if way), "none")
 
     @property
-    def pointed(self) -> int | None:
+    def pointed_thing(self) -> int | None:
         """The thing of the world at which it points, if it does."""
         points = (x for move in self.moves for x in move.sit.points)
         return next((self.number(x) for x in points), None)
@@ -128,7 +129,7 @@ class Reply:
         """Which way it knows that things of the world face."""
         return {self.number(it.x): str(it.front) for it in self.state.shared.turned}
 
-    def said(self, kind: str) -> str:
+    def claimed_word(self, kind: str) -> str:
         """The word of a kind that it claims to be true, the first of several."""
         for move in self.moves:
             content = move.sit.content
@@ -137,6 +138,9 @@ class Reply:
                     if sign.kind == kind and claims(content, sign):
                         return str(sign.form)
         return ""
+
+    pointed = Alias("pointed_thing")
+    said = Alias("claimed_word")
 
 
 def _way(act: str) -> str:

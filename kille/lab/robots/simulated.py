@@ -11,8 +11,8 @@ from kille.lab.robots.replies import Reply
 from kille.lab.scenes.events import change_world
 from kille.lab.scenes.occasions import Occasion
 from kille.lab.worlds.games import world_of
-from kille.lab.worlds.perception import glanced, number_of, seen, thing
-from kille.lab.worlds.schooling import rested
+from kille.lab.worlds.perception import glance_event, look_event, number_of, thing
+from kille.lab.worlds.schooling import game_next_day
 from kille.lab.worlds.worlds import World
 from ttr.updates import Game, Run, Turn
 
@@ -29,11 +29,11 @@ class SimulatedRobot:
 
     def see(self, occasion: Occasion) -> Reply:
         """A glance at what is shown."""
-        return self._taken(glanced(occasion.shown, self._world))
+        return self._take(glance_event(occasion.world_seen, self._world))
 
     def wait(self, occasion: Occasion) -> Reply:
         """A look on its own turn."""
-        return self._taken(seen(occasion.shown, self._world))
+        return self._take(look_event(occasion.world_seen, self._world))
 
     def hear(self, text: str) -> Reply:
         """A text; it says so if it does not understand it."""
@@ -42,7 +42,7 @@ class SimulatedRobot:
         if event is None:
             sorry = did_not_understand(lexicon(self._language), text, types=self._types)
             return Reply(sorry, (), *self._now[:2])
-        return self._taken(event)
+        return self._take(event)
 
     def happen(self, command: str) -> Reply:
         """`look`, `point 2`, `place 2 3.5 4`, `remove 2` or `restart`."""
@@ -50,15 +50,15 @@ class SimulatedRobot:
         if command == "restart":
             return self.rest()
         if command == "look":
-            return self._taken(seen(world.looked(), world))
-        return self._taken(glanced(change_world(world, command), world))
+            return self._take(look_event(world.look_again(), world))
+        return self._take(glance_event(change_world(world, command), world))
 
     def rest(self) -> Reply:
-        """Another day: see `kille.lab.worlds.schooling.rested`."""
+        """Another day: see `kille.lab.worlds.schooling.game_next_day`."""
         state, model, _ = self._now
         ended = dataclasses.replace(self._game, start=state, model=model)
-        self._now = rested(ended).begin()
-        return self._replied("", ())
+        self._now = game_next_day(ended).begin()
+        return self._reply("", ())
 
     def name(self, number: int) -> str | None:
         """Things have the numbers that they have in the world."""
@@ -72,14 +72,14 @@ class SimulatedRobot:
         """What is in view."""
         return world_of(self._now.state)
 
-    def _taken(self, event: object) -> Reply:
+    def _take(self, event: object) -> Reply:
         turn = self._game.take(self._now, event)
         self._now = turn.run
         assert self._game.say is not None
         text = "\n".join(map(self._game.say, turn.said))
-        return self._replied(text, tuple(it.rule.name for it in turn.trace), turn)
+        return self._reply(text, tuple(it.rule.name for it in turn.trace), turn)
 
-    def _replied(
+    def _reply(
         self, text: str, rules: tuple[str, ...], turn: Turn | None = None
     ) -> Reply:
         moves = () if turn is None else turn.said

@@ -22,35 +22,35 @@ class WholeRobot:
         self._occasion = occasion
         self._theatre.turn_to(occasion)
         self._agent.gaze.attention = self._theatre.attention()
-        return self._replied(None)
+        return self._reply(None)
 
     def wait(self, occasion: Occasion) -> Reply:
         """A look of one's own accord."""
         self._agent.look()
-        return self._replied(self._agent.exchanges[-1])
+        return self._reply(self._agent.exchanges[-1])
 
     def hear(self, text: str) -> Reply:
         """A text, with a glance at what it is about."""
         self._agent.hear(text)
-        return self._replied(self._agent.exchanges[-1])
+        return self._reply(self._agent.exchanges[-1])
 
     def happen(self, command: str) -> Reply:
         """What `Agent.do` makes of a command."""
         before = len(self._agent.exchanges)
         self._agent.do(command)
-        return self._replied(next(iter(self._agent.exchanges[before:]), None))
+        return self._reply(next(iter(self._agent.exchanges[before:]), None))
 
     def rest(self) -> Reply:
         """Another day."""
         self._agent.do("restart")
-        return self._replied(None)
+        return self._reply(None)
 
     def name(self, number: int) -> str | None:
         """The thing in the latest look that a finger on this one would mean."""
         view = self._agent.view
         if view is None or self._occasion is None:
             return None
-        found = self._theatre.found(self._occasion, number, view)
+        found = self._theatre.number_in_view(self._occasion, number, view)
         return None if found is None else thing(found)
 
     def close(self) -> None:
@@ -64,7 +64,7 @@ class WholeRobot:
             return None
         return next((it for it in occasion.world.in_view if self.name(it) == x), None)
 
-    def _replied(self, exchange: Exchange | None) -> Reply:
+    def _reply(self, exchange: Exchange | None) -> Reply:
         state, model = self._agent.state, self._agent.model
         if exchange is None:
             return Reply("", (), state, model, (), self._number)

@@ -120,7 +120,7 @@ class _Cluster:
         try:
             future = self.client.submit(play_batch, self.payload, runs, pure=False)
         except ClosedClientError as error:
-            raise self._gone() from error
+            raise self._gone_error() from error
         self.sent[future] = runs
         future.add_done_callback(self.over.put)
 
@@ -135,7 +135,7 @@ class _Cluster:
 
     def _check_there(self) -> None:
         """RunError where there has been no worker for long."""
-        if self._counted():
+        if self._count_workers():
             self.seen = time.monotonic()
         elif time.monotonic() - self.seen > PATIENCE:
             raise RunError(f"no worker is left at {self.place}: {_GO_ON}")
@@ -143,20 +143,20 @@ class _Cluster:
     def _workers(self) -> int:
         """How many were there a moment ago, at least one: others may come and go."""
         if time.monotonic() > self.glance:
-            self.count = max(1, self._counted())
+            self.count = max(1, self._count_workers())
             self.glance = time.monotonic() + GLANCE
         return self.count
 
-    def _counted(self) -> int:
+    def _count_workers(self) -> int:
         """How many are there now; RunError where the scheduler is gone."""
         if self.client.status != "running":
-            raise self._gone()
+            raise self._gone_error()
         try:
             return len(self.client.nthreads())
         except (OSError, RuntimeError) as error:
-            raise self._gone() from error
+            raise self._gone_error() from error
 
-    def _gone(self) -> RunError:
+    def _gone_error(self) -> RunError:
         return RunError(f"the scheduler at {self.place} is gone: {_GO_ON}")
 
     def _result(self, future: Future) -> list[Outcome] | None:
@@ -165,20 +165,20 @@ class _Cluster:
         # "lost" is what was played by a worker that is gone, and is being played anew.
         while not found and future.status in ("pending", "finished", "lost"):
             with suppress(TimeoutError):
-                found = self._gathered(future)
+                found = self._gather(future)
             if not found:  # whoever had it is gone, and another plays it anew
                 self._check_there()
         if found:
             return found[0]
         if future.status != "error":
-            raise self._gone()
+            raise self._gone_error()
         error = future.exception()
         if isinstance(error, KilledWorker):
             return None
         told = f"the workers at {self.place} cannot play: {error}"
         raise RunError(" ".join(told.split())) from error
 
-    def _gathered(self, future: Future) -> list[list[Outcome]]:
+    def _gather(self, future: Future) -> list[list[Outcome]]:
         """What a batch gave, if it did; TimeoutError where that takes long."""
 
         async def gathered() -> list[list[Outcome]]:
@@ -190,7 +190,7 @@ class _Cluster:
         except TimeoutError:
             raise
         except (CancelledError, OSError):
-            raise self._gone() from None
+            raise self._gone_error() from None
 
     def _keep_pace(self, found: Sequence[Outcome]) -> None:
         mean = sum(it.seconds for it in found) / len(found)

@@ -48,8 +48,8 @@ def run(
     default this process alone; `told` hears of every dialogue that is over. StudyError
     where the folder is of another study or in use, or nobody can play.
     """
-    with Log.opened(study, folder) as log:
-        before = log.over()
+    with Log.open(study, folder) as log:
+        before = log.reasons()
         planned = tuple(study.runs())
         left = [it for it in planned if it not in before]
         over, broken = len(before), sum(map(bool, before.values()))
@@ -64,5 +64,5 @@ def run(
 
 def forget_broken(study: Study, folder: Path) -> int:
     """Drops what is kept of broken runs, so that they are played again; how many."""
-    with Log.opened(study, folder) as log:
+    with Log.open(study, folder) as log:
         return log.forget_broken()

@@ -41,7 +41,9 @@ class Around(Scene):
     def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
         """The two things, one by one; or the target at each of the places."""
         if kind == "relation":
-            return [self._put(*place, new, chance) for place in self._places()]
+            return [
+                self._target_occasion(*place, new, chance) for place in self._places()
+            ]
         return [occasion_alone(self.start, kind, x) for x in (1, 2)]
 
     def _places(self) -> Iterator[tuple[float, float]]:
@@ -49,14 +51,16 @@ class Around(Scene):
             for point in range(self.points):
                 yield ring, 2 * math.pi * point / self.points
 
-    def _put(self, ring: float, bearing: float, new: bool, chance: Random) -> Occasion:
+    def _target_occasion(
+        self, ring: float, bearing: float, new: bool, chance: Random
+    ) -> Occasion:
         right, away = place_beside(MIDDLE, ring, bearing)
         by = self.spread / STEP
         place = round_place(right + chance.gauss(0, by), away + chance.gauss(0, by))
         astray = self.astray if new else replace(self.astray, shift=0.0)
-        world = self.start.moved(1, place)
+        world = self.start.move(1, place)
         front = chance.choice(FRONTS)
-        world = world.turned(2, front) if self.turns else world
+        world = world.turn(2, front) if self.turns else world
         return relation_occasion(world, 1, 2, astray, (1,), chance)
 
 

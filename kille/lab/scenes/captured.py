@@ -62,7 +62,7 @@ def _scene_of(taught: Sequence[Shown], kept: Sequence[Shown], name: str) -> Capt
     things = tuple(Thing(word, "") for word, _ in (*taught, *kept))
     start = World(things)
     occasions = [
-        Occasion("noun", start.moved(x, MIDDLE).pointed(x), x, view=view, group=word)
+        Occasion("noun", start.move(x, MIDDLE).point_at(x), x, view=view, group=word)
         for x, (word, view) in enumerate((*taught, *kept), start=1)
     ]
     first = len(taught)

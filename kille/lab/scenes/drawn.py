@@ -44,28 +44,32 @@ class Drawn(Scene):
         if kind == "relation" and len(pool) < 2:
             return ()
         if kind == "relation":
-            return [self._stood(side, pool, chance) for side in SIDES]
-        return [self._laid(kind, x, pool, chance) for x in pool]
+            return [self._pair_occasion(side, pool, chance) for side in SIDES]
+        return [self._thing_occasion(kind, x, pool, chance) for x in pool]
 
-    def _laid(self, kind: str, x: int, pool: Sequence[int], chance: Random) -> Occasion:
+    def _thing_occasion(
+        self, kind: str, x: int, pool: Sequence[int], chance: Random
+    ) -> Occasion:
         others = [it for it in pool if it != x]
         count = min(self.in_view - 1, len(others))
         world = self.start
         spots = chance.sample(SPOTS, count + 1)
         for number, spot in zip([x, *chance.sample(others, count)], spots, strict=True):
-            world = world.moved(number, spot)
-        world = world.pointed(x)
-        seen = self.astray.seen(world, world.in_view, chance)
+            world = world.move(number, spot)
+        world = world.point_at(x)
+        seen = self.astray.world_seen(world, world.in_view, chance)
         group = word_group(kind, world.thing(x))
         return Occasion(kind, world, x, seen=seen, group=group, hard=oddness(world, x))
 
-    def _stood(self, side: str, pool: Sequence[int], chance: Random) -> Occasion:
+    def _pair_occasion(
+        self, side: str, pool: Sequence[int], chance: Random
+    ) -> Occasion:
         """Two things of other kinds, the one on this side of the other."""
         x, y = chance.choice(self._pairs(pool))
         spot = chance.uniform(3.5, 5.5), chance.uniform(3.5, 5.5)
         bearing = BEARINGS[side] + chance.uniform(-math.pi / 6, math.pi / 6)
         put = place_beside(spot, chance.uniform(0.12, 0.35), bearing)
-        world = self.start.moved(y, round_place(*spot)).moved(x, put)
+        world = self.start.move(y, round_place(*spot)).move(x, put)
         return relation_occasion(world, x, y, self.astray, (x, y), chance)
 
     def _pairs(self, pool: Sequence[int]) -> Sequence[tuple[int, int]]:

@@ -29,15 +29,13 @@ def change_world(world: World, command: str) -> World:
     try:
         match command.split():
             case ["point", number]:
-                return world.pointed(_number_among(number, world.in_view, "in view"))
+                return world.point_at(_number_among(number, world.in_view, "in view"))
             case ["remove", number]:
-                return world.moved(
-                    _number_among(number, world.in_view, "in view"), None
-                )
+                return world.move(_number_among(number, world.in_view, "in view"), None)
             case ["place", number, right, away]:
                 every = range(1, len(world.things) + 1)
                 at = round_place(_read_step(right), _read_step(away))
-                return world.moved(_number_among(number, every, "in this scene"), at)
+                return world.move(_number_among(number, every, "in this scene"), at)
     except _Unfit as error:
         raise StudyError([f"@ {command}: {error}"]) from error
     raise StudyError(

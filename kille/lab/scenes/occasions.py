@@ -13,6 +13,7 @@ from itertools import zip_longest
 from random import Random
 
 from kille.lab.worlds.worlds import Thing, World
+from ttr.aliases import Alias
 
 KINDS = {"nouns": "noun", "adjectives": "adjective", "relations": "relation"}
 """The kinds of words, by what a phase says that it is about."""
@@ -42,7 +43,7 @@ class Occasion:
     hard: float = 0.0
 
     @property
-    def shown(self) -> World:
+    def world_seen(self) -> World:
         """What the robot sees."""
         return self.world if self.seen is None else self.seen
 
@@ -61,7 +62,7 @@ class Occasion:
         thing = self.world.thing(number)
         return f"{thing.colour} {thing.kind}".strip()
 
-    def of_noun(self, x: int | None) -> Occasion:
+    def about_noun(self, x: int | None) -> Occasion:
         """The same, but it is another thing that is talked of, and pointed at."""
         x = self.x if x is None else x
         seen = None if self.seen is None else replace(self.seen, focus=x)
@@ -70,19 +71,25 @@ class Occasion:
             self, kind="noun", world=world, seen=seen, x=x, y=None, said=said
         )
 
-    def unpointed(self) -> Occasion:
+    def without_pointing(self) -> Occasion:
         """The same, but nothing is pointed at."""
         seen = None if self.seen is None else replace(self.seen, focus=None)
         return replace(self, world=replace(self.world, focus=None), seen=seen)
 
-    def at(self, glance: int) -> Occasion:
+    def at_glance(self, glance: int) -> Occasion:
         """The same, as it is looked at for this time."""
         seen = None if self.seen is None else replace(self.seen, glance=glance)
         return replace(self, world=replace(self.world, glance=glance), seen=seen)
 
-    def looked(self) -> Occasion:
+    def look_again(self) -> Occasion:
         """The same, looked at once more."""
-        return self.at(self.world.glance + 1)
+        return self.at_glance(self.world.glance + 1)
+
+    shown = Alias("world_seen")
+    of_noun = Alias("about_noun")
+    unpointed = Alias("without_pointing")
+    looked = Alias("look_again")
+    at = Alias("at_glance")
 
 
 @dataclass(frozen=True)

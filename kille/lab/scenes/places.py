@@ -27,7 +27,7 @@ class Astray:
     shift: float = 0.0
     way: float = 0.0
 
-    def seen(
+    def world_seen(
         self, world: World, numbers: Sequence[int], chance: Random
     ) -> World | None:
         """The world as it is seen; None where that is as it is."""
@@ -41,7 +41,7 @@ class Astray:
             anywhere = chance.uniform(0, TABLE), chance.uniform(0, TABLE)
             if chance.random() < self.share:
                 right, away = anywhere
-            world = world.moved(number, round_place(right, away))
+            world = world.move(number, round_place(right, away))
         return world
 
 
@@ -76,7 +76,7 @@ def side_of(world: World, x: int, y: int) -> tuple[str, float]:
 
 def occasion_alone(start: World, kind: str, x: int) -> Occasion:
     """The occasion to say what x is or which colour it has: nothing else is there."""
-    world = start.cleared().moved(x, MIDDLE).pointed(x)
+    world = start.clear().move(x, MIDDLE).point_at(x)
     return Occasion(kind, world, x, group=word_group(kind, world.thing(x)))
 
 
@@ -89,7 +89,7 @@ def relation_occasion(
     world: World, x: int, y: int, astray: Astray, moved: Sequence[int], chance: Random
 ) -> Occasion:
     """The occasion to say how x, which is pointed at, stands to y."""
-    world = world.pointed(x)
+    world = world.point_at(x)
     group, hard = side_of(world, x, y)
-    seen = astray.seen(world, moved, chance)
+    seen = astray.world_seen(world, moved, chance)
     return Occasion("relation", world, x, y, seen, group=group, hard=hard)

@@ -40,24 +40,28 @@ class Rendered(Scene):
         """Every specimen of each kind, or the target at each place where it can be."""
         if kind == "relation":
             places = [(ring, point) for ring in _RINGS for point in range(_POINTS)]
-            found = (self._beside(*place, chance) for place in places)
+            found = (self._target_occasion(*place, chance) for place in places)
             return [it for it in found if it is not None]
         first, count = (self.each, self.new) if new else (0, self.each)
         return [
-            self._alone(kind, x, first + number, chance)
+            self._specimen_occasion(kind, x, first + number, chance)
             for number in range(count)
             for x in range(1, len(self.kinds) + 1)
         ]
 
-    def _alone(self, kind: str, x: int, specimen: int, chance: Random) -> Occasion:
+    def _specimen_occasion(
+        self, kind: str, x: int, specimen: int, chance: Random
+    ) -> Occasion:
         name = self.start.thing(x).kind
         right, away = chance.uniform(-0.05, 0.05), chance.uniform(-0.05, 0.05)
         stand = Stand(name, right, away, chance.uniform(-25, 25))
         view = Staged(f"{self.source}&specimen={specimen}", (stand,))
-        world = self.start.moved(x, _place(right, away)).pointed(x)
+        world = self.start.move(x, _place(right, away)).point_at(x)
         return Occasion(kind, world, x, view=view, group=name)
 
-    def _beside(self, ring: float, point: int, chance: Random) -> Occasion | None:
+    def _target_occasion(
+        self, ring: float, point: int, chance: Random
+    ) -> Occasion | None:
         """The target at a place, give or take a centimetre; None where it cannot be."""
         target, landmark = self.pair
         for _ in range(_TRIES):
@@ -69,13 +73,13 @@ class Rendered(Scene):
                 Stand(target, right, away, chance.uniform(-20, 20)),
             )
             if _fits(self.source, stands):
-                return self._related(stands)
+                return self._relation_occasion(stands)
         return None
 
-    def _related(self, stands: tuple[Stand, Stand]) -> Occasion:
+    def _relation_occasion(self, stands: tuple[Stand, Stand]) -> Occasion:
         (landmark, *at, _), (target, *by, _) = stands
         y, x = 1 + self.kinds.index(landmark), 1 + self.kinds.index(target)
-        world = self.start.moved(y, _place(*at)).moved(x, _place(*by)).pointed(x)
+        world = self.start.move(y, _place(*at)).move(x, _place(*by)).point_at(x)
         group, hard = side_of(world, x, y)
         view = Staged(self.source, stands)
         return Occasion("relation", world, x, y, view=view, group=group, hard=hard)

@@ -33,7 +33,7 @@ class OnTable:
         assert isinstance(sensor, Synthetic)
         self._sensor = sensor
 
-    def shown(self, thing: str, *, turn: float = 0.0, scans: int = SCANS) -> Percept:
+    def look_at(self, thing: str, *, turn: float = 0.0, scans: int = SCANS) -> Percept:
         """What is seen of the thing, turned further by so many degrees.
 
         The nearest thing in view is meant; where none was made out, the picture.
@@ -70,6 +70,6 @@ def show_each(
     """Each of the things in turn, with its name; `steps` is told of each."""
     seen = []
     for thing in things:
-        seen.append((table.shown(thing, turn=turn, scans=scans), thing))
+        seen.append((table.look_at(thing, turn=turn, scans=scans), thing))
         steps(doing)
     return seen

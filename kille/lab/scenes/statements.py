@@ -47,10 +47,10 @@ class Statements(Scene):
             return [occasion_alone(self.start, kind, x) for x in (1, 2)]
         some = list(self.kept if new else self.taught)
         chance.shuffle(some)
-        return [self._stated(*it) for it in some]
+        return [self._statement_occasion(*it) for it in some]
 
-    def _stated(self, word: str, place: Place) -> Occasion:
-        world = self.start.moved(2, MIDDLE).moved(1, place).pointed(1)
+    def _statement_occasion(self, word: str, place: Place) -> Occasion:
+        world = self.start.move(2, MIDDLE).move(1, place).point_at(1)
         return Occasion("relation", world, 1, 2, said=word, group=word)
 
 

@@ -178,7 +178,7 @@ def _theory_problems(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
 
 def _phase_problems(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
     called = given.get("name", "")
-    if why := Setting().unfit(called):
+    if why := Setting().problem_with(called):
         yield Problem(("name",), f"name of {name}: {why}")
     elif not called.isprintable():
         told = f"name of {name}: expected one line, found {called!r}"

@@ -28,7 +28,7 @@ from kille.lab.theories.games import (
 )
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.theories.rules import missing_rules, packaged_rules
-from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.worlds import Thing, World
 from ttr import TTRError
 from ttr.errors import MistakesError, Span
@@ -214,7 +214,10 @@ def _trial_problems(theory: Theory) -> Iterator[Problem]:
         game = game_of(theory, world, colours=())  # else no colour is ever judged
         now = game.begin()
         for number, *texts in _SAID[theory.language]:
-            event, world = glanced(world.pointed(number), world), world.pointed(number)
+            event, world = (
+                glance_event(world.point_at(number), world),
+                world.point_at(number),
+            )
             now = game.take(now, event).run
             for text in texts:
                 heard = hear(text, language_of(theory), types=meanings_of(theory))

@@ -145,7 +145,7 @@ def _forms(
         for theory in study.theories.values()
         for tutor in tutors
     ]
-    return {words.called(name) for words in several for name in names}
+    return {words.word_for(name) for words in several for name in names}
 
 
 def words_of(language: str, tutor: Named) -> Words:
@@ -174,7 +174,7 @@ def _misheard_words_of(
     for language, theory in languages.items():
         words = words_of(theory.language, tutor)
         for kind, name in _names_by_kind(names):
-            word = words.called(name)
+            word = words.word_for(name)
             try:
                 heard = _words_heard(kind, word, language, theory.language)
             except GrammarError as error:
@@ -213,4 +213,4 @@ def _words_heard(kind: str, word: str, language: str, plain: str) -> Sequence[st
 
 
 def _example_landmark(words: Words) -> Phrase:
-    return words.described(Thing("car", "red"), "adjective")
+    return words.phrase_for(Thing("car", "red"), "adjective")

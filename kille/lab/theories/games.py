@@ -20,7 +20,7 @@ from kille.lab.theories.classifiers import learners_of, words_of
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.theories.rules import algorithm_of
 from kille.lab.theories.simulated_words import act_with, with_known_colours
-from kille.lab.worlds.games import simulated
+from kille.lab.worlds.games import simulated_game
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.word_learning import LearnedWord
 from kille.lab.worlds.worlds import World
@@ -47,7 +47,7 @@ def game_of(
     types = meanings_of(theory)
     every = vocabulary(theory.language, types).colours
     signs = every if colours is None else tuple(colours)
-    game = simulated(
+    game = simulated_game(
         world,
         colours=signs,
         language=language_of(theory),
@@ -135,7 +135,7 @@ def _strategy_problems(
             inner = ", ".join(known[name])
             told = f"is a table of {inner}, found {show_value(value)}"
             yield Problem(here, f"{path} of a strategy {told}")
-        elif why := _NUMBERS.get(here[0], _CHANCE).unfit(value):
+        elif why := _NUMBERS.get(here[0], _CHANCE).problem_with(value):
             yield Problem(here, f"{path} of a strategy: {why}")
 
 

@@ -33,13 +33,13 @@ class PrototypeWord(LearnedWord):
     Mervis 1975, "Family resemblances".
     """
 
-    def speaking(self, aspect: int, of: Observation, holds: bool) -> float:
+    def support(self, aspect: int, of: Observation, holds: bool) -> float:
         """How much all lessons speak for the word, or against it, in an aspect."""
         lessons = (*self.prior, *self.lessons)
         told = [it.of[aspect] for it in lessons if it.holds is holds]
         if not told:
             return 0.0
-        return len(told) * self.alike(_mean(told), of[aspect], aspect)
+        return len(told) * self.similarity(_mean(told), of[aspect], aspect)
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,7 +28,7 @@ def answer_robot(holding: Beliefs, reply: Reply, latest: Says | None) -> Says | 
         case "ask_frame":
             return Says(holding.words.perspective(holding.frame), "take_frame")
         case "offer_word":
-            return Says(holding.words.plainly("deny"), "deny")
+            return Says(holding.words.plain_move("deny"), "deny")
         case "ask_referent" | "offer_referents":
             return _name_referent(holding, latest)
         case "ask_example":
@@ -40,8 +40,8 @@ def _name_referent(holding: Beliefs, latest: Says | None) -> Says:
     """Which thing he meant: that of which he spoke by a phrase, or points at."""
     spoken = None if latest is None else latest.of
     meant = spoken or holding.task.occasion.thing
-    phrase = holding.coloured(meant)
-    return Says(holding.words.mentioning(phrase), "mention", of=meant)
+    phrase = holding.colour_phrase(meant)
+    return Says(holding.words.mention(phrase), "mention", of=meant)
 
 
 def _show_example(holding: Beliefs, word: str) -> Says | None:
@@ -50,8 +50,8 @@ def _show_example(holding: Beliefs, word: str) -> Says | None:
     for x in occasion.world.in_view:
         thing = occasion.world.thing(x)
         is_other = x != occasion.x and thing.colour and holding.is_only(thing.colour)
-        if is_other and words.called(thing.kind) == word:
-            phrase = words.described(thing, "adjective")
+        if is_other and words.word_for(thing.kind) == word:
+            phrase = words.phrase_for(thing, "adjective")
             text = words.lesson("noun", word, target=phrase)
             return Says(text, LESSON_ACTS["noun"], of=thing)
     return None
@@ -72,7 +72,9 @@ def _tell_wanted(holding: Beliefs, reply: Reply) -> Says | None:
     about = replace(about, kind=kind)
     if not holding.has_word(about):
         return None
-    return Says(holding.words.lesson(kind, holding.held(about)), LESSON_ACTS[kind])
+    return Says(
+        holding.words.lesson(kind, holding.spoken_word(about)), LESSON_ACTS[kind]
+    )
 
 
 def _tell_place(holding: Beliefs, reply: Reply) -> Says | None:
@@ -85,7 +87,7 @@ def _tell_place(holding: Beliefs, reply: Reply) -> Says | None:
     about = about if (x, y) == (occasion.x, occasion.y) else replace(about, said="")
     if not holding.has_word(about):
         return None
-    word, things = holding.held(about), (about.thing, about.world.thing(y))
+    word, things = holding.spoken_word(about), (about.thing, about.world.thing(y))
     target, landmark = (holding.phrase(it, reply.state) for it in things)
     text = holding.words.lesson("relation", word, landmark, target)
     return Says(text, "relate", of=about.landmark)

@@ -61,71 +61,71 @@ class Beliefs:
 
     def has_word(self, occasion: Occasion) -> bool:
         """Whether he has a word for this."""
-        return not self.manner.vocabulary or self.true(occasion) in self._own
+        return not self.manner.vocabulary or self.right_word(occasion) in self._own
 
     @property
     def _own(self) -> set[str]:
         """All the words that he has, where they are named."""
-        return {self.words.called(it) for it in self.manner.vocabulary}
+        return {self.words.word_for(it) for it in self.manner.vocabulary}
 
     # --- what is so ------------------------------------------------------------------
 
-    def true(self, occasion: Occasion) -> str:
+    def right_word(self, occasion: Occasion) -> str:
         """The word that he takes to be right; nothing where he has none for a place."""
         if occasion.said:
-            return self.words.called(occasion.said)
+            return self.words.word_for(occasion.said)
         match occasion.kind:
             case "noun":
-                return self.words.called(occasion.thing.kind)
+                return self.words.word_for(occasion.thing.kind)
             case "adjective":
-                return self.words.called(occasion.thing.colour)
+                return self.words.word_for(occasion.thing.colour)
         return self._place(self.manner.speaker, occasion, "place")
 
     def _place(self, speaker: Speaker, occasion: Occasion, chance: str) -> str:
         front = "" if occasion.landmark is None else occasion.landmark.front
         word = speaker.says(_offset(occasion), front, self.task.chance(chance))
-        return self.words.called(word)
+        return self.words.word_for(word)
 
     @cached_property
     def frame(self) -> str:
         """In whose frame he speaks of places now."""
         return self.manner.speaker.frame(self.task.chance("place"))
 
-    def held(self, occasion: Occasion) -> str:
+    def spoken_word(self, occasion: Occasion) -> str:
         """The word that he says: the right one, or now and then another."""
-        return self._or_slip(self.true(occasion), occasion, "error")
+        return self._or_slip(self.right_word(occasion), occasion, "error")
 
     def _or_slip(self, word: str, occasion: Occasion, by: str) -> str:
         chance = self.task.chance(by)
-        others = [it for it in self._others(occasion) if it != word]
+        others = [it for it in self._other_words(occasion) if it != word]
         errs = chance.random() < self.manner.errors and others
         return chance.choice(others) if errs else word
 
-    def _others(self, occasion: Occasion) -> list[str]:
+    def _other_words(self, occasion: Occasion) -> list[str]:
         """The words that he might say by mistake."""
         names = {"noun": self.manner.kinds, "adjective": self.manner.hues}
         words = names.get(occasion.kind) or self.manner.speaker.words
-        called = {self.words.called(it) for it in words}
+        called = {self.words.word_for(it) for it in words}
         return sorted(called & self._own if self.manner.vocabulary else called)
 
-    def asked(self, occasion: Occasion) -> Asked:
+    def question(self, occasion: Occasion) -> Asked:
         """The question for the word that is right here."""
-        right = self.true(occasion)
-        accepted, judge = frozenset({right}), self._judged(occasion)
+        right = self.right_word(occasion)
+        accepted, judge = frozenset({right}), self._judges_word(occasion)
         if occasion.kind == "relation" and not occasion.said:
             front = "" if occasion.landmark is None else occasion.landmark.front
             well = self.manner.speaker.accepts(_offset(occasion), front)
-            accepted |= {self.words.called(it) for it in well}
+            accepted |= {self.words.word_for(it) for it in well}
         return Asked(occasion.kind, right, occasion.x, occasion.y, accepted, judge)
 
-    def _judged(self, occasion: Occasion) -> str:
+    def _judges_word(self, occasion: Occasion) -> str:
         """What another person says, who errs as often.
 
         Nothing of what people have said themselves: nobody else was asked.
         """
         if occasion.said:
             return ""
-        word = self.true(occasion)
+        word = self.right_word(occasion)
         if occasion.kind == "relation":
             word = self._place(self.manner.other, occasion, "judge")
         return self._or_slip(word, occasion, "judge's error")
@@ -135,18 +135,18 @@ class Beliefs:
     def lesson(self, s: Record | None) -> Says:
         """What is so; things are called by their nouns if the robot knows these."""
         occasion = self.task.occasion
-        kind, word = occasion.kind, self.held(occasion)
-        text = self.words.lesson(kind, word, self.beside(s))
+        kind, word = occasion.kind, self.spoken_word(occasion)
+        text = self.words.lesson(kind, word, self.landmark_phrase(s))
         return Says(text, LESSON_ACTS[kind], of=occasion.landmark)
 
     def correction(self, s: Record) -> Says:
         """What is so instead of what the robot said."""
         occasion = self.task.occasion
-        word = self.held(occasion)
-        text = self.words.correction(occasion.kind, word, self.beside(s))
+        word = self.spoken_word(occasion)
+        text = self.words.correction(occasion.kind, word, self.landmark_phrase(s))
         return Says(text, "correct", corrects=True, of=occasion.landmark)
 
-    def beside(self, s: Record | None) -> Phrase | None:
+    def landmark_phrase(self, s: Record | None) -> Phrase | None:
         """A phrase for what a thing is beside, if that is talked of."""
         landmark = self.task.occasion.landmark
         return None if landmark is None else self.phrase(landmark, s)
@@ -156,18 +156,18 @@ class Beliefs:
 
         That is its noun, if it knows that, or its colour; or both.
         """
-        noun = self.words.sign("noun", self.words.called(thing.kind))
+        noun = self.words.sign("noun", self.words.word_for(thing.kind))
         known = s is not None and knows(s.private.nouns, noun)
         if known and self.is_only(thing.kind):
-            return self.words.described(thing, "noun")
-        return self.coloured(thing)
+            return self.words.phrase_for(thing, "noun")
+        return self.colour_phrase(thing)
 
-    def coloured(self, thing: Thing) -> Phrase:
+    def colour_phrase(self, thing: Thing) -> Phrase:
         """A phrase for a thing by its colour; with its noun, if that is not enough."""
         if not thing.colour:
-            return self.words.described(thing, "noun")
+            return self.words.phrase_for(thing, "noun")
         by = ("adjective",) if self.is_only(thing.colour) else ("adjective", "noun")
-        return self.words.described(thing, *by)
+        return self.words.phrase_for(thing, *by)
 
     def is_only(self, look: str) -> bool:
         """Whether one thing only is of this kind, or this colour, of those in view."""

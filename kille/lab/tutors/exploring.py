@@ -22,7 +22,7 @@ from kille.lab.tutors.openings import (
     situation,
 )
 from kille.lab.worlds.games import world_of
-from kille.lab.worlds.perception import glanced, number_of, seen
+from kille.lab.worlds.perception import glance_event, look_event, number_of
 from kille.lab.worlds.sayings import (
     LESSON_ACTS,
     NOTHING,
@@ -141,12 +141,12 @@ def _free(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]
         [it for it in said if known.issuperset(map(word_of, it.about.signs))] or said
         for said in _all(language, world)
     ]
-    if world.attended is None:
+    if world.attended_thing is None:
         return everything
     lessons = [
         Saying(language, _lesson_act(claim), claim)
-        for phrase in phrases_of(language, world, world.attended)
-        for claim in true_claims(language, world, world.attended, phrase)
+        for phrase in phrases_of(language, world, world.attended_thing)
+        for claim in true_claims(language, world, world.attended_thing, phrase)
         if known.issuperset(map(word_of, (*phrase.signs, *claim.landmark.signs)))
     ]
     return [*everything, *[lessons] * len(everything)]
@@ -231,7 +231,7 @@ def _choice_options(language: str, world: World, asked: str) -> Options:
     agreeing = [it for act in _YES_OR_NO for it in _worldless_sayings(language, act)]
     settling = _plain_answers(language, world, asked)
     mentions = sayings(language, "mention", world)
-    pointing = [(glanced, world.pointed(x)) for x in world.in_view]
+    pointing = [(glance_event, world.point_at(x)) for x in world.in_view]
     return [
         _sample_texts(agreeing),
         _sample_texts(settling),
@@ -309,7 +309,7 @@ def _sample_happenings(world: World) -> st.SearchStrategy[Record]:
 
     Each kind of thing happens as often as any other.
     """
-    looks = (glanced, seen)
+    looks = (glance_event, look_event)
     kinds = [_sample_looks(world, list(product(looks, it))) for it in _kinds(world)]
     return st.one_of(kinds)
 
@@ -320,7 +320,9 @@ def _sample_idle_looks(world: World) -> st.SearchStrategy[Record]:
     What is pointed at is the tutor's to speak of.
     """
     changed = [it for it in happenings(world) if it.focus == world.focus]
-    return _sample_looks(world, [(seen, it) for it in (world.looked(), *changed)])
+    return _sample_looks(
+        world, [(look_event, it) for it in (world.look_again(), *changed)]
+    )
 
 
 def _sample_looks(world: World, after: Sequence[Look]) -> st.SearchStrategy[Record]:
@@ -337,16 +339,16 @@ def happenings(world: World) -> tuple[World, ...]:
 def _kinds(world: World) -> Sequence[Sequence[World]]:
     """What may become of a world, kind by kind."""
     random = Random(world.name)
-    free = list(world.free())
+    free = list(world.free_places())
     hidden = [n for n in range(1, len(world.things) + 1) if n not in world.in_view]
     kinds = [
-        [world.looked()],
-        [world.seen_flat()],
-        [world.cleared()],
-        [world.pointed(number) for number in world.in_view],
-        [world.moved(number, random.choice(free)) for number in hidden],
+        [world.look_again()],
+        [world.flip_depth()],
+        [world.clear()],
+        [world.point_at(number) for number in world.in_view],
+        [world.move(number, random.choice(free)) for number in hidden],
     ]
     if world.in_view:
         one, other = random.choices(world.in_view, k=2)
-        kinds += [[world.moved(one, None)], [world.moved(other, random.choice(free))]]
+        kinds += [[world.move(one, None)], [world.move(other, random.choice(free))]]
     return tuple(kind for kind in kinds if kind)

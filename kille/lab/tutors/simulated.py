@@ -56,36 +56,36 @@ class _Performance:
     def teach(self) -> Turns:
         """He shows something, says what is so, and answers what the robot asks."""
         reply = yield Shows(self._task.occasion)
-        yield from self._orienting(reply)
-        yield from self._lesson(reply)
+        yield from self._tell_front(reply)
+        yield from self._give_lesson(reply)
 
-    def _lesson(self, reply: Reply) -> Turns:
+    def _give_lesson(self, reply: Reply) -> Turns:
         """He says what is so of the thing he points at."""
         says = self._holding.lesson(reply.state)
         reply = yield says
         if "see_no_such" in reply.acts or "same_thing" in reply.acts:
             reply = yield self._holding.lesson(None)
-        yield from self._answering(reply, says)
+        yield from self._answer_questions(reply, says)
 
     def ask(self) -> Turns:
         """He shows something and asks for a word, and says nothing of the answer."""
-        yield from self._asking()
+        yield from self._ask_word()
 
     def practise(self) -> Turns:
         """He asks, and then says of the answer what his feedback is."""
-        reply = yield from self._asking()
-        yield from self._judging(reply)
+        reply = yield from self._ask_word()
+        yield from self._give_feedback(reply)
 
-    def _asking(self) -> Generator[Move, Reply, Reply]:
+    def _ask_word(self) -> Generator[Move, Reply, Reply]:
         """He shows something and asks for a word: the reply that answers it."""
         occasion = self._task.occasion
         reply = yield Shows(occasion)
-        yield from self._orienting(reply)
-        asked = self._holding.asked(occasion)
+        yield from self._tell_front(reply)
+        asked = self._holding.question(occasion)
         text, act = self._words.question(occasion.kind), QUESTION_ACTS[occasion.kind]
         return (yield from self._until_clear(Says(text, act, asked)))
 
-    def _orienting(self, reply: Reply) -> Turns:
+    def _tell_front(self, reply: Reply) -> Turns:
         """He says which way the landmark faces, if he does so and it is not known."""
         landmark, y = self._task.occasion.landmark, self._task.occasion.y
         if landmark is None or not landmark.front or not self._manner.orients:
@@ -93,7 +93,7 @@ class _Performance:
         if f"faces_{landmark.front}" == reply.fronts.get(y):
             return
         phrase = self._holding.phrase(landmark, reply.state)
-        yield Says(self._words.facing(landmark.front, phrase), "orient")
+        yield Says(self._words.front_statement(landmark.front, phrase), "orient")
 
     def talk(self) -> Turns:
         """He shows something and leaves the robot the floor, and tells what it asks.
@@ -107,18 +107,18 @@ class _Performance:
         for _ in range(LOOKS):
             if driven:
                 break
-            occasion = occasion.looked()
+            occasion = occasion.look_again()
             reply = yield Waits(occasion)
             if reply.moves:
                 break
         if "learned_alone" in reply.acts:
-            yield from self._unlearning(occasion, reply)
+            yield from self._correct_unaided(occasion, reply)
         elif reply.wants:
-            yield from self._answering(reply, None)
+            yield from self._answer_questions(reply, None)
         elif driven:
-            yield from self._lesson(reply)
+            yield from self._give_lesson(reply)
 
-    def _unlearning(self, occasion: Occasion, reply: Reply) -> Turns:
+    def _correct_unaided(self, occasion: Occasion, reply: Reply) -> Turns:
         """He sets right what the robot has learned by itself, if that is not so.
 
         If it was another thing than that at which he points, he points there first.
@@ -126,9 +126,9 @@ class _Performance:
         x = next(iter(reply.things), None)
         if self._manner.feedback not in ("correct", "both") or x not in occasion.world:
             return
-        about = occasion.looked().of_noun(x)
-        held = self._holding.held(about)
-        if reply.said("noun") == held or not self._holding.has_word(about):
+        about = occasion.look_again().about_noun(x)
+        held = self._holding.spoken_word(about)
+        if reply.claimed_word("noun") == held or not self._holding.has_word(about):
             return
         if x != occasion.x:
             yield Shows(about)
@@ -138,10 +138,10 @@ class _Performance:
     def find(self) -> Turns:
         """He asks for a thing by its words."""
         occasion = self._task.occasion
-        phrase = self._words.described(occasion.thing, *BY[self._task.settings["by"]])
-        yield Shows(occasion.unpointed())
+        phrase = self._words.phrase_for(occasion.thing, *BY[self._task.settings["by"]])
+        yield Shows(occasion.without_pointing())
         asked = Asked("reference", occasion.name(occasion.x), occasion.x)
-        text = self._words.finding(phrase)
+        text = self._words.which_question(phrase)
         yield from self._until_clear(Says(text, "ask_find", asked, of=occasion.thing))
 
     def _until_clear(self, says: Says) -> Generator[Move, Reply, Reply]:
@@ -158,7 +158,7 @@ class _Performance:
     def forget(self) -> Turns:
         """He has a word forgotten."""
         kind, word = KINDS[self._task.settings["what"]], self._task.settings["word"]
-        text = self._words.forgetting(kind, self._words.called(word))
+        text = self._words.forget_request(kind, self._words.word_for(word))
         yield Says(text, "forget_word")
 
     def align(self) -> Turns:
@@ -169,39 +169,44 @@ class _Performance:
             thing = occasion.world.thing(number)
             if thing.front:
                 phrase = self._holding.phrase(thing, reply.state)
-                reply = yield Says(self._words.facing(thing.front, phrase), "orient")
+                reply = yield Says(
+                    self._words.front_statement(thing.front, phrase), "orient"
+                )
         if self._task.settings["announce"]:
             yield Says(self._words.perspective(self._holding.frame), "take_frame")
 
     # --- what he says of answers -----------------------------------------------------
 
-    def _judging(self, reply: Reply) -> Turns:
+    def _give_feedback(self, reply: Reply) -> Turns:
         """What he says of the answer to his question."""
         occasion = self._task.occasion
-        held, said = self._holding.held(occasion), reply.said(occasion.kind)
+        held, said = (
+            self._holding.spoken_word(occasion),
+            reply.claimed_word(occasion.kind),
+        )
         confirms = self._manner.feedback in ("confirm", "both")
         corrects = self._manner.feedback in ("correct", "both")
         if said == held and reply.way == "hedge" and corrects:
-            yield from self._lesson(reply)
+            yield from self._give_lesson(reply)
         elif said == held and (confirms or reply.way in CERTAIN):
             if confirms:
-                reply = yield Says(self._words.plainly("affirm"), "affirm")
-                yield from self._answering(reply, None)
-            yield from self._thanking()
+                reply = yield Says(self._words.plain_move("affirm"), "affirm")
+                yield from self._answer_questions(reply, None)
+            yield from self._thank()
         elif corrects and said:
             says = self._holding.correction(reply.state)
             reply = yield says
-            yield from self._answering(reply, says)
+            yield from self._answer_questions(reply, says)
         elif corrects:
-            yield from self._answering(reply, None)
+            yield from self._answer_questions(reply, None)
         elif confirms and said:
-            yield Says(self._words.plainly("deny"), "deny", corrects=True)
+            yield Says(self._words.plain_move("deny"), "deny", corrects=True)
 
-    def _thanking(self) -> Turns:
+    def _thank(self) -> Turns:
         if self._task.chance("thanks").random() < self._manner.politeness:
-            yield Says(self._words.plainly("thank"), "thank")
+            yield Says(self._words.plain_move("thank"), "thank")
 
-    def _answering(self, reply: Reply, latest: Says | None) -> Turns:
+    def _answer_questions(self, reply: Reply, latest: Says | None) -> Turns:
         """He answers what the robot asks, as long as his patience lasts."""
         while reply.wants and self._left > 0:
             told = answer_robot(self._holding, reply, latest)

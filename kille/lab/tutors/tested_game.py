@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from kille.lab.tutors.exploring import exploring_tutor
 from kille.lab.tutors.question_answers import DROPPING, answer_test
-from kille.lab.worlds.games import simulated
+from kille.lab.worlds.games import simulated_game
 from kille.lab.worlds.robot_profiles import ROBOTS
-from kille.lab.worlds.worlds import drawn
+from kille.lab.worlds.worlds import draw_world
 from ttr import Model, Record
 from ttr.testing import Roles
 
@@ -37,7 +37,7 @@ def roles_in(language: str) -> Roles:
     )
 
 
-game = simulated(drawn(1))
+game = simulated_game(draw_world(1))
 """The games, in front of a table with four things on it and four beside it."""
 
 tutor = exploring_tutor()

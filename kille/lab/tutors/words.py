@@ -22,6 +22,7 @@ from kille.lab.worlds.sayings import (
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import Thing
 from ttr import Record
+from ttr.aliases import Alias
 
 __all__ = ["Words"]
 
@@ -33,14 +34,14 @@ class Words:
     What he `calls` something else than others do stands by what they call it.
 
     >>> words = Words("en", {"mug": "cup"})
-    >>> words.lesson("noun", words.called("mug")), words.question("noun")
+    >>> words.lesson("noun", words.word_for("mug")), words.question("noun")
     ('This is a cup.', 'What is this?')
     """
 
     language: str = "en"
     calls: Mapping[str, str] = field(default_factory=dict)
 
-    def called(self, name: str) -> str:
+    def word_for(self, name: str) -> str:
         """What he calls a kind, a colour or a place; others, in English, call it so."""
         if name in self.calls:
             return self.calls[name]
@@ -53,11 +54,11 @@ class Words:
         )
         return sign(word, kind, means=means)
 
-    def described(self, thing: Thing, *by: str) -> Phrase:
+    def phrase_for(self, thing: Thing, *by: str) -> Phrase:
         """A phrase for a thing by its colour, its noun, or both: "the red cup"."""
         signs = {
-            "adjective": self.sign("adjective", self.called(thing.colour)),
-            "noun": self.sign("noun", self.called(thing.kind)),
+            "adjective": self.sign("adjective", self.word_for(thing.colour)),
+            "noun": self.sign("noun", self.word_for(thing.kind)),
         }
         return Phrase("", tuple(signs[it] for it in by))
 
@@ -71,13 +72,13 @@ class Words:
         target: Phrase = THIS,
     ) -> str:
         """That a word is true of this thing, or of one thing beside another."""
-        return self._claiming(LESSON_ACTS[kind], kind, word, landmark, target)
+        return self._claim_text(LESSON_ACTS[kind], kind, word, landmark, target)
 
     def correction(self, kind: str, word: str, landmark: Phrase | None = None) -> str:
         """That, instead of what was said, a word is true of this thing."""
-        return self._claiming("correct", kind, word, landmark, THIS)
+        return self._claim_text("correct", kind, word, landmark, THIS)
 
-    def _claiming(
+    def _claim_text(
         self, act: str, kind: str, word: str, landmark: Phrase | None, target: Phrase
     ) -> str:
         claim = Claim(self.sign(kind, word), target, landmark or NOTHING)
@@ -87,19 +88,19 @@ class Words:
         """What this thing is, what colour it is, or where."""
         return Saying(self.language, QUESTION_ACTS[kind], Claim(None, THIS)).text
 
-    def finding(self, phrase: Phrase) -> str:
+    def which_question(self, phrase: Phrase) -> str:
         """Which thing a phrase is for."""
         return Saying(self.language, "ask_find", Claim(None, phrase)).text
 
-    def mentioning(self, phrase: Phrase) -> str:
+    def mention(self, phrase: Phrase) -> str:
         """A phrase by itself."""
         return Saying(self.language, "mention", Claim(None, phrase)).text
 
-    def plainly(self, act: str) -> str:
+    def plain_move(self, act: str) -> str:
         """A move that is about nothing in particular: `affirm`, `deny`, `greet` …"""
         return Saying(self.language, act).text
 
-    def facing(self, front: str, phrase: Phrase) -> str:
+    def front_statement(self, front: str, phrase: Phrase) -> str:
         """Which way a thing faces."""
         return Saying(self.language, "orient", facing_matter(front, phrase)).text
 
@@ -107,7 +108,15 @@ class Words:
         """Whose perspective is meant: that of the `viewer`, or of the `landmark`."""
         return Saying(self.language, "take_frame", perspective_matter(of)).text
 
-    def forgetting(self, kind: str, word: str) -> str:
+    def forget_request(self, kind: str, word: str) -> str:
         """That a word is to be forgotten."""
         about = word_matter(self.sign(kind, word))
         return Saying(self.language, "forget_word", about).text
+
+    called = Alias("word_for")
+    described = Alias("phrase_for")
+    finding = Alias("which_question")
+    mentioning = Alias("mention")
+    plainly = Alias("plain_move")
+    facing = Alias("front_statement")
+    forgetting = Alias("forget_request")

@@ -26,13 +26,18 @@ from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.word_learning import LearnedWord, WordLesson, observe
 from kille.lab.worlds.worlds import World
 from ttr import Model, Pred, Record, RecordType, record, replace
+from ttr.aliases import former_names
 from ttr.types import TypeNode
 from ttr.updates import Game
 
-__all__ = ["act", "known", "simulated", "word", "world_of"]
+__all__ = ["act", "with_known_words", "simulated_game", "word", "world_of"]
+
+__getattr__ = former_names(
+    __name__, {"known": "with_known_words", "simulated": "simulated_game"}
+)
 
 
-def simulated(
+def simulated_game(
     world: World,
     signs: Iterable[Record] = (),
     *,
@@ -46,7 +51,7 @@ def simulated(
     those of `tutoring`.
 
     >>> from kille.lab.worlds.worlds import Thing
-    >>> game = simulated(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
     >>> turns = game.play(map(game.hear, ["This is a cup.", "What is this?"]))
     >>> [game.say(move) for turn in turns for move in turn.said]
     ['OK, I learned a cup.', 'This is a cup.']
@@ -76,14 +81,14 @@ def model_of(
     model = blank_model(types).witnessed(types["Look"], by=_is_look)
     for number in range(1, len(world.things) + 1):
         model = model.given(thing(number), types["Ind"])
-    return known(model.witnessed(types["across"], by=_across), signs)
+    return with_known_words(model.witnessed(types["across"], by=_across), signs)
 
 
-def known(model: Model, signs: Iterable[Record]) -> Model:
+def with_known_words(model: Model, signs: Iterable[Record]) -> Model:
     """The model in which these words are judged, by what they know without lessons."""
     for sign in signs:
         if word(model, word_of(sign)) is None:
-            model = model.witnessed(word_of(sign), by=LearnedWord.known(sign))
+            model = model.witnessed(word_of(sign), by=LearnedWord.without_lessons(sign))
     return model
 
 
@@ -101,16 +106,16 @@ def learned_words(model: Model) -> tuple[LearnedWord, ...]:
 
 def world_of(s: Record) -> World:
     """The world that a state has the latest look at."""
-    world = World.named(s.view.look)
+    world = World.from_name(s.view.look)
     return World() if world is None else world
 
 
 def _is_look(name: object) -> bool:
-    return isinstance(name, str) and World.named(name) is not None
+    return isinstance(name, str) and World.from_name(name) is not None
 
 
 def _across(x: str, look: str) -> float:
-    world = World.named(look)
+    world = World.from_name(look)
     return (
         0.0
         if world is None or number_of(x) not in world
@@ -156,7 +161,7 @@ def _learn(model: Model, sign: Record, content: RecordType) -> tuple[str, Model]
     """The model in which a content was learned, and the key of the lesson."""
     pred = word_of(sign)
     number = max((it.number for _, it in _lessons(model)), default=0) + 1
-    taught = (word(model, pred) or LearnedWord(sign)).taught(
+    taught = (word(model, pred) or LearnedWord(sign)).after_lesson(
         *claim_arguments(sign, content), holds=not is_denial(content), number=number
     )
     return taught.lessons[-1].key, model.witnessed(pred, by=taught)
@@ -182,7 +187,7 @@ def _unlearn(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], Mod
         left = it
         for lesson in it.lessons:
             if lesson.key in forgotten:
-                left = left.without(lesson.key)
+                left = left.without_lesson(lesson.key)
         if left is it:
             continue
         model = model.witnessed(word_of(it.sign), by=left)

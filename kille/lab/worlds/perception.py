@@ -8,6 +8,7 @@ from random import Random
 
 from kille.lab.worlds.worlds import COLOURS, SIDE, STEP, World
 from ttr import Record, record
+from ttr.aliases import former_names
 
 __all__ = [
     "Vector",
@@ -15,15 +16,17 @@ __all__ = [
     "colour",
     "direction",
     "distance",
-    "glanced",
+    "glance_event",
     "number_of",
     "oddness",
-    "seen",
+    "look_event",
     "size",
     "thing",
     "traits",
     "view",
 ]
+
+__getattr__ = former_names(__name__, {"seen": "look_event", "glanced": "glance_event"})
 
 Vector = tuple[float, ...]
 
@@ -58,21 +61,21 @@ def view(world: World) -> Record:
         look=world.name,
         things=things,
         placed=things if world.deep else [],
-        focus=[] if world.attended is None else [thing(world.attended)],
+        focus=[] if world.attended_thing is None else [thing(world.attended_thing)],
     )
 
 
-def seen(world: World, before: World) -> Record:
+def look_event(world: World, before: World) -> Record:
     """The event of looking, on the robot's own turn."""
-    return _event(world, before, "robot")
+    return _seeing_event(world, before, "robot")
 
 
-def glanced(world: World, before: World) -> Record:
+def glance_event(world: World, before: World) -> Record:
     """The event of looking while the tutor has the floor."""
-    return _event(world, before, "tutor")
+    return _seeing_event(world, before, "tutor")
 
 
-def _event(world: World, before: World, floor: str) -> Record:
+def _seeing_event(world: World, before: World, floor: str) -> Record:
     kept = [thing(it) for it in world.in_view if _has_stayed(it, world, before)]
     return record(view=view(world), kept=kept, floor=floor)
 

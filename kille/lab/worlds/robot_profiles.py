@@ -9,10 +9,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from kille.lab.worlds.games import simulated, world_of
-from kille.lab.worlds.perception import glanced
-from kille.lab.worlds.schooling import rested, resumed, schooled
-from kille.lab.worlds.worlds import drawn
+from kille.lab.worlds.games import simulated_game, world_of
+from kille.lab.worlds.perception import glance_event
+from kille.lab.worlds.schooling import continue_game, game_after_school, game_next_day
+from kille.lab.worlds.worlds import draw_world
 from ttr.updates import Game
 
 
@@ -35,27 +35,27 @@ class RobotProfile:
 
     def game(self, seed: int) -> Game:
         """The games that it plays, in the world that is drawn by a seed."""
-        world = drawn(seed, **self.world)
+        world = draw_world(seed, **self.world)
         settings = {"language": self.language, **self.strategy, **self.knows}
-        game = simulated(world, **settings)
+        game = simulated_game(world, **settings)
         if self.times:
-            game = schooled(game, self.language, self.times)
+            game = game_after_school(game, self.language, self.times)
         return game if self.since is None else self.since(game)
 
 
 def _flatten_view(game: Game) -> Game:
     """The game when it is no longer seen where things are."""
     world = world_of(game.start)
-    return resumed(game, [glanced(world.seen_flat(), world)])
+    return continue_game(game, [glance_event(world.flip_depth(), world)])
 
 
 def _relay_table(game: Game) -> Game:
     """The game when all that is in view is taken away, and all else is put there."""
     world = before = world_of(game.start)
     for number in range(1, len(world.things) + 1):
-        place = None if number in before else next(iter(world.free()))
-        world = world.moved(number, place)
-    return resumed(game, [glanced(world, before)])
+        place = None if number in before else next(iter(world.free_places()))
+        world = world.move(number, place)
+    return continue_game(game, [glance_event(world, before)])
 
 
 FOUR = {"wording": "four"}
@@ -79,7 +79,7 @@ ROBOTS = (
         times=1,
         since=_flatten_view,
     ),
-    RobotProfile("assisted, on another day", 0.05, times=1, since=rested),
+    RobotProfile("assisted, on another day", 0.05, times=1, since=game_next_day),
     RobotProfile("assisted, knowing no colours", 0.05, knows={"colours": ()}),
     RobotProfile("assisted, Swedish", 0.05, "sv"),
     RobotProfile("assisted, Swedish, after school", 0.05, "sv", times=1),

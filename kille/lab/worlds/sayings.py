@@ -287,7 +287,7 @@ def phrases_of(language: str, world: World, x: int) -> tuple[Phrase, ...]:
     known = vocabulary(language)
     noun, (colour, *_) = known.noun_of(world, x), known.adjectives_of(world, x)
     described = [Phrase("", it) for it in ((colour,), (noun,), (colour, noun))]
-    return (THIS, *described) if x == world.attended else tuple(described)
+    return (THIS, *described) if x == world.attended_thing else tuple(described)
 
 
 def _phrases(language: str, world: World) -> Iterator[Phrase]:

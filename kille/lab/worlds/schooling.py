@@ -12,26 +12,36 @@ from itertools import permutations
 from kille.dialogue.state import initial, words
 from kille.lab.worlds.games import learned_words as learned
 from kille.lab.worlds.games import world_of
-from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.sayings import THIS, Claim, Saying, phrases_of, sayings
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import World
 from ttr import Record, record
 from ttr import replace as updated
+from ttr.aliases import former_names
 from ttr.updates import Game
 
-__all__ = ["lessons", "rested", "resumed", "schooled"]
+__all__ = ["lessons", "game_next_day", "continue_game", "game_after_school"]
+
+__getattr__ = former_names(
+    __name__,
+    {
+        "schooled": "game_after_school",
+        "resumed": "continue_game",
+        "rested": "game_next_day",
+    },
+)
 
 
-def schooled(game: Game, language: str = "en", times: int = 1) -> Game:
+def game_after_school(game: Game, language: str = "en", times: int = 1) -> Game:
     """The game with a robot that was told so often what it sees, and where things are.
 
     After school the table was cleared and laid again, and all that anybody has said of
     the things that are now in view is which way one of them faces.
 
-    >>> from kille.lab.worlds.games import simulated
-    >>> from kille.lab.worlds.worlds import drawn
-    >>> after = schooled(simulated(drawn(1)))
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import draw_world
+    >>> after = game_after_school(simulated_game(draw_world(1)))
     >>> [sign.form for sign in after.start.private.nouns]
     ['box', 'bowl', 'car', 'cup']
     """
@@ -39,19 +49,19 @@ def schooled(game: Game, language: str = "en", times: int = 1) -> Game:
     given: list[str | Record] = []
     for _ in range(times):
         given += lessons(language, world)
-        world = world.looked()
-    cleared = world.cleared()
+        world = world.look_again()
+    cleared = world.clear()
     laid = replace(world, glance=cleared.glance + 1)
-    given += [glanced(cleared, world), glanced(laid, cleared)]
+    given += [glance_event(cleared, world), glance_event(laid, cleared)]
     facing = sayings(language, "orient", laid)[-1:]
-    return resumed(game, [*given, *(one.text for one in facing)])
+    return continue_game(game, [*given, *(one.text for one in facing)])
 
 
 def lessons(language: str, world: World) -> Iterator[str | Record]:
     """What each thing in view is, pointed at, and then where they are, once a word."""
     known = vocabulary(language)
     for x in world.in_view:
-        yield glanced(world.pointed(x), world)
+        yield glance_event(world.point_at(x), world)
         claim = Claim(known.noun_of(world, x), THIS)
         yield Saying(language, "instruct", claim).text
     said: set[Record] = set()
@@ -60,12 +70,12 @@ def lessons(language: str, world: World) -> Iterator[str | Record]:
         if relation is None or relation in said:
             continue
         said.add(relation)
-        yield glanced(world.pointed(x), world)
+        yield glance_event(world.point_at(x), world)
         claim = Claim(relation, THIS, phrases_of(language, world, y)[-1])
         yield Saying(language, "relate", claim).text
 
 
-def resumed(game: Game, given: Iterable[str | Record]) -> Game:
+def continue_game(game: Game, given: Iterable[str | Record]) -> Game:
     """The game as it goes on after all this: texts, and what was seen."""
     now = game.begin()
     for one in given:
@@ -74,7 +84,7 @@ def resumed(game: Game, given: Iterable[str | Record]) -> Game:
     return replace(game, start=now.state, model=now.model)
 
 
-def rested(game: Game) -> Game:
+def game_next_day(game: Game) -> Game:
     """The game on another day: it is known what was taught, but not what was said."""
     known, s = game.start, initial(words(game.start), game.start.private.strategy)
     taught = [

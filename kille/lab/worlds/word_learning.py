@@ -86,7 +86,7 @@ class LearnedWord:
     >>> from kille.lab.worlds.worlds import Thing
     >>> things = Thing("cup", "red", place=(2, 3)), Thing("car", "red", place=(5, 3))
     >>> world = World(things)
-    >>> cup = LearnedWord(noun("cup")).taught("o1", world.name)
+    >>> cup = LearnedWord(noun("cup")).after_lesson("o1", world.name)
     >>> cup("o1", world.name), round(cup("o2", world.name), 3)
     (0.8, ...)
     """
@@ -97,7 +97,7 @@ class LearnedWord:
     count: int = 0
 
     @classmethod
-    def known(cls, sign: Record) -> LearnedWord:
+    def without_lessons(cls, sign: Record) -> LearnedWord:
         """A word that was never taught: colours are known all the same."""
         shade = COLOURS.get(word_of(sign).name.removeprefix("is_"))
         if sign.kind != "adjective" or shade is None:
@@ -118,7 +118,9 @@ class LearnedWord:
             share * self._degree(aspect, of) for aspect, share in enumerate(shares)
         )
 
-    def taught(self, *args: str, holds: bool = True, number: int = 0) -> LearnedWord:
+    def after_lesson(
+        self, *args: str, holds: bool = True, number: int = 0
+    ) -> LearnedWord:
         """The word after one more lesson, which is about this in a look."""
         of = observe(self.sign.kind, *args)
         if of is None:
@@ -129,7 +131,7 @@ class LearnedWord:
         lesson = WordLesson(f"{word_of(self.sign).name}/{count}", of, holds, number)
         return replace(self, lessons=(*self.lessons, lesson), count=count)
 
-    def without(self, key: str) -> LearnedWord:
+    def without_lesson(self, key: str) -> LearnedWord:
         """The word as if it had never had this lesson."""
         left = tuple(lesson for lesson in self.lessons if lesson.key != key)
         return replace(self, lessons=left)
@@ -142,7 +144,9 @@ class LearnedWord:
     def nearest(self, of: Observation) -> WordLesson | None:
         """Of the lessons that say that it holds, the one most like what is seen."""
         holding = [lesson for lesson in self.lessons if lesson.holds]
-        return max(holding, key=lambda it: self._alike(it.of, of), default=None)
+        return max(
+            holding, key=lambda it: self._overall_similarity(it.of, of), default=None
+        )
 
     def cues(self, of: Observation) -> Sequence[tuple[str, float]]:
         """What speaks for it, and how much of all that does: the most first."""
@@ -167,18 +171,22 @@ class LearnedWord:
         kinds = ASPECTS[self.sign.kind]
         if len(kinds) == 1:
             return (1.0,)
-        agreeing = self._placing if self.sign.kind == "relation" else self._agreement
+        agreeing = (
+            self._place_agreement if self.sign.kind == "relation" else self._agreement
+        )
         agreement = [agreeing(aspect) for aspect in range(len(kinds))]
         whole = math.fsum(agreement)
         return [one / whole for one in agreement] if whole else (1.0, 0.0)
 
-    def _placing(self, aspect: int) -> float:
+    def _place_agreement(self, aspect: int) -> float:
         """How much more alike than by chance the places are that it is true of.
 
         At first it is the direction that is expected to be alike, and nothing else.
         """
         pairs = combinations([it.of for it in self.lessons if it.holds], 2)
-        same = [self.alike(one[aspect], other[aspect], aspect) for one, other in pairs]
+        same = [
+            self.similarity(one[aspect], other[aspect], aspect) for one, other in pairs
+        ]
         expected = EXPECTED if aspect == 0 else 0.0
         mean = (math.fsum(same) + expected) / (len(same) + EXPECTED)
         return max(0.0, (mean - BY_CHANCE[aspect]) / (1.0 - BY_CHANCE[aspect]))
@@ -188,28 +196,28 @@ class LearnedWord:
         same, apart = [], []
         for one, other in combinations(self.lessons, 2):
             if one.holds and other.holds:
-                same.append(self.alike(one.of[aspect], other.of[aspect], aspect))
+                same.append(self.similarity(one.of[aspect], other.of[aspect], aspect))
             elif one.holds or other.holds:
-                apart.append(self.alike(one.of[aspect], other.of[aspect], aspect))
+                apart.append(self.similarity(one.of[aspect], other.of[aspect], aspect))
         return max(LEAST, _mean(same, 1.0) - _mean(apart, 0.0))
 
     def _degree(self, aspect: int, of: Observation) -> float:
-        says, denies = (self.speaking(aspect, of, holds) for holds in (True, False))
+        says, denies = (self.support(aspect, of, holds) for holds in (True, False))
         return says / (says + denies + BACKGROUND)
 
-    def speaking(self, aspect: int, of: Observation, holds: bool) -> float:
+    def support(self, aspect: int, of: Observation, holds: bool) -> float:
         """How much the lessons that say that it holds, or does not, speak of this."""
         seen = of[aspect]
         lessons = (it for it in (*self.prior, *self.lessons) if it.holds is holds)
-        return math.fsum(self.alike(it.of[aspect], seen, aspect) for it in lessons)
+        return math.fsum(self.similarity(it.of[aspect], seen, aspect) for it in lessons)
 
-    def _alike(self, one: Observation, other: Observation) -> float:
+    def _overall_similarity(self, one: Observation, other: Observation) -> float:
         shares = self.weights()
         return math.fsum(
-            w * self.alike(one[i], other[i], i) for i, w in enumerate(shares)
+            w * self.similarity(one[i], other[i], i) for i, w in enumerate(shares)
         )
 
-    def alike(self, one: Vector, other: Vector, aspect: int) -> float:
+    def similarity(self, one: Vector, other: Vector, aspect: int) -> float:
         """How alike two things are in an aspect: the kernel, 1 for the same."""
         if self.sign.kind != "relation":
             return _gaussian(one, other)
@@ -219,7 +227,7 @@ class LearnedWord:
 def observe(kind: str, *args: str) -> Observation | None:
     """What is seen of what a word is said of; None if it is not in view."""
     *things, look = args[:3] if kind == "relation" else args
-    world = World.named(look)
+    world = World.from_name(look)
     numbers = [number_of(x) for x in things]
     if world is None or not all(number in world for number in numbers):
         return None

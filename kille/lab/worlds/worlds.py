@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from random import Random
 
+from ttr.aliases import Alias, former_names
+
 __all__ = [
     "COLOURS",
     "FRONTS",
@@ -21,8 +23,10 @@ __all__ = [
     "Place",
     "Thing",
     "World",
-    "drawn",
+    "draw_world",
 ]
+
+__getattr__ = former_names(__name__, {"drawn": "draw_world"})
 
 KINDS = ("cup", "mug", "bowl", "book", "box", "apple", "car", "shoe")
 """What kinds of things there are."""
@@ -80,9 +84,9 @@ class World:
     `deep` is seen as a flat picture: where things are is not known.
 
     >>> world = World((Thing("cup", "red", 0.5, (2, 3)), Thing("car", "blue")))
-    >>> world.moved(2, (7, 3)).pointed(2).name
+    >>> world.move(2, (7, 3)).point_at(2).name
     'look2 of 0~0.05: red cup 0.5 2,3; *blue car 0.5 7,3'
-    >>> World.named(world.name) == world
+    >>> World.from_name(world.name) == world
     True
     """
 
@@ -106,7 +110,7 @@ class World:
 
     @staticmethod
     @lru_cache(8192)
-    def named(name: str) -> World | None:
+    def from_name(name: str) -> World | None:
         """The world that a look of this name is at; None for any other text."""
         found = _NAME.fullmatch(name)
         if found is None:
@@ -136,7 +140,7 @@ class World:
         return tuple(number for number, thing in things if thing.place is not None)
 
     @cached_property
-    def attended(self) -> int | None:
+    def attended_thing(self) -> int | None:
         """The thing that "this" speaks of: what is pointed at, or the nearest."""
         if self.focus in self.in_view:
             return self.focus
@@ -159,32 +163,32 @@ class World:
 
     # --- what may happen -------------------------------------------------------------
 
-    def moved(self, number: int, place: Place | None) -> World:
+    def move(self, number: int, place: Place | None) -> World:
         """The world in which a thing is put somewhere, or taken away."""
         return self._with(number, place=place)
 
-    def turned(self, number: int, front: str) -> World:
+    def turn(self, number: int, front: str) -> World:
         """The world in which a thing faces this way."""
         return self._with(number, front=front)
 
-    def pointed(self, number: int | None) -> World:
+    def point_at(self, number: int | None) -> World:
         """The world in which this thing is pointed at, or none is."""
         return replace(self, focus=number, glance=self.glance + 1)
 
-    def looked(self) -> World:
+    def look_again(self) -> World:
         """The same world, looked at once more."""
         return replace(self, glance=self.glance + 1)
 
-    def seen_flat(self) -> World:
+    def flip_depth(self) -> World:
         """The same world, but it is not seen any more where things are; or again."""
         return replace(self, deep=not self.deep, glance=self.glance + 1)
 
-    def cleared(self) -> World:
+    def clear(self) -> World:
         """The world in which nothing is on the table."""
         things = tuple(replace(thing, place=None) for thing in self.things)
         return replace(self, things=things, glance=self.glance + 1)
 
-    def free(self) -> Iterable[Place]:
+    def free_places(self) -> Iterable[Place]:
         """The places where nothing is, from the left and from the front."""
         taken = {thing.place for thing in self.things}
         everywhere = ((x, y) for y in range(SIDE) for x in range(SIDE))
@@ -194,6 +198,16 @@ class World:
         things = list(self.things)
         things[number - 1] = replace(things[number - 1], **changes)  # type: ignore[arg-type]
         return replace(self, things=tuple(things), glance=self.glance + 1)
+
+    moved = Alias("move")
+    turned = Alias("turn")
+    pointed = Alias("point_at")
+    looked = Alias("look_again")
+    seen_flat = Alias("flip_depth")
+    cleared = Alias("clear")
+    named = Alias("from_name")
+    attended = Alias("attended_thing")
+    free = Alias("free_places")
 
 
 _NAME = re.compile(
@@ -212,7 +226,7 @@ def _read_thing(found: re.Match[str]) -> Thing:
     return Thing(found["kind"], found["colour"], size, place, front)
 
 
-def drawn(
+def draw_world(
     seed: int,
     things: int = 8,
     in_view: int = 4,
@@ -226,7 +240,7 @@ def drawn(
 
     No two of them are of one kind and one colour.
 
-    >>> print(drawn(1, 3, 2).name)
+    >>> print(draw_world(1, 3, 2).name)
     look0 of 1~0.05: ...
     """
     random = Random(f"world {seed}")

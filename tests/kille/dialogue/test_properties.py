@@ -14,10 +14,10 @@ from kille.dialogue.meanings import named
 from kille.lab.tutors.exploring import NONSENSE, exploring_tutor
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING
-from kille.lab.worlds.games import learned_words, simulated, world_of
-from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.games import learned_words, simulated_game, world_of
+from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.robot_profiles import ROBOTS
-from kille.lab.worlds.worlds import drawn
+from kille.lab.worlds.worlds import draw_world
 from ttr.testing import ALL, Suite
 from ttr.testing.strategies import play
 from ttr.updates.checks import faults_of
@@ -33,7 +33,7 @@ TURNS = 8
 def played(examples: int, language: str = "en", seed: int = 0, **strategy: str) -> str:
     """What is wrong in so many dialogues."""
     suite = Suite(
-        simulated(drawn(1 + seed), language=language, **strategy),
+        simulated_game(draw_world(1 + seed), language=language, **strategy),
         exploring_tutor(language),
         properties=PROPERTIES,
         roles=roles_in(language),
@@ -46,7 +46,9 @@ def played(examples: int, language: str = "en", seed: int = 0, **strategy: str) 
 
 def test_there_is_no_fault_before_anything_is_played():
     assert [
-        str(it) for it in faults_of(simulated(drawn(1))) if it.severity == "error"
+        str(it)
+        for it in faults_of(simulated_game(draw_world(1)))
+        if it.severity == "error"
     ] == []
 
 
@@ -92,7 +94,7 @@ def test_what_was_taught_on_another_day_is_unlearned_by_name_only():
 
 def told(*texts: str, language: str = "en"):
     """The run after these texts, in front of one world."""
-    game = simulated(drawn(1), language=language)
+    game = simulated_game(draw_world(1), language=language)
     dialogue = play(game, texts)
     assert dialogue.fault is None
     return dialogue.now
@@ -155,7 +157,7 @@ anything = st.one_of(
 @given(st.lists(anything, max_size=6), st.sampled_from(["en", "sv"]))
 @settings(deadline=None)
 def test_whatever_is_said_there_is_an_answer_and_a_state(texts, language):
-    game = simulated(drawn(1), language=language)
+    game = simulated_game(draw_world(1), language=language)
     dialogue = play(game, texts)
     assert dialogue.fault is None, dialogue.fault
     for turn in dialogue.turns:
@@ -170,20 +172,20 @@ def test_whatever_is_said_there_is_an_answer_and_a_state(texts, language):
 
 @pytest.mark.parametrize("text", ["cup " * 2500, "?" * 10_000, "\U0001f600" * 10_000])
 def test_ten_thousand_characters(text):
-    game = simulated(drawn(1))
+    game = simulated_game(draw_world(1))
     dialogue = play(game, [text])
     assert dialogue.fault is None
     assert not dialogue.now.state.private.lessons
 
 
 def test_hundreds_of_turns():
-    game = simulated(drawn(1))
+    game = simulated_game(draw_world(1))
     texts = ["This is a cup.", "What is this?", "Yes.", "Where is it?", "No.", "Why?"]
     now = game.begin()
     for number in range(300):
         before = world_of(now.state)
-        shown = before.pointed(before.in_view[number % 4])
-        now = game.take(now, glanced(shown, before)).run
+        shown = before.point_at(before.in_view[number % 4])
+        now = game.take(now, glance_event(shown, before)).run
         text = texts[number % len(texts)]
         turn = game.take(now, game.hear(text))
         assert turn.said, (number, text)

@@ -22,8 +22,8 @@ from kille.dialogue.language import understand
 from kille.dialogue.meanings import DialogueTypes, packaged_types, record_type
 from kille.dialogue.rules import NamedRule, bind, rule
 from kille.dialogue.tutoring import tutoring
-from kille.lab.worlds.games import simulated
-from kille.lab.worlds.perception import glanced, seen
+from kille.lab.worlds.games import simulated_game
+from kille.lab.worlds.perception import glance_event, look_event
 from kille.lab.worlds.worlds import Thing, World
 from ttr import Model, Rec, Theory, record
 from ttr.dialogues.stories import read_stories
@@ -103,11 +103,11 @@ def talk(game: Game, language: str, types: DialogueTypes) -> Iterator[str]:
     for line in SCRIPT[language].replace("\n", "|").split("|"):
         text = line.strip()
         if text.startswith("#"):
-            before, world = world, world.pointed(int(text[1:]))
-            turn = game.take(now, glanced(world, before))
+            before, world = world, world.point_at(int(text[1:]))
+            turn = game.take(now, glance_event(world, before))
         elif text == "wait":
-            before, world = world, world.looked()
-            turn = game.take(now, seen(world, before))
+            before, world = world, world.look_again()
+            turn = game.take(now, look_event(world, before))
         elif text:
             assert game.hear is not None
             event = game.hear(text)
@@ -126,12 +126,12 @@ def test_a_game_of_another_theory_never_asks_for_the_packaged_one(
     language: str, renamed: DialogueTypes, request: pytest.FixtureRequest
 ) -> None:
     usual = packaged_types()
-    said = list(talk(simulated(WORLD, language=language), language, usual))
+    said = list(talk(simulated_game(WORLD, language=language), language, usual))
     expected = [
         it.replace("look : Look, x : Ind", "look : Glimpse, x : Entity") for it in said
     ]
     request.getfixturevalue("without_packaged")
-    game = simulated(WORLD, language=language, types=renamed)
+    game = simulated_game(WORLD, language=language, types=renamed)
     assert list(talk(game, language, renamed)) == expected
 
 
@@ -186,7 +186,7 @@ def test_ten_robots_in_threads_answer_each_by_its_own() -> None:
         types = DialogueTypes(greeting(act))
         with Agent(sensor="synthetic:empty", theory=types) as robot:
             hello, again = robot.hear("Hello."), robot.hear("Hello.")
-        return hello, again, list(talk(simulated(WORLD, types=types), "en", types))
+        return hello, again, list(talk(simulated_game(WORLD, types=types), "en", types))
 
     with ThreadPoolExecutor(5) as pool:
         found = list(pool.map(answers, GREETINGS))

@@ -82,7 +82,9 @@ def _missing_words(
 
 def _has_one(words: Words, own: Iterable[str], there: Iterable[str]) -> bool:
     """Whether one of his own words is for something that is there."""
-    return bool({words.called(it) for it in own} & {words.called(it) for it in there})
+    return bool(
+        {words.word_for(it) for it in own} & {words.word_for(it) for it in there}
+    )
 
 
 # --- scripts --------------------------------------------------------------------------

@@ -79,14 +79,14 @@ def finished(study: Study, run: Run) -> Finished:
 def test_what_is_kept_is_what_is_read(played: Played, seconds: float) -> None:
     it = Finished(run_of(STUDY, 1), played, seconds)
     with TemporaryDirectory() as folder:
-        with Log.opened(STUDY, Path(folder)) as kept:
+        with Log.open(STUDY, Path(folder)) as kept:
             kept.write(it)
         assert list(log.read(Path(folder))) == [it]
 
 
 def test_what_is_no_number_is_none_afterwards(tmp_path: Path) -> None:
     answer = Answer(1, "test", "noun", "cup", "", "admit")
-    with Log.opened(STUDY, tmp_path) as kept:
+    with Log.open(STUDY, tmp_path) as kept:
         kept.write(Finished(run_of(STUDY, 0), Played((), (answer,)), 1))
     ((_, played, _),) = log.read(tmp_path)
     assert math.isnan(played.answers[0].degree)
@@ -96,14 +96,14 @@ def test_dialogues_are_read_in_the_order_of_the_study(tmp_path: Path) -> None:
     runs = list(STUDY.runs())[:3]
     for number, order in enumerate(permutations(runs)):
         folder = tmp_path / str(number)
-        with Log.opened(STUDY, folder) as kept:
+        with Log.open(STUDY, folder) as kept:
             for run in order:
                 kept.write(finished(STUDY, run))
         assert [it.run for it in log.read(folder)] == runs
 
 
 def test_a_dialogue_is_found_by_its_name_and_by_its_number(tmp_path: Path) -> None:
-    with Log.opened(STUDY, tmp_path) as kept:
+    with Log.open(STUDY, tmp_path) as kept:
         for run in STUDY.runs():
             kept.write(finished(STUDY, run))
     for number, run in enumerate(STUDY.runs(), start=1):
@@ -118,7 +118,7 @@ def test_what_broke_is_kept_with_its_reason_until_it_is_forgotten(
     tmp_path: Path,
 ) -> None:
     study = little_study.study(theories=(little_study.GOOD, little_study.BAD))
-    with Log.opened(study, tmp_path) as kept:
+    with Log.open(study, tmp_path) as kept:
         for run in study.runs():
             kept.write(play_to_outcome(study, run, little_study.play))
     (broken,) = log.broken_runs(tmp_path)
@@ -127,9 +127,9 @@ def test_what_broke_is_kept_with_its_reason_until_it_is_forgotten(
     assert "little_study.py, line" in broken.reason
     assert "Traceback" in broken.trace
     assert len(list(log.read(tmp_path))) == log.count_outcomes(tmp_path) - 1 == 5
-    with Log.opened(study, tmp_path) as kept:
+    with Log.open(study, tmp_path) as kept:
         assert kept.forget_broken() == 1
-        assert broken.run not in kept.over()
+        assert broken.run not in kept.reasons()
     assert log.count_outcomes(tmp_path) == 5
 
 
@@ -137,12 +137,12 @@ def test_what_broke_is_kept_with_its_reason_until_it_is_forgotten(
 
 
 def test_another_study_is_refused_and_nothing_lost(tmp_path: Path) -> None:
-    with Log.opened(STUDY, tmp_path) as kept:
+    with Log.open(STUDY, tmp_path) as kept:
         kept.write(finished(STUDY, run_of(STUDY, 0)))
     other = replace(STUDY, source="another")
     with (
         pytest.raises(RunError, match="another study: the study has changed"),
-        Log.opened(other, tmp_path),
+        Log.open(other, tmp_path),
     ):
         pass
     assert log.count_outcomes(tmp_path) == 1
@@ -153,14 +153,14 @@ def test_a_study_whose_learner_has_changed_is_another(tmp_path: Path) -> None:
     learner.write_text("a = 1")
     theory = Theory("a", learners={"noun": f"{learner}:Own"})
     study = replace(STUDY, theories={"a": theory}, folder=tmp_path)
-    with Log.opened(study, tmp_path / "out"):
+    with Log.open(study, tmp_path / "out"):
         pass
-    with Log.opened(study, tmp_path / "out"):
+    with Log.open(study, tmp_path / "out"):
         pass
     learner.write_text("a = 2")
     with (
         pytest.raises(RunError, match=r"another study: own\.py has changed"),
-        Log.opened(study, tmp_path / "out"),
+        Log.open(study, tmp_path / "out"),
     ):
         pass
 
@@ -170,19 +170,19 @@ def test_a_study_whose_folder_has_changed_is_another(tmp_path: Path) -> None:
     settings = {"folder": "people"}
     tutors = {"people": Named("people", "statements", settings)}
     study = replace(STUDY, tutors=tutors, folder=tmp_path)
-    with Log.opened(study, tmp_path / "out"):
+    with Log.open(study, tmp_path / "out"):
         pass
     (tmp_path / "people" / "more.csv").write_text("1")
     with (
         pytest.raises(RunError, match="another study: people has changed"),
-        Log.opened(study, tmp_path / "out"),
+        Log.open(study, tmp_path / "out"),
     ):
         pass
 
 
 def test_a_log_says_what_it_is_of(tmp_path: Path) -> None:
     study = replace(STUDY, folder=tmp_path, file=Path("numbers.toml"))
-    with Log.opened(study, tmp_path / "results" / "first"):
+    with Log.open(study, tmp_path / "results" / "first"):
         pass
     moved = tmp_path / "results" / "second"
     (tmp_path / "results" / "first").rename(moved)
@@ -197,16 +197,16 @@ def test_a_log_says_what_it_is_of(tmp_path: Path) -> None:
 
 
 def test_a_second_writer_is_refused_at_once_and_a_reader_is_not(tmp_path: Path) -> None:
-    with Log.opened(STUDY, tmp_path) as kept:
+    with Log.open(STUDY, tmp_path) as kept:
         kept.write(finished(STUDY, run_of(STUDY, 0)))
         with (
             pytest.raises(RunError, match=f"another run .process {os.getpid()}."),
-            Log.opened(STUDY, tmp_path),
+            Log.open(STUDY, tmp_path),
         ):
             pass
         assert log.count_outcomes(tmp_path) == 1
-    with Log.opened(STUDY, tmp_path) as kept:
-        assert len(kept.over()) == 1
+    with Log.open(STUDY, tmp_path) as kept:
+        assert len(kept.reasons()) == 1
 
 
 def test_dialogues_are_whole_or_not_there_whenever_the_writer_is_killed(
@@ -231,8 +231,8 @@ from kille.lab.log import Log
 from kille.lab.log.outcomes import play_to_outcome
 
 study = little_study.study({SEEDS})
-with Log.opened(study, Path(sys.argv[1])) as kept:
-    over = kept.over()
+with Log.open(study, Path(sys.argv[1])) as kept:
+    over = kept.reasons()
     os.write(1, b".")
     for run in study.runs():
         if run not in over:
@@ -265,7 +265,7 @@ def test_a_full_disk_is_one_line_and_loses_nothing_that_was_kept(
     tmp_path: Path,
 ) -> None:
     first, second, *_ = STUDY.runs()
-    with Log.opened(STUDY, tmp_path) as kept:
+    with Log.open(STUDY, tmp_path) as kept:
         kept.write(finished(STUDY, first))
         with full(kept._connection):
             long = Turn(1, "lessons", "Ann", "instruct", "x" * 100_000, "")
@@ -364,7 +364,7 @@ def test_a_folder_that_cannot_be_made_is_one_line(tmp_path: Path) -> None:
 
 
 def test_a_log_can_be_read_where_nothing_can_be_written(tmp_path: Path) -> None:
-    with Log.opened(STUDY, tmp_path) as kept:
+    with Log.open(STUDY, tmp_path) as kept:
         kept.write(finished(STUDY, run_of(STUDY, 0)))
     tmp_path.chmod(stat.S_IRUSR | stat.S_IXUSR)
     try:
@@ -378,12 +378,12 @@ def read_it(folder: Path) -> None:
 
 
 def write_it(folder: Path) -> None:
-    with Log.opened(STUDY, folder):
+    with Log.open(STUDY, folder):
         pass
 
 
 def play_one(folder: Path) -> None:
-    with Log.opened(STUDY, folder) as kept:
+    with Log.open(STUDY, folder) as kept:
         kept.write(finished(STUDY, run_of(STUDY, 0)))
 
 
@@ -399,7 +399,7 @@ def test_what_cannot_be_kept_breaks_its_own_dialogue_alone(
     tmp_path: Path, odd: Turn, told: str
 ) -> None:
     first, second, *_ = STUDY.runs()
-    with Log.opened(STUDY, tmp_path) as kept:
+    with Log.open(STUDY, tmp_path) as kept:
         found = kept.write(Finished(first, Played((odd,), ()), 1))
         kept.write(finished(STUDY, second))
     assert isinstance(found, Broken)
@@ -412,7 +412,7 @@ def test_a_reason_with_half_a_character_can_be_kept(tmp_path: Path) -> None:
     def play(study: Study, run: Run) -> Played:
         raise ValueError("\ud800")
 
-    with Log.opened(STUDY, tmp_path) as kept:
+    with Log.open(STUDY, tmp_path) as kept:
         kept.write(play_to_outcome(STUDY, run_of(STUDY, 0), play))
     (broken,) = log.broken_runs(tmp_path)
     assert broken.reason.startswith(r"ValueError: \ud800 (")

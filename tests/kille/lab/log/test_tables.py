@@ -69,7 +69,7 @@ def test_the_tutor_of_a_turn_is_not_that_of_its_run(tmp_path: Path) -> None:
     study = little_study.study()
     turn = Turn(1, "test", "Bob", "ask_name", 'He said: "What, or\nwho?"', "…", 3)
     one = Finished(next(study.runs()), Played((turn,), ()), 1)
-    with Log.opened(study, tmp_path) as kept:
+    with Log.open(study, tmp_path) as kept:
         kept.write(one)
     write_tables(tmp_path)
     (row,) = rows(tmp_path, "turns")
@@ -81,7 +81,7 @@ def test_what_is_not_known_is_left_empty(tmp_path: Path) -> None:
     study = little_study.study()
     answer = Answer(1, "test", "noun", "cup", "", "admit")
     one = Finished(next(study.runs()), Played((), (answer,)), 1)
-    with Log.opened(study, tmp_path) as kept:
+    with Log.open(study, tmp_path) as kept:
         kept.write(one)
     write_tables(tmp_path)
     (row,) = rows(tmp_path, "answers")
@@ -92,7 +92,7 @@ def test_tables_are_the_same_bytes_in_whatever_order_dialogues_ended(
     folder: Path,
 ) -> None:
     other = folder / "backwards"
-    with Log.opened(STUDY, other) as kept:
+    with Log.open(STUDY, other) as kept:
         for it in reversed(list(log.outcomes(folder))):
             kept.write(it._replace(seconds=it.seconds + 1))
     write_tables(other)
@@ -129,7 +129,7 @@ def test_tables_without_a_log_or_a_place_are_one_line(
 
 def test_all_that_broke_has_tables_too(tmp_path: Path) -> None:
     study = little_study.study(seeds=1)
-    with Log.opened(study, tmp_path) as kept:
+    with Log.open(study, tmp_path) as kept:
         for it in study.runs():
             kept.write(Broken(it, "no cups", "", 1))
     write_tables(tmp_path)

@@ -276,7 +276,7 @@ def test_what_is_wanted_is_said(capsys, do, what, wanted):
 
 
 def test_a_tutor_may_speak_another_language():
-    world = World((Thing("cup", "red", place=(2, 3)),)).pointed(1)
+    world = World((Thing("cup", "red", place=(2, 3)),)).point_at(1)
     task = Task(Run("a", "me", "t", 1), "p", "ask", 1, Occasion("noun", world, 1))
     prompts: list[str] = []
 
@@ -362,11 +362,11 @@ def robot(*lines: str) -> TypedRobot:
 
 def occasion() -> Occasion:
     things = Thing("cup", "red", place=(2, 3)), Thing("mug", "blue", place=(4, 3))
-    return Occasion("noun", World(things).pointed(1), 1, 2)
+    return Occasion("noun", World(things).point_at(1), 1, 2)
 
 
 def way(it: Reply, kind: str = "noun") -> tuple[str, str]:
-    return it.said(kind), it.way
+    return it.claimed_word(kind), it.way
 
 
 def test_an_answer_that_cannot_be_read_is_asked_for_once_more():
@@ -397,10 +397,10 @@ def test_a_question_claims_nothing():
 
 def test_the_player_points_by_number():
     reply = robot("Here: #2").hear("Show me the mug.")
-    assert (reply.pointed, reply.way) == (2, "point")
-    assert robot("this one", "#1").hear("Show me the cup.").pointed == 1
-    assert robot("#9", "#2").hear("Show me the mug.").pointed == 2
-    assert robot("this", "one").hear("Show me the mug.").pointed is None
+    assert (reply.pointed_thing, reply.way) == (2, "point")
+    assert robot("this one", "#1").hear("Show me the cup.").pointed_thing == 1
+    assert robot("#9", "#2").hear("Show me the mug.").pointed_thing == 2
+    assert robot("this", "one").hear("Show me the mug.").pointed_thing is None
 
 
 def test_who_says_two_words_means_the_last():

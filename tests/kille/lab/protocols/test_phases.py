@@ -41,7 +41,7 @@ def test_so_many_things_are_shown(turns):
 def test_no_two_tasks_have_a_look_in_common():
     found = done(("teach", {"rounds": 3}), ("ask", {}))
     looks = [task.occasion.world.name for task in found]
-    later = [task.occasion.looked().world.name for task in found]
+    later = [task.occasion.look_again().world.name for task in found]
     assert len({*looks, *later}) == 2 * len(found)
 
 
@@ -148,4 +148,4 @@ def test_a_phase_is_as_long_as_it_has_tasks(phase):
 @pytest.mark.parametrize("do", sorted(phases.SETTINGS))
 def test_every_phase_says_what_may_be_set(do):
     for name, setting in phases.SETTINGS[do].items():
-        assert setting.needed or not setting.unfit(setting.default), name
+        assert setting.needed or not setting.problem_with(setting.default), name

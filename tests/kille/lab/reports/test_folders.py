@@ -50,7 +50,7 @@ def ran(
 ) -> Path:
     """A folder of results; of a theory called bad one dialogue breaks."""
     study = parse(text.format(seeds=seeds, other=other), Path("numbers.toml"))
-    with Log.opened(study, folder) as log:
+    with Log.open(study, folder) as log:
         for run in study.runs():
             log.write(play_to_outcome(study, run, little_study.play))
     return folder
@@ -94,7 +94,7 @@ def test_what_broke_is_told_and_the_rest_is_there(tmp_path: Path) -> None:
 def test_theories_are_shown_though_all_their_dialogues_broke(tmp_path: Path) -> None:
     folder, study = tmp_path / "results", STUDY.replace("[theories.good]", "")
     found = parse(study.format(seeds="[2]", other="bad"), Path("numbers.toml"))
-    with Log.opened(found, folder) as log:
+    with Log.open(found, folder) as log:
         for run in found.runs():
             log.write(play_to_outcome(found, run, little_study.play))
     page, results = reports.report(folder)

@@ -27,7 +27,7 @@ def robot(kind="drawn", theory=None, **set_):
 
 
 def shown(x, world=WORLD, glance=1):
-    return Occasion("noun", world.pointed(x), x).at(glance)
+    return Occasion("noun", world.point_at(x), x).at_glance(glance)
 
 
 def test_it_replies_as_its_theory_says():
@@ -37,7 +37,7 @@ def test_it_replies_as_its_theory_says():
     assert (reply.text, reply.acts) == ("OK, I learned a cup.", ("learned",))
     assert "learn_word" in reply.rules
     asked = it.hear("What is this?")
-    assert (asked.way, asked.said("noun")) == ("assert", "cup")
+    assert (asked.way, asked.claimed_word("noun")) == ("assert", "cup")
     found = degrees(asked.state, asked.model, "noun", it.name(1))
     assert found["cup"] > 0.5
 
@@ -55,7 +55,7 @@ def test_it_may_say_something_when_it_has_the_floor():
     it, _ = robot()
     occasion = shown(1)
     it.see(occasion)
-    reply = it.wait(occasion.looked())
+    reply = it.wait(occasion.look_again())
     assert reply.asks
     assert reply.wants == "ask_thing"
     assert reply.focus == 1
@@ -69,7 +69,7 @@ def test_it_does_not_know_what_was_moved_again():
         it.hear(f"This is a {word}.")
     it.see(shown(1, glance=3))
     it.hear("This is to the left of the book.")
-    moved = shown(1, WORLD.moved(1, (9, 3)), glance=4)
+    moved = shown(1, WORLD.move(1, (9, 3)), glance=4)
     it.see(moved)
     it.hear("Where is this?")
     reply = it.hear("No, this is to the right of the book.")
@@ -81,7 +81,7 @@ def test_a_thing_is_pointed_out():
     it, _ = robot()
     it.see(shown(1))
     reply = it.hear("Show me the blue one.")
-    assert (reply.way, reply.pointed) == ("point", 2)
+    assert (reply.way, reply.pointed_thing) == ("point", 2)
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def test_it_knows_on_another_day_what_it_was_taught():
     it.hear("This is a cup.")
     it.rest()
     it.see(shown(1, glance=5))
-    assert it.hear("What is this?").said("noun") == "cup"
+    assert it.hear("What is this?").claimed_word("noun") == "cup"
 
 
 def test_things_happen_by_commands():
@@ -146,8 +146,8 @@ def test_a_person_claims_what_they_type():
     lines = iter(["This is a cup.", "It is to the left of the car.", "Hm.", "What?"])
     it = TypedRobot(ask=lambda prompt: next(lines))
     it.see(shown(1))
-    assert it.hear("What is this?").said("noun") == "cup"
-    assert it.hear("Where is this?").said("relation") == "to the left of"
+    assert it.hear("What is this?").claimed_word("noun") == "cup"
+    assert it.hear("Where is this?").claimed_word("relation") == "to the left of"
     assert it.hear("And this?").way == "admit"
     assert it.hear("Hello?").asks
 
@@ -163,7 +163,7 @@ def test_the_whole_robot_sees_what_is_rendered():
         assert it.hear(f"This is a {word}.").text == f"OK, I learned a {word}."
     it.see(cup)
     reply = it.hear("What is this?")
-    assert reply.said("noun") == "cup"
+    assert reply.claimed_word("noun") == "cup"
     assert it.name(cup.x) == "o1"
     placed = scene.round("relation", False, Random(1))[0]
     it.see(placed)
@@ -171,7 +171,7 @@ def test_the_whole_robot_sees_what_is_rendered():
     assert {it.name(placed.x), it.name(placed.y)} == {"o1", "o2"}
     it.rest()
     it.see(car)
-    assert it.hear("What is this?").said("noun") == "car"
+    assert it.hear("What is this?").claimed_word("noun") == "car"
     it.close()
 
 
@@ -186,7 +186,7 @@ def test_the_whole_robot_sees_pictures(data):
     it.see(book)
     it.hear("This is a book.")
     it.see(cup)
-    assert it.hear("What is this?").said("noun") == "cup"
+    assert it.hear("What is this?").claimed_word("noun") == "cup"
     it.close()
 
 
@@ -205,7 +205,7 @@ def test_the_whole_robot_sees_captures(data):
     it.see(first)
     it.hear(f"This is a {first.group}.")
     it.see(second)
-    assert it.hear("What is this?").said("noun") != second.group
+    assert it.hear("What is this?").claimed_word("noun") != second.group
     assert any(it.wait(second).asks for _ in range(2))
     pointed = it.hear(f"Show me the {first.group}.")
     assert pointed.way in ("point", "none")

@@ -97,7 +97,7 @@ def test_a_thousand_dialogues_that_are_over_are_passed_over_at_once(
 
 def test_nothing_is_played_where_another_plays(tmp_path: Path) -> None:
     study = little_study.study()
-    with Log.opened(study, tmp_path), pytest.raises(RunError, match="another run"):
+    with Log.open(study, tmp_path), pytest.raises(RunError, match="another run"):
         run(study, tmp_path, play)
 
 

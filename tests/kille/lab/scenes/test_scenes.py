@@ -46,7 +46,7 @@ def test_so_many_things_are_in_view(seed, count):
     scene = opened("drawn", seed=seed, in_view=count)
     for it in scene.round("noun", False, Random(seed)):
         assert len(it.world.in_view) == count
-        assert it.world.attended == it.x
+        assert it.world.attended_thing == it.x
 
 
 @given(st.integers(1, 50))
@@ -89,14 +89,18 @@ def test_places_are_seen_off_and_talked_of_as_they_are(seed):
     )
     first, other = next(pairs)
     assert first.world.place(1) == other.world.place(1)
-    assert other.shown.place(1) != other.world.place(1)
-    assert other.shown.place(2) == other.world.place(2)
+    assert other.world_seen.place(1) != other.world.place(1)
+    assert other.world_seen.place(2) == other.world.place(2)
 
 
 def test_as_many_places_are_astray_as_is_said():
     scene = opened("around", astray=0.25, points=100)
     round_ = scene.round("relation", False, Random(1))
-    off = [it for it in round_ if math.dist(it.world.place(1), it.shown.place(1)) > 0.1]
+    off = [
+        it
+        for it in round_
+        if math.dist(it.world.place(1), it.world_seen.place(1)) > 0.1
+    ]
     assert 0.15 < len(off) / len(round_) < 0.35
 
 
@@ -106,7 +110,7 @@ def test_a_landmark_has_moved_when_it_is_asked_about():
     asked = scene.round("relation", True, Random(1))
     assert all(it.seen is None for it in taught)
     for it in asked:
-        moved = STEP * math.dist(it.world.place(1), it.shown.place(1))
+        moved = STEP * math.dist(it.world.place(1), it.world_seen.place(1))
         assert math.isclose(moved, 0.25, abs_tol=1e-3)
 
 
@@ -293,7 +297,7 @@ def test_no_more_things_are_in_view_than_there_is_room_for():
     scene = opened("drawn", each=20, in_view=100)
     (first, *_) = scene.round("noun", False, Random(1))
     assert len(first.world.in_view) == 100
-    assert scenes.SETTINGS["drawn"]["in_view"].unfit(101)
+    assert scenes.SETTINGS["drawn"]["in_view"].problem_with(101)
 
 
 def test_a_thing_stands_beside_another():
@@ -315,7 +319,7 @@ def test_a_fault_of_the_camera_that_there_is_not_is_told():
 
 @pytest.mark.parametrize("key", ["off", "spread", "shift"])
 def test_who_means_centimetres_is_told(key):
-    told = scenes.SETTINGS["around"][key].unfit(5)
+    told = scenes.SETTINGS["around"][key].problem_with(5)
     assert told == "expected a number of metres from 0 to 1, found 5"
 
 
@@ -324,10 +328,10 @@ def test_who_means_centimetres_is_told(key):
 )
 def test_a_slip_of_the_keyboard_is_no_setting(kind, key):
     """A noise that no name of a world can say, or more things than anybody draws."""
-    assert scenes.SETTINGS[kind][key].unfit(10**6)
+    assert scenes.SETTINGS[kind][key].problem_with(10**6)
 
 
 @pytest.mark.parametrize("kind", sorted(scenes.SETTINGS))
 def test_every_kind_says_what_may_be_set(kind):
     for name, setting in scenes.SETTINGS[kind].items():
-        assert setting.needed or not setting.unfit(setting.default), name
+        assert setting.needed or not setting.problem_with(setting.default), name

@@ -395,14 +395,14 @@ def test_what_has_no_line_is_where_it_is_in() -> None:
     ],
 )
 def test_a_value_fits_or_is_told(setting: Setting, fits, unfit_) -> None:
-    assert setting.unfit(fits) == ""
-    assert setting.unfit(unfit_).startswith("expected ")
+    assert setting.problem_with(fits) == ""
+    assert setting.problem_with(unfit_).startswith("expected ")
 
 
 def test_nothing_is_in_a_list_twice_unless_that_says_something() -> None:
-    assert Setting(several=True).unfit(["a", "b", "a"]) == '"a" is there twice'
-    assert Setting(float, several=True).unfit([1, 1.0]) == "1 is there twice"
-    assert not Setting(several=True, twice=True).unfit(["a", "a"])
+    assert Setting(several=True).problem_with(["a", "b", "a"]) == '"a" is there twice'
+    assert Setting(float, several=True).problem_with([1, 1.0]) == "1 is there twice"
+    assert not Setting(several=True, twice=True).problem_with(["a", "a"])
 
 
 @pytest.mark.parametrize(

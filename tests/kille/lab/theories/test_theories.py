@@ -35,9 +35,9 @@ from kille.lab.theories.pupils import Heard, Pupil
 from kille.lab.theories.rules import algorithm_of, without_rules
 from kille.lab.theories.simulated_words import PrototypeWord
 from kille.lab.worlds.games import learned_words
-from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.word_learning import LearnedWord
-from kille.lab.worlds.worlds import Thing, World, drawn
+from kille.lab.worlds.worlds import Thing, World, draw_world
 from kille.memory import Memory
 from kille.perception.evidence import Evidence
 from kille.perception.index import Background, View
@@ -94,7 +94,7 @@ def dialogue(game: Game, said: Iterable[str | int]) -> list[str]:
     now, world, answers = game.begin(), WORLD, []
     for one in said:
         if isinstance(one, int):
-            event, world = glanced(world.pointed(one), world), world.pointed(one)
+            event, world = glance_event(world.point_at(one), world), world.point_at(one)
             now = game.take(now, event).run
             continue
         turn = game.take(now, game.hear(one))
@@ -248,13 +248,13 @@ KEYS = st.lists(st.sampled_from(range(1, 9)), min_size=1, max_size=6)
 
 def taught(word: LearnedWord, numbers: Iterable[int], world: World) -> LearnedWord:
     for number in numbers:
-        word = word.taught(f"o{number}", world.name, holds=number % 3 > 0)
+        word = word.after_lesson(f"o{number}", world.name, holds=number % 3 > 0)
     return word
 
 
 @given(KEYS)
 def test_a_prototype_of_one_lesson_is_that_instance(numbers: list[int]) -> None:
-    world, number = drawn(1, in_view=8), numbers[0]
+    world, number = draw_world(1, in_view=8), numbers[0]
     one = taught(LearnedWord(noun("cup")), [number], world)
     other = taught(PrototypeWord(noun("cup")), [number], world)
     for x in world.in_view:
@@ -263,7 +263,7 @@ def test_a_prototype_of_one_lesson_is_that_instance(numbers: list[int]) -> None:
 
 @given(KEYS, st.randoms())
 def test_a_prototype_knows_no_order(numbers: list[int], chance) -> None:
-    world = drawn(1, in_view=8)
+    world = draw_world(1, in_view=8)
     once = taught(PrototypeWord(noun("cup")), numbers, world)
     chance.shuffle(numbers)
     again = taught(PrototypeWord(noun("cup")), numbers, world)
@@ -273,9 +273,9 @@ def test_a_prototype_knows_no_order(numbers: list[int], chance) -> None:
 
 @given(KEYS)
 def test_a_prototype_forgets_as_if_it_had_never_learned(numbers: list[int]) -> None:
-    world = drawn(1, in_view=8)
+    world = draw_world(1, in_view=8)
     before = taught(PrototypeWord(noun("cup")), numbers, world)
-    after = taught(before, [1], world).without(f"cup/{before.count + 1}")
+    after = taught(before, [1], world).without_lesson(f"cup/{before.count + 1}")
     for x in world.in_view:
         assert after(f"o{x}", world.name) == before(f"o{x}", world.name)
 
@@ -286,9 +286,9 @@ def test_a_prototype_forgets_as_if_it_had_never_learned(numbers: list[int]) -> N
     )
 )
 def test_prototypes_of_places_are_degrees(pairs: list[tuple[int, int]]) -> None:
-    world, word = drawn(1, in_view=8), PrototypeWord(relation("near"))
+    world, word = draw_world(1, in_view=8), PrototypeWord(relation("near"))
     for x, y in pairs:
-        word = word.taught(f"o{x}", f"o{y}", world.name, "away")
+        word = word.after_lesson(f"o{x}", f"o{y}", world.name, "away")
     for x, y in pairs:
         assert 0.0 < word(f"o{x}", f"o{y}", world.name, "away") <= 1.0
 

@@ -16,10 +16,10 @@ from kille.dialogue.meanings import (
 )
 from kille.lab.tutors.exploring import happenings, is_true
 from kille.lab.worlds.sayings import acts, sayings
-from kille.lab.worlds.worlds import Thing, World, drawn
+from kille.lab.worlds.worlds import Thing, World, draw_world
 from ttr import RecordType
 
-WORLD = drawn(1)
+WORLD = draw_world(1)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -59,8 +59,8 @@ def test_he_knows_what_is_true():
 
     assert is_true("en", world, naming("cup", "o1"))
     assert not is_true("en", world, naming("cup", "o2"))
-    assert is_true("en", world, denial(naming("cup", "o2")))
-    assert not is_true("en", world.moved(1, None), naming("cup", "o1"))
+    assert is_true("en", world, denied(naming("cup", "o2")))
+    assert not is_true("en", world.move(1, None), naming("cup", "o1"))
 
 
 def test_things_are_put_taken_moved_and_pointed_at():

@@ -4,13 +4,13 @@ import pytest
 
 from kille.dialogue.language import LANGUAGES, understand
 from kille.lab.tutors.openings import leading_topics, situation
-from kille.lab.worlds.games import simulated, world_of
-from kille.lab.worlds.perception import glanced
+from kille.lab.worlds.games import simulated_game, world_of
+from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.robot_profiles import ROBOTS
-from kille.lab.worlds.schooling import schooled
-from kille.lab.worlds.worlds import drawn
+from kille.lab.worlds.schooling import game_after_school
+from kille.lab.worlds.worlds import draw_world
 
-GAME = schooled(simulated(drawn(1)))
+GAME = game_after_school(simulated_game(draw_world(1)))
 
 
 def acts(state, language="en"):
@@ -36,25 +36,25 @@ def test_all_that_leads_on_can_be_said_and_is_understood(robot):
 
 
 def test_perspectives_are_taken_up_when_a_thing_faces_some_way():
-    blank = simulated(drawn(1)).start
+    blank = simulated_game(draw_world(1)).start
     assert "orient" in acts(blank)
     assert "take_frame" not in acts(blank)
     assert "take_frame" in acts(GAME.start)
 
 
 def test_who_learns_nothing_yet_is_asked_what_it_knows():
-    assert "ask_knowledge" in acts(simulated(drawn(1), colours=()).start)
+    assert "ask_knowledge" in acts(simulated_game(draw_world(1), colours=()).start)
     assert "ask_knowledge" not in acts(GAME.start)
 
 
 def test_in_front_of_nothing_one_asks_what_there_is():
     world = world_of(GAME.start)
-    assert "ask_view" in acts(after(glanced(world.cleared(), world)))
+    assert "ask_view" in acts(after(glance_event(world.clear(), world)))
 
 
 def test_places_are_talked_of_where_they_are_not_seen():
     world = world_of(GAME.start)
-    flat = after(glanced(world.seen_flat(), world))
+    flat = after(glance_event(world.flip_depth(), world))
     assert {"relate", "correct", "reject"} <= acts(flat)
 
 

@@ -3,11 +3,11 @@
 import pytest
 
 from kille.lab.tutors.question_answers import answer_test
-from kille.lab.worlds.games import simulated
-from kille.lab.worlds.worlds import drawn
+from kille.lab.worlds.games import simulated_game
+from kille.lab.worlds.worlds import draw_world
 from ttr import record
 
-GAME = simulated(drawn(1))
+GAME = simulated_game(draw_world(1))
 ONE, TWO, THREE = ([record(n=float(i)) for i in range(n)] for n in (1, 2, 3))
 
 

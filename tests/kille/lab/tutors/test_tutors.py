@@ -349,7 +349,7 @@ class Shouting:
 
     def turns(self, task):
         yield Shows(task.occasion)
-        kind = self._words.called(task.occasion.thing.kind)
+        kind = self._words.word_for(task.occasion.thing.kind)
         for _ in range(self._times):
             reply = yield Says(self._words.lesson("noun", kind), "instruct")
             assert reply.acts == ("learned",)

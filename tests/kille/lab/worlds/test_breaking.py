@@ -13,14 +13,14 @@ from kille.lab.worlds.dialogue_properties import (
     RETRACTED,
     WORDED,
 )
-from kille.lab.worlds.games import act, simulated
+from kille.lab.worlds.games import act, simulated_game
 from kille.lab.worlds.word_learning import LearnedWord
 from kille.lab.worlds.worlds import Thing, World
 from ttr import replace as changed
 from ttr.testing.strategies import Dialogue, play
 
 WORLD = World((Thing("cup", "red", 0.5, (2, 3)), Thing("book", "blue", 0.9, (6, 3))))
-GAME = simulated(WORLD)
+GAME = simulated_game(WORLD)
 TEXTS = ["This is a cup.", "What is this?", "That is correct.", "What is this?"]
 
 
@@ -38,10 +38,10 @@ def test_the_games_as_they_are_break_none(one):
 def test_who_learns_another_word_as_well_is_found():
     def spilling(planned, model):
         move, model = act(planned, model)
-        mug = LearnedWord.known(noun("mug")).taught("o1", WORLD.name)
+        mug = LearnedWord.without_lessons(noun("mug")).after_lesson("o1", WORLD.name)
         return move, model.witnessed(word_of(noun("mug")), by=mug)
 
-    game = replace(simulated(WORLD, [noun("mug")]), act=spilling)
+    game = replace(simulated_game(WORLD, [noun("mug")]), act=spilling)
     assert "'mug'" in breach(play(game, TEXTS), LOCAL)
 
 

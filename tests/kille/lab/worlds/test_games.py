@@ -3,9 +3,9 @@
 import pytest
 
 from kille.dialogue.meanings import noun, word_of
-from kille.lab.worlds.games import learned_words, simulated, word, world_of
-from kille.lab.worlds.perception import glanced
-from kille.lab.worlds.worlds import Thing, World, drawn
+from kille.lab.worlds.games import learned_words, simulated_game, word, world_of
+from kille.lab.worlds.perception import glance_event
+from kille.lab.worlds.worlds import Thing, World, draw_world
 from ttr.testing.strategies import play
 
 WORLD = World(
@@ -22,7 +22,7 @@ class Talk:
     """A dialogue in a simulated world."""
 
     def __init__(self, world=WORLD, **settings):
-        self.game = simulated(world, **settings)
+        self.game = simulated_game(world, **settings)
         self.now = self.game.begin()
 
     def hear(self, text):
@@ -32,7 +32,7 @@ class Talk:
 
     def see(self, change):
         before = world_of(self.now.state)
-        turn = self.game.take(self.now, glanced(change(before), before))
+        turn = self.game.take(self.now, glance_event(change(before), before))
         self.now = turn.run
 
     def degree(self, form, x):
@@ -43,9 +43,9 @@ class Talk:
 def test_it_learns_to_name_things_from_one_example():
     talk = Talk()
     assert talk.hear("This is a cup.") == "OK, I learned a cup."
-    talk.see(lambda world: world.pointed(2))
+    talk.see(lambda world: world.point_at(2))
     assert talk.hear("This is a book.") == "OK, I learned a book."
-    talk.see(lambda world: world.pointed(3))
+    talk.see(lambda world: world.point_at(3))
     assert talk.hear("What is this?") == "This is a cup."
 
 
@@ -53,10 +53,10 @@ def test_it_learns_relations_and_says_where_things_are():
     talk = Talk()
     talk.hear("This is a cup.")
     talk.hear("The blue book is a book.")
-    talk.see(lambda world: world.moved(3, None).pointed(2))
+    talk.see(lambda world: world.move(3, None).point_at(2))
     talk.hear("This is a book.")
     assert "to the left of" in talk.hear("The cup is to the left of the book.")
-    talk.see(lambda world: world.moved(1, (3, 3)))
+    talk.see(lambda world: world.move(1, (3, 3)))
     assert talk.hear("Where is the cup?") == "The cup is to the left of the book."
 
 
@@ -64,11 +64,11 @@ def test_it_learns_relations_and_says_where_things_are():
 def test_what_was_said_of_where_a_thing_was_still_holds_of_that_place(moved):
     talk = Talk()
     talk.hear("This is a cup.")
-    talk.see(lambda world: world.moved(3, None).pointed(2))
+    talk.see(lambda world: world.move(3, None).point_at(2))
     talk.hear("This is a book.")
-    talk.see(lambda world: world.pointed(1))
+    talk.see(lambda world: world.point_at(1))
     talk.hear("This is to the left of the book.")
-    talk.see(lambda world: world.moved(moved, (9, 9) if moved == 1 else (0, 0)))
+    talk.see(lambda world: world.move(moved, (9, 9) if moved == 1 else (0, 0)))
     said = talk.hear("No, this is to the right of the book.")
     assert "OK" in said
     held = [it.sign.form for it in talk.now.state.private.lessons]
@@ -78,11 +78,11 @@ def test_what_was_said_of_where_a_thing_was_still_holds_of_that_place(moved):
 def test_what_is_corrected_of_things_that_stand_still_is_unlearned():
     talk = Talk()
     talk.hear("This is a cup.")
-    talk.see(lambda world: world.moved(3, None).pointed(2))
+    talk.see(lambda world: world.move(3, None).point_at(2))
     talk.hear("This is a book.")
-    talk.see(lambda world: world.pointed(1))
+    talk.see(lambda world: world.point_at(1))
     talk.hear("This is behind the book.")
-    talk.see(lambda world: world.looked())
+    talk.see(lambda world: world.look_again())
     talk.hear("No, this is to the left of the book.")
     held = {it.sign.form for it in talk.now.state.private.lessons}
     assert held >= {"to the left of"}
@@ -103,7 +103,7 @@ def test_what_is_forgotten_was_never_learned():
 
 
 def test_what_was_learned_is_in_the_model():
-    game = simulated(WORLD)
+    game = simulated_game(WORLD)
     begun = game.begin()
     after = game.take(begun, game.hear("This is a cup.")).run
     assert [it.sign.form for it in learned_words(after.model) if it.lessons] == ["cup"]
@@ -114,7 +114,7 @@ def test_what_was_learned_is_in_the_model():
 
 def test_a_dialogue_is_the_same_when_it_is_played_again():
     texts = ["This is a cup.", "What is this?", "That is correct.", "Forget cup."]
-    game = simulated(WORLD)
+    game = simulated_game(WORLD)
     assert play(game, texts).states == play(game, texts).states
 
 
@@ -133,6 +133,6 @@ def test_it_talks_swedish():
 
 
 def test_drawn_worlds_differ_in_what_things_look_like():
-    one, other = drawn(1), drawn(2)
+    one, other = draw_world(1), draw_world(2)
     assert one.name != other.name
     assert one.traits != other.traits

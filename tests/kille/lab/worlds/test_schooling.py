@@ -2,19 +2,20 @@
 
 import pytest
 
-from kille.lab.worlds.games import learned_words, simulated
-from kille.lab.worlds.schooling import rested, schooled
-from kille.lab.worlds.worlds import drawn
+from kille.dialogue.meanings import named
+from kille.lab.worlds.games import learned_words, simulated_game
+from kille.lab.worlds.schooling import game_after_school, game_next_day
+from kille.lab.worlds.worlds import draw_world
 
-WORLD = drawn(1)
-BLANK = simulated(WORLD)
-AFTER = schooled(BLANK)
+WORLD = draw_world(1)
+BLANK = simulated_game(WORLD)
+AFTER = game_after_school(BLANK)
 
 
 @pytest.mark.parametrize("language", ["en", "sv"])
 @pytest.mark.parametrize("times", [1, 3])
 def test_all_that_is_in_view_was_named_and_placed(language, times):
-    game = schooled(simulated(WORLD, language=language), language, times)
+    game = game_after_school(simulated_game(WORLD, language=language), language, times)
     lessons = [
         len(it.lessons) for it in learned_words(game.model) if it.sign.kind == "noun"
     ]
@@ -30,7 +31,7 @@ def test_nothing_was_said_of_what_is_in_view_now_but_a_front():
 
 
 def test_on_another_day_words_are_known_and_talk_is_not():
-    game = rested(AFTER)
+    game = game_next_day(AFTER)
     private, shared = game.start.private, game.start.shared
     for kind in ("nouns", "adjectives", "relations", "colours"):
         assert private[kind] == AFTER.start.private[kind]
@@ -46,7 +47,7 @@ def test_on_another_day_words_are_known_and_talk_is_not():
 
 
 def test_the_latest_lesson_of_another_day_is_taken_back():
-    game = rested(AFTER)
+    game = game_next_day(AFTER)
     turn = game.take(game.begin(), game.hear("Forget the last thing."))
     (undone,) = turn.said[0].sit.undone
     before, after = (

@@ -6,9 +6,9 @@ from hypothesis import strategies as st
 
 from kille.dialogue.meanings import adjective, noun, relation
 from kille.lab.worlds.word_learning import LearnedWord
-from kille.lab.worlds.worlds import Thing, World, drawn
+from kille.lab.worlds.worlds import Thing, World, draw_world
 
-WORLD = drawn(4, 6, 6)
+WORLD = draw_world(4, 6, 6)
 THINGS = [f"o{number}" for number in WORLD.in_view]
 SIGNS = [noun("cup"), adjective("big"), adjective("red"), relation("behind")]
 
@@ -25,7 +25,7 @@ def args(sign, pair):
 
 def taught(word, some):
     for pair, holds in some:
-        word = word.taught(*args(word.sign, pair), holds=holds)
+        word = word.after_lesson(*args(word.sign, pair), holds=holds)
     return word
 
 
@@ -40,21 +40,21 @@ def degrees(word):
 
 @given(st.sampled_from(SIGNS), lessons, lessons)
 def test_what_is_unlearned_was_never_learned(sign, some, more):
-    word = taught(LearnedWord.known(sign), some)
+    word = taught(LearnedWord.without_lessons(sign), some)
     after = taught(word, more)
     for lesson in reversed(after.lessons[len(word.lessons) :]):
-        after = after.without(lesson.key)
+        after = after.without_lesson(lesson.key)
     assert degrees(after) == degrees(word)
     assert after.lessons == word.lessons
 
 
 @given(st.sampled_from(SIGNS), lessons)
 def test_degrees_are_degrees_and_keys_are_never_used_twice(sign, some):
-    word = taught(LearnedWord.known(sign), some)
+    word = taught(LearnedWord.without_lessons(sign), some)
     for p in degrees(word):
         lo, hi = p if isinstance(p, tuple) else (p, p)
         assert 0.0 <= lo <= hi <= 1.0
-    left = word.without(word.lessons[0].key) if some else word
+    left = word.without_lesson(word.lessons[0].key) if some else word
     again = taught(left, [(THINGS[:2], True)])
     assert len({it.key for it in again.lessons}) == len(again.lessons)
 
@@ -62,9 +62,11 @@ def test_degrees_are_degrees_and_keys_are_never_used_twice(sign, some):
 @given(lessons, st.sampled_from(THINGS))
 def test_lessons_speak_for_and_against(some, x):
     cup = taught(LearnedWord(noun("cup")), some)
-    said = cup.taught(x, WORLD.name)
+    said = cup.after_lesson(x, WORLD.name)
     assert said(x, WORLD.name) > cup(x, WORLD.name)
-    assert said.taught(x, WORLD.name, holds=False)(x, WORLD.name) < said(x, WORLD.name)
+    assert said.after_lesson(x, WORLD.name, holds=False)(x, WORLD.name) < said(
+        x, WORLD.name
+    )
 
 
 def test_what_was_taught_of_one_kind_is_true_of_that_kind_only():
@@ -74,7 +76,7 @@ def test_what_was_taught_of_one_kind_is_true_of_that_kind_only():
             for x, kind in enumerate(["cup", "cup", "car", "book"])
         )
     )
-    cup = LearnedWord(noun("cup")).taught("o1", world.name)
+    cup = LearnedWord(noun("cup")).after_lesson("o1", world.name)
     same, *others = (cup(x, world.name) for x in ("o2", "o3", "o4"))
     assert same > 0.5 > max(others)
 
@@ -83,11 +85,11 @@ def test_colours_are_known_from_the_start_and_other_adjectives_are_not():
     world = World(
         (Thing("cup", "red", place=(2, 2)), Thing("cup", "blue", place=(4, 2)))
     )
-    red = LearnedWord.known(adjective("red"))
+    red = LearnedWord.without_lessons(adjective("red"))
     assert red("o1", world.name) > 0.6 > 0.1 > red("o2", world.name)
-    assert LearnedWord.known(adjective("big"))("o1", world.name) == (0.0, 1.0)
+    assert LearnedWord.without_lessons(adjective("big"))("o1", world.name) == (0.0, 1.0)
     assert red.is_known
-    assert not LearnedWord.known(adjective("big")).is_known
+    assert not LearnedWord.without_lessons(adjective("big")).is_known
 
 
 def test_an_adjective_finds_out_what_it_speaks_of():
@@ -97,7 +99,7 @@ def test_an_adjective_finds_out_what_it_speaks_of():
     )
     big = LearnedWord(adjective("big"))
     for x, holds in (("o1", True), ("o2", True), ("o3", False)):
-        big = big.taught(x, world.name, holds=holds)
+        big = big.after_lesson(x, world.name, holds=holds)
     assert big.weights()[1] > 0.8
     assert big("o4", world.name) > 0.5 > big("o5", world.name)
 
@@ -106,7 +108,9 @@ def test_relations_are_learned_turned():
     world = World(
         (Thing("cup", "red", place=(2, 5)), Thing("car", "red", place=(5, 5)))
     )
-    behind = LearnedWord(relation("behind")).taught("o1", "o2", world.name, "left")
+    behind = LearnedWord(relation("behind")).after_lesson(
+        "o1", "o2", world.name, "left"
+    )
     assert behind("o1", "o2", world.name, "left") == pytest.approx(0.8)
     assert behind("o1", "o2", world.name, "right") == 0.0
     other = World(
@@ -118,7 +122,7 @@ def test_relations_are_learned_turned():
 def test_nothing_is_learned_about_what_is_not_to_be_seen():
     world = World((Thing("cup", "red"),))
     with pytest.raises(ValueError, match="not to be seen"):
-        LearnedWord(noun("cup")).taught("o1", world.name)
+        LearnedWord(noun("cup")).after_lesson("o1", world.name)
     assert LearnedWord(noun("cup"))("o1", world.name) == (0.0, 1.0)
 
 
@@ -139,7 +143,7 @@ LEFT = [(-1, 0), (-3, 0.5), (-2, -0.4), (-4, 0), (-1.5, 0.3), (-2.5, -0.5)]
 def of_places(form, places):
     word = LearnedWord(relation(form))
     for place in places:
-        word = word.taught(*beside(*place))
+        word = word.after_lesson(*beside(*place))
     return word
 
 

@@ -12,12 +12,20 @@ from kille.lab.worlds.perception import (
     colour,
     direction,
     distance,
-    glanced,
-    seen,
+    glance_event,
+    look_event,
     traits,
     view,
 )
-from kille.lab.worlds.worlds import COLOURS, FRONTS, KINDS, SIDE, Thing, World, drawn
+from kille.lab.worlds.worlds import (
+    COLOURS,
+    FRONTS,
+    KINDS,
+    SIDE,
+    Thing,
+    World,
+    draw_world,
+)
 
 steps = st.integers(0, SIDE - 1) | st.integers(-900, 9900).map(lambda n: n / 1000)
 places = st.none() | st.tuples(steps, steps)
@@ -47,12 +55,12 @@ def worlds(draw):
 
 @given(worlds())
 def test_a_name_says_all_of_a_world(world):
-    assert World.named(world.name) == world
+    assert World.from_name(world.name) == world
 
 
 @pytest.mark.parametrize("name", ["", "look0", "look1 of 2", "look1 of 0~0.1: x"])
 def test_other_texts_name_no_world(name):
-    assert World.named(name) is None
+    assert World.from_name(name) is None
 
 
 @given(worlds().filter(lambda it: len(it.in_view) > 1), st.sampled_from(FRONTS))
@@ -67,14 +75,14 @@ def test_places_have_a_direction_unless_they_are_the_same(world, front):
 @given(worlds())
 def test_what_is_seen_is_of_its_type(world):
     model = model_of(world)
-    assert model.judge(view(world), record_type("View")).holds
-    assert model.judge(seen(world, world), record_type("Seen")).holds
-    assert model.judge(glanced(world, world), record_type("Glance")).holds
+    assert model.judge(view(world), named("View")).holds
+    assert model.judge(look_event(world, world), named("Seen")).holds
+    assert model.judge(glance_event(world, world), named("Glance")).holds
 
 
 @given(worlds())
 def test_the_same_look_shows_the_same(world):
-    again = World.named(world.name)
+    again = World.from_name(world.name)
     for number in world.in_view:
         assert traits(again, number) == traits(world, number)
         assert colour(again, number) == colour(world, number)
@@ -84,25 +92,25 @@ def test_the_nearest_is_attended_to_unless_another_is_pointed_at():
     world = World(
         (Thing("cup", "red", place=(5, 4)), Thing("box", "red", place=(5, 1)))
     )
-    assert world.attended == 2
-    assert world.pointed(1).attended == 1
-    assert world.pointed(1).moved(1, None).attended == 2
-    assert World().attended is None
+    assert world.attended_thing == 2
+    assert world.point_at(1).attended_thing == 1
+    assert world.point_at(1).move(1, None).attended_thing == 2
+    assert World().attended_thing is None
 
 
 def test_nothing_that_happens_changes_the_world_it_happens_in():
-    world = drawn(3)
+    world = draw_world(3)
     name = world.name
-    world.moved(1, None), world.turned(1, "left"), world.pointed(2), world.cleared()
+    world.move(1, None), world.turn(1, "left"), world.point_at(2), world.clear()
     assert world.name == name
 
 
 def test_things_keep_their_names():
-    before = drawn(3)
-    after = before.moved(2, None)
-    assert seen(after, before).view.things == ("o1", "o3", "o4")
-    assert seen(after, before).kept == ("o1", "o3", "o4")
-    assert seen(before, after).kept == ("o1", "o3", "o4")
+    before = draw_world(3)
+    after = before.move(2, None)
+    assert look_event(after, before).view.things == ("o1", "o3", "o4")
+    assert look_event(after, before).kept == ("o1", "o3", "o4")
+    assert look_event(before, after).kept == ("o1", "o3", "o4")
 
 
 def test_fronts_turn_what_is_left_of_what():
@@ -116,10 +124,10 @@ def test_fronts_turn_what_is_left_of_what():
     # The cup is at the car's own front, which is where a viewer would say "in front".
     assert direction(world, 1, 2, "faces_left") == (0.0, -1.0)
     assert direction(world, 1, 2, "nowhere") is None
-    assert direction(world.seen_flat(), 1, 2, "away") is None
+    assert direction(world.flip_depth(), 1, 2, "away") is None
 
 
 def test_the_same_seed_draws_the_same_world():
-    assert drawn(5) == drawn(5)
-    assert drawn(5) != drawn(6)
-    assert len(drawn(5, 7, 3).in_view) == 3
+    assert draw_world(5) == draw_world(5)
+    assert draw_world(5) != draw_world(6)
+    assert len(draw_world(5, 7, 3).in_view) == 3
