@@ -49,7 +49,7 @@ def robot_of(study: Study, run: Run, scene: Scene) -> Robot:
 
 
 def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
-    """The tutor of this name, as he is in a run: he speaks the robot's language."""
+    """The tutor of this name in a run, who speaks the robot's language."""
     named, theory = study.tutors[name], study.theories[run.theory]
     set_ = fill_settings(named.settings, SETTINGS[named.kind])
     match named.kind:

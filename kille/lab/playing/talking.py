@@ -38,7 +38,7 @@ from kille.sensors.sensor import SensorError
 def play(study: Study, run: Run) -> Played:
     """Play one dialogue from its beginning to its end, or to the study's last turn.
 
-    What cannot happen that a tutor wants to happen he is told, and may do otherwise.
+    A tutor is told if a move of theirs cannot be made, and may make another.
     Whatever a theory, a learner or a tutor of one's own raises ends it.
     """
     scene = scenes.open_scene(study, run)
@@ -70,7 +70,7 @@ class _Dialogue:
 
     @property
     def is_over(self) -> bool:
-        """Whether the tutor has done as much as he may."""
+        """Whether the tutor has taken all the turns that the study allows."""
         return len(self._turns) >= self._most
 
     def rest(self, task: Task) -> None:
@@ -192,7 +192,7 @@ def _next_move(moves: Turns, reply: Reply) -> Move | None:
 
 
 def _move_instead(moves: Turns, error: StudyError | SensorError) -> Move | None:
-    """The next move of a tutor whose last cannot be made, if he has one instead."""
+    """The move that a tutor makes instead of one that is impossible, if any."""
     try:
         return moves.throw(error)
     except StopIteration:

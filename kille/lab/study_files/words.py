@@ -67,7 +67,7 @@ def _said_in(opened: Mapping[str, Scene]) -> Iterator[str]:
 
 
 def _places(tutor: Named, study: Study) -> Iterator[str]:
-    """The words for places that a tutor has, if it is known where he has them from."""
+    """The words for places that a tutor has, if it is known where they are from."""
     folder = tutor.settings.get("folder")
     try:
         placing = (
@@ -149,7 +149,7 @@ def _forms(
 
 
 def words_of(language: str, tutor: Named) -> Words:
-    """The words of a tutor, less what he calls by something that is no text."""
+    """The words of a tutor, without names that are not texts."""
     calls = tutor.settings.get("calls", {})
     return Words(language, {k: it for k, it in calls.items() if isinstance(it, str)})
 

@@ -2,7 +2,7 @@
 
 simulated: knows the world, see `simulated`. scripted: says the lines of a file `.dlg`.
 people: speaks as people's data have it. keyboard: a person types. several: some of the
-others take turns, and may disagree. own: a class or function of one's own makes him.
+others take turns, and may disagree. own: a class or function of one's own makes them.
 """
 
 from kille.lab.tutors.kinds import SETTINGS as SETTINGS

@@ -23,7 +23,7 @@ _WANTED = {
 
 
 def answer_robot(holding: Beliefs, reply: Reply, latest: Says | None) -> Says | None:
-    """What he answers to what the robot wants to know, if he can."""
+    """What a tutor answers to what the robot wants to know, if they can."""
     match reply.wants:
         case "ask_frame":
             return Says(holding.words.perspective(holding.frame), "take_frame")
@@ -37,7 +37,7 @@ def answer_robot(holding: Beliefs, reply: Reply, latest: Says | None) -> Says | 
 
 
 def _name_referent(holding: Beliefs, latest: Says | None) -> Says:
-    """Which thing he meant: that of which he spoke by a phrase, or points at."""
+    """Which thing was meant: the one that was spoken of by a phrase, or pointed at."""
     spoken = None if latest is None else latest.of
     meant = spoken or holding.task.occasion.thing
     phrase = holding.colour_phrase(meant)

@@ -1,6 +1,6 @@
-"""What a simulated tutor holds to be so in a task, and how he speaks of it.
+"""What a simulated tutor believes in a task, and how they speak of it.
 
-All chance is that of the task: what he holds to be so does not depend on the robot.
+All chance is that of the task: what a tutor believes does not depend on the robot.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from ttr import Record
 
 @dataclass(frozen=True)
 class Manner:
-    """How a tutor is: his words and his way to speak of places; `other` is a judge.
+    """How a tutor is: their words and how they speak of places; `other` is a judge.
 
-    He has only the words of his `vocabulary`, or all where that is empty. In a share of
-    his lessons, the `errors`, he says what is true of other `kinds`, `hues` or places.
-    He answers so many questions of a task as he has `patience`, and says "Thank you."
-    in a share of cases, by his `politeness`. If he `orients` it, the robot is told
-    which way a landmark faces before he speaks of places.
+    They have only the words of their `vocabulary`, or all where that is empty. In a
+    share of lessons, the `errors`, they say what is true of other `kinds`, `hues` or
+    places. They answer as many questions of a task as they have `patience`, and say
+    "Thank you." in a share of cases, by their `politeness`. If they `orient` the robot,
+    they tell it which way a landmark faces before they speak of places.
     """
 
     words: Words
@@ -44,34 +44,34 @@ class Manner:
 
 @dataclass(frozen=True, eq=False)
 class Beliefs:
-    """What a tutor of this manner holds to be so in a task."""
+    """What a tutor of this manner believes in a task."""
 
     manner: Manner
     task: Task
 
     @property
     def words(self) -> Words:
-        """His words."""
+        """The words of the tutor."""
         return self.manner.words
 
     @property
     def has_words(self) -> bool:
-        """Whether he has a word for what the task is about."""
+        """Whether the tutor has a word for what the task is about."""
         return self.task.of is None or self.has_word(self.task.of)
 
     def has_word(self, occasion: Occasion) -> bool:
-        """Whether he has a word for this."""
+        """Whether the tutor has a word for this."""
         return not self.manner.vocabulary or self.right_word(occasion) in self._own
 
     @property
     def _own(self) -> set[str]:
-        """All the words that he has, where they are named."""
+        """The words of the vocabulary, as the tutor says them."""
         return {self.words.word_for(it) for it in self.manner.vocabulary}
 
     # --- what is so ------------------------------------------------------------------
 
     def right_word(self, occasion: Occasion) -> str:
-        """The word that he takes to be right; nothing where he has none for a place."""
+        """The word that the tutor takes to be right; empty without one for a place."""
         if occasion.said:
             return self.words.word_for(occasion.said)
         match occasion.kind:
@@ -88,11 +88,11 @@ class Beliefs:
 
     @cached_property
     def frame(self) -> str:
-        """In whose frame he speaks of places now."""
+        """In whose frame the tutor speaks of places now."""
         return self.manner.speaker.frame(self.task.chance("place"))
 
     def spoken_word(self, occasion: Occasion) -> str:
-        """The word that he says: the right one, or now and then another."""
+        """The word that the tutor says: the right one, or now and then another."""
         return self._or_slip(self.right_word(occasion), occasion, "error")
 
     def _or_slip(self, word: str, occasion: Occasion, by: str) -> str:
@@ -102,7 +102,7 @@ class Beliefs:
         return chance.choice(others) if errs else word
 
     def _other_words(self, occasion: Occasion) -> list[str]:
-        """The words that he might say by mistake."""
+        """The words that the tutor might say by mistake."""
         names = {"noun": self.manner.kinds, "adjective": self.manner.hues}
         words = names.get(occasion.kind) or self.manner.speaker.words
         called = {self.words.word_for(it) for it in words}
@@ -130,7 +130,7 @@ class Beliefs:
             word = self._place(self.manner.other, occasion, "judge")
         return self._or_slip(word, occasion, "judge's error")
 
-    # --- how he says it --------------------------------------------------------------
+    # --- how it is said --------------------------------------------------------------
 
     def lesson(self, s: Record | None) -> Says:
         """What is so; things are called by their nouns if the robot knows these."""

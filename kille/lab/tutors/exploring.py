@@ -1,7 +1,7 @@
-"""A tutor of a simulated world: what he says and does next, by the state of the talk.
+"""A tutor who explores all moves: what they say and do next, by the state of the talk.
 
-He knows the world. When he is asked something he mostly answers that; else he teaches,
-asks, confirms, corrects, points, forgets, talks nonsense, and moves things.
+They know the simulated world. When they are asked something they mostly answer; else
+they teach, ask, confirm, correct, point, forget, talk nonsense, and move things.
 """
 
 from __future__ import annotations
@@ -157,7 +157,7 @@ def _verdict_options(
 ) -> Options:
     """Whether what the robot claims is so: yes if it is, and no if it is not.
 
-    What is not so is mostly corrected. Now and then he errs.
+    What is not so is mostly corrected. Now and then they err.
     """
     true = [claim for claim in pending if is_true(language, world, claim)]
     agreeing = _sample_texts(_worldless_sayings(language, "affirm" if true else "deny"))

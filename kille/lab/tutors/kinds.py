@@ -31,24 +31,26 @@ from kille.lab.tutors.words import Words
 from ttr.dialogues.stories import StoryError, read_stories
 
 _SIMULATED: Settings = {
-    "calls": Setting(dict, {}, about='what he calls something else: {mug = "cup"}'),
-    "vocabulary": Setting(str, (), several=True, about="the only words he has"),
+    "calls": Setting(dict, {}, about='what they call something else: {mug = "cup"}'),
+    "vocabulary": Setting(str, (), several=True, about="the only words they have"),
     "errors": Setting(float, 0.0, most=1.0, about="the share of wrong lessons"),
     "feedback": Setting(str, "both", among=FEEDBACK),
-    "patience": Setting(int, 3, about="questions that he answers in a row"),
-    "politeness": Setting(float, 0.0, most=1.0, about="how often he says thank you"),
+    "patience": Setting(int, 3, about="questions that they answer in a row"),
+    "politeness": Setting(float, 0.0, most=1.0, about="how often they say thank you"),
     "frame": Setting(
         (str, float),
         "viewer",
         among=("viewer", "landmark"),
         most=1.0,
-        about="in whose frame he speaks, or how often in the landmark's own",
+        about="in whose frame they speak, or how often in the landmark's own",
     ),
-    "orients": Setting(bool, False, about="whether he says which way landmarks face"),
+    "orients": Setting(bool, False, about="whether they say which way landmarks face"),
     "places": Setting(str, "likeliest", among=("likeliest", "drawn")),
-    "inside": Setting(float, 0.45, most=1.0, about="how often he says near when it is"),
+    "inside": Setting(
+        float, 0.45, most=1.0, about="how often they say near when it is"
+    ),
     "outside": Setting(
-        float, 0.10, most=1.0, about="how often he says near farther off"
+        float, 0.10, most=1.0, about="how often they say near farther off"
     ),
     "habit": Setting(
         float, 0.0, most=10.0, about="how people differ in that, in log-odds"
@@ -156,7 +158,7 @@ def _several_problems(named: Named, study: Study) -> Iterator[str]:
 
 
 def _own_problems(named: Named, study: Study) -> Iterator[Problem]:
-    """Why a tutor of one's own cannot be made, if he cannot."""
+    """Why a tutor of one's own cannot be made."""
     settings = named.settings.get("settings", {})
     if taken := [it for it in ("name", "words") if it in settings]:
         told = f"{taken[0]} is not to be set: the study gives it"

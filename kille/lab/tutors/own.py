@@ -1,6 +1,6 @@
 """Tutors of one's own: what makes them is found in a file, or in a module.
 
-It is a class, or a function, that is called with the tutor's `name`, his `words` (see
+It is a class, or a function, that is called with the tutor's `name`, `words` (see
 `kille.lab.tutors.words.Words`) and the settings of the study, and gives a `Tutor`.
 A file is run anew for each dialogue, so that what it draws by chance, or counts, does
 not go on from the dialogue before.
@@ -25,7 +25,7 @@ Make = Callable[..., Tutor]
 def load_maker(name: str, folder: Path, consent: Consent | None = None) -> Make:
     """What makes a tutor: `FILE.py:NAME`, from a folder, or `MODULE:NAME`.
 
-    Who calls this names him; for a name that was found in a file, `consent` says which
+    The caller chose this name; for one that was found in a file, `consent` says which
     Python may be run. Raises `StudyError` where there is none.
     """
     where, colon, what = name.rpartition(":")

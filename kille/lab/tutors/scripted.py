@@ -1,8 +1,8 @@
 """A tutor who says the lines of a file `.dlg`, whatever the robot replies.
 
-`U>` is what he says, `@` what happens: `look`, `point 2`, `restart`, and in front of
+`U>` is what they say, `@` what happens: `look`, `point 2`, `restart`, and in front of
 simulated scenes `place 2 3.5 4` and `remove 2`. What the file has the robot say after
-`S>` is what he expects; each answer is told as right if it is that sentence.
+`S>` is what they expect; an answer is right if it is that sentence.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ttr.dialogues.stories import Line, read_stories
 
 
 class Scripted:
-    """Who says these lines, all of them in the first task that he is given."""
+    """A tutor who says these lines, all of them in the first task."""
 
     def __init__(self, name: str, lines: Sequence[Line]) -> None:
         self.name = name

@@ -1,7 +1,7 @@
-"""The simulated tutor: he knows the world, and sees what the robot makes of his words.
+"""The simulated tutor, who knows the world and sees how their words are taken.
 
-He teaches and asks by pointing, answers what the robot asks as long as his patience
-lasts, and says after an answer whether it was right. Now and then he errs. All chance
+They teach and ask by pointing, answer what the robot asks as long as their patience
+lasts, and say after an answer whether it was right. Now and then they err. All chance
 is that of the task, so that two robots meet the same tutor.
 """
 
@@ -18,16 +18,16 @@ from kille.lab.tutors.tutor import Asked, Move, Says, Shows, Task, Turns, Waits
 from kille.lab.worlds.sayings import QUESTION_ACTS
 
 FEEDBACK = ("none", "confirm", "correct", "both")
-"""What he says of answers: whether they are right, what is right instead, or both."""
+"""What is said of answers: whether they are right, what is right instead, or both."""
 
 CERTAIN = ("assert", "think", "doubt", "yes", "probably", "rather")
 """The ways of an answer that claims one thing."""
 
 LOOKS = 2
-"""How often the tutor lets the robot look before it is his turn again."""
+"""How often the robot may look before the tutor takes the next turn."""
 
 BY = {"both": ("adjective", "noun"), "noun": ("noun",), "colour": ("adjective",)}
-"""The kinds of the words by which he asks for a thing, by what a phase says of it."""
+"""The kinds of words by which a thing is asked for, by the setting of a phase."""
 
 
 @dataclass(frozen=True)
@@ -38,29 +38,29 @@ class SimulatedTutor:
     manner: Manner
 
     def turns(self, task: Task) -> Turns:
-        """The moves by which he does a task of a phase."""
+        """The moves by which the tutor does a task of a phase."""
         holding = Beliefs(self.manner, task)
         if holding.has_words:
             yield from _DOES[task.do](_Performance(holding))
 
 
 class _Performance:
-    """A task as a tutor does it, as long as his patience lasts."""
+    """A task as a tutor does it, as long as their patience lasts."""
 
     def __init__(self, holding: Beliefs) -> None:
         self._holding, self._task, self._words = holding, holding.task, holding.words
         self._manner, self._left = holding.manner, holding.manner.patience
 
-    # --- what he does ----------------------------------------------------------------
+    # --- tasks -----------------------------------------------------------------------
 
     def teach(self) -> Turns:
-        """He shows something, says what is so, and answers what the robot asks."""
+        """Show something, say what is so, and answer what the robot asks."""
         reply = yield Shows(self._task.occasion)
         yield from self._tell_front(reply)
         yield from self._give_lesson(reply)
 
     def _give_lesson(self, reply: Reply) -> Turns:
-        """He says what is so of the thing he points at."""
+        """Say what is so of the thing that is pointed at."""
         says = self._holding.lesson(reply.state)
         reply = yield says
         if "see_no_such" in reply.acts or "same_thing" in reply.acts:
@@ -68,16 +68,16 @@ class _Performance:
         yield from self._answer_questions(reply, says)
 
     def ask(self) -> Turns:
-        """He shows something and asks for a word, and says nothing of the answer."""
+        """Show something and ask for a word, and say nothing of the answer."""
         yield from self._ask_word()
 
     def practise(self) -> Turns:
-        """He asks, and then says of the answer what his feedback is."""
+        """Ask, and then say of the answer what the feedback is."""
         reply = yield from self._ask_word()
         yield from self._give_feedback(reply)
 
     def _ask_word(self) -> Generator[Move, Reply, Reply]:
-        """He shows something and asks for a word: the reply that answers it."""
+        """Show something and ask for a word: the reply that answers it."""
         occasion = self._task.occasion
         reply = yield Shows(occasion)
         yield from self._tell_front(reply)
@@ -86,7 +86,7 @@ class _Performance:
         return (yield from self._until_clear(Says(text, act, asked)))
 
     def _tell_front(self, reply: Reply) -> Turns:
-        """He says which way the landmark faces, if he does so and it is not known."""
+        """Say which way the landmark faces, if this tutor does and it is not known."""
         landmark, y = self._task.occasion.landmark, self._task.occasion.y
         if landmark is None or not landmark.front or not self._manner.orients:
             return
@@ -96,10 +96,10 @@ class _Performance:
         yield Says(self._words.front_statement(landmark.front, phrase), "orient")
 
     def talk(self) -> Turns:
-        """He shows something and leaves the robot the floor, and tells what it asks.
+        """Show something, leave the robot the floor, and tell it what it asks.
 
-        To a robot that is driven by him he tells what is so himself. What it says to
-        have learned alone he sets right, where it is not so, as he does with answers.
+        A robot that is driven by the tutor is told what is so at once. What it says to
+        have learned alone is set right, where it is not so, as answers are.
         """
         occasion = self._task.occasion
         reply = yield Shows(occasion)
@@ -119,9 +119,9 @@ class _Performance:
             yield from self._give_lesson(reply)
 
     def _correct_unaided(self, occasion: Occasion, reply: Reply) -> Turns:
-        """He sets right what the robot has learned by itself, if that is not so.
+        """Set right what the robot has learned by itself, if that is not so.
 
-        If it was another thing than that at which he points, he points there first.
+        If that is another thing than the one that is pointed at, point there first.
         """
         x = next(iter(reply.things), None)
         if self._manner.feedback not in ("correct", "both") or x not in occasion.world:
@@ -136,7 +136,7 @@ class _Performance:
         yield Says(text, "correct", corrects=True)
 
     def find(self) -> Turns:
-        """He asks for a thing by its words."""
+        """Ask for a thing by its words."""
         occasion = self._task.occasion
         phrase = self._words.phrase_for(occasion.thing, *BY[self._task.settings["by"]])
         yield Shows(occasion.without_pointing())
@@ -145,7 +145,7 @@ class _Performance:
         yield from self._until_clear(Says(text, "ask_find", asked, of=occasion.thing))
 
     def _until_clear(self, says: Says) -> Generator[Move, Reply, Reply]:
-        """He says something, and clears up what the robot asks about it."""
+        """Say something, and clear up what the robot asks about it."""
         reply = yield says
         while reply.is_open and self._left > 0:
             told = answer_robot(self._holding, reply, says)
@@ -156,13 +156,13 @@ class _Performance:
         return reply
 
     def forget(self) -> Turns:
-        """He has a word forgotten."""
+        """Have a word forgotten."""
         kind, word = KINDS[self._task.settings["what"]], self._task.settings["word"]
         text = self._words.forget_request(kind, self._words.word_for(word))
         yield Says(text, "forget_word")
 
     def align(self) -> Turns:
-        """He says which way things face, and, if he is to, in whose frame he speaks."""
+        """Say which way things face, and, if the phase says so, in whose frame."""
         occasion = self._task.occasion
         reply = yield Shows(occasion)
         for number in occasion.world.in_view:
@@ -175,10 +175,10 @@ class _Performance:
         if self._task.settings["announce"]:
             yield Says(self._words.perspective(self._holding.frame), "take_frame")
 
-    # --- what he says of answers -----------------------------------------------------
+    # --- feedback --------------------------------------------------------------------
 
     def _give_feedback(self, reply: Reply) -> Turns:
-        """What he says of the answer to his question."""
+        """Say of the answer to a question what the feedback is."""
         occasion = self._task.occasion
         held, said = (
             self._holding.spoken_word(occasion),
@@ -207,7 +207,7 @@ class _Performance:
             yield Says(self._words.plain_move("thank"), "thank")
 
     def _answer_questions(self, reply: Reply, latest: Says | None) -> Turns:
-        """He answers what the robot asks, as long as his patience lasts."""
+        """Answer what the robot asks, as long as patience lasts."""
         while reply.wants and self._left > 0:
             told = answer_robot(self._holding, reply, latest)
             if told is None:
@@ -226,4 +226,4 @@ _DOES: Mapping[str, Callable[[_Performance], Turns]] = {
     "forget": _Performance.forget,
     "align": _Performance.align,
 }
-"""What he does, by what is to be done in a phase."""
+"""What the tutor does, by what is to be done in a phase."""

@@ -190,8 +190,9 @@ def read_ratings(folder: Path) -> Rated:
 class Speaker:
     """Who speaks of places so, in the landmark's own frame in this share of cases.
 
-    He `draws` a word by its chances, or says the likeliest; `only` these words are his,
-    or all where none is named. Where these are hardly ever said he says nothing.
+    One who `draws` says a word by its chances, others say the likeliest. They have
+    `only` these words, or all where none is named, and where these are hardly ever said
+    they say nothing.
     """
 
     placing: Placing
@@ -210,16 +211,16 @@ class Speaker:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """The words that he may say of places."""
+        """The words that they may say of places."""
         every = (_CALLED.get(it, it) for it in self.placing.chances((0.1, 0.0)))
         return tuple(it for it in every if not self.only or it in self.only)
 
     def frame(self, chance: Random) -> str:
-        """In whose frame he speaks now: that of the `viewer` or the `landmark`."""
+        """In whose frame they speak now: that of the `viewer` or the `landmark`."""
         return "landmark" if chance.random() < self.own else "viewer"
 
     def accepts(self, place: Place, front: str) -> frozenset[str]:
-        """The words that he may well say there: with a chance of .15 or more."""
+        """The words that they may well say there: with a chance of .15 or more."""
         viewed = self._chances(place)
         if front not in HEADINGS:
             return frozenset(it for it, p in viewed.items() if p >= ACCEPTED)
@@ -231,7 +232,7 @@ class Speaker:
         return frozenset(it for it, p in mixed.items() if p >= ACCEPTED)
 
     def _chances(self, place: Place, front: float | None = None) -> dict[str, float]:
-        """The chances of his own words, as these are called here."""
+        """The chances of their own words, as these are called here."""
         chances = self.placing.chances(place, front)
         called = {_CALLED.get(word, word): p for word, p in chances.items()}
         if not self.only:

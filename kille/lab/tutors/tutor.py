@@ -1,8 +1,8 @@
 """Tutors: who talks to a robot in a study, whoever or whatever they are.
 
-A tutor is given a task of a phase and takes turns until it is done: he says or shows
-something, and is told how the robot has replied. Nothing else is his to decide, so that
-a simulated tutor, a script, and a person at the keyboard can stand in for each other.
+A tutor is given a task of a phase and takes turns until it is done: they say or show
+something, and are told how the robot has replied. They decide nothing else, so that a
+simulated tutor, a script, and a person at the keyboard can stand in for each other.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ __all__ = [
 class Asked:
     """A question to which the tutor knows the answer.
 
-    `right` is what he holds to be so, `accepted` is what he might have said as well,
+    `right` is what they hold to be so, `accepted` what they might have said as well,
     `judge` what another person would have said. It is about the thing x of the world,
     and how that stands to y, if it does.
     """
@@ -49,9 +49,9 @@ class Asked:
 
 @dataclass(frozen=True)
 class Says:
-    """He says a text by way of a move; it `asks` something, or sets the robot right.
+    """The tutor says a text as a move; it `asks` something, or sets the robot right.
 
-    `of` is the thing that he speaks of by a phrase which may not be clear, if any.
+    `of` is the thing that is spoken of by a phrase which may not be clear, if any.
     """
 
     text: str
@@ -63,14 +63,14 @@ class Says:
 
 @dataclass(frozen=True)
 class Shows:
-    """He lays the table, and points."""
+    """The tutor lays the table, and points."""
 
     occasion: Occasion
 
 
 @dataclass(frozen=True)
 class Waits:
-    """He leaves the floor to the robot, which looks once more."""
+    """The tutor leaves the floor to the robot, which looks once more."""
 
     occasion: Occasion
 
@@ -124,5 +124,5 @@ class Tutor(Protocol):
         ...
 
     def turns(self, task: Task) -> Turns:
-        """The moves by which he does a task."""
+        """The moves by which the tutor does a task."""
         ...

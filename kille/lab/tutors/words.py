@@ -31,7 +31,7 @@ __all__ = ["Words"]
 class Words:
     """The words of a language, as a tutor uses them.
 
-    What he `calls` something else than others do stands by what they call it.
+    What the tutor `calls` something else than others do stands by what others call it.
 
     >>> words = Words("en", {"mug": "cup"})
     >>> words.lesson("noun", words.word_for("mug")), words.question("noun")
@@ -42,7 +42,7 @@ class Words:
     calls: Mapping[str, str] = field(default_factory=dict)
 
     def word_for(self, name: str) -> str:
-        """What he calls a kind, a colour or a place; others, in English, call it so."""
+        """The tutor's word for a kind, a colour or a place of this English name."""
         if name in self.calls:
             return self.calls[name]
         return vocabulary(self.language).form_of(name)
@@ -62,7 +62,7 @@ class Words:
         }
         return Phrase("", tuple(signs[it] for it in by))
 
-    # --- what he says ----------------------------------------------------------------
+    # --- sentences -------------------------------------------------------------------
 
     def lesson(
         self,

@@ -43,14 +43,14 @@ def _unused_settings(
     there = names_in_scenes(study, opened).noun
     for name in tutor.settings.get("calls", ()):
         if name in KINDS and name not in there:
-            told = f"there is no {name} in any scene that he could call so"
+            told = f"there is no {name} in any scene that they could call so"
             yield Problem(("calls",), told)
     if tutor.settings.get("frame", "viewer") in ("viewer", 0):
         return
     for scene in study.scenes.values():
         if _is_frontless(scene):
             told = f"the landmark of {scene.name} has no front"
-            told = f"{told}, so that he speaks there as a viewer always"
+            told = f"{told}, so that they always speak there as a viewer"
             yield Problem(("frame",), told)
 
 
@@ -62,7 +62,7 @@ def _is_frontless(scene: Named) -> bool:
 def _missing_words(
     tutor: Named, study: Study, opened: Mapping[str, Scene]
 ) -> Iterator[Problem]:
-    """Phases for which he has no word, and in which he says nothing."""
+    """Phases for which a tutor has no word, and in which they say nothing."""
     vocabulary = tutor.settings.get("vocabulary", ())
     if not vocabulary:
         return
@@ -75,13 +75,13 @@ def _missing_words(
                 continue
             there = getattr(names, kind_of(phase))
             if not any(_has_one(words, vocabulary, there) for words in spoken):
-                told = f"he has no word for the {kind_of(phase)}s of {name}"
+                told = f"{tutor.name} has no word for the {kind_of(phase)}s of {name}"
                 told = f"{told}, and says nothing in {phase.name}"
                 yield Problem(("vocabulary",), told)
 
 
 def _has_one(words: Words, own: Iterable[str], there: Iterable[str]) -> bool:
-    """Whether one of his own words is for something that is there."""
+    """Whether one of these words is for something that is there."""
     return bool(
         {words.word_for(it) for it in own} & {words.word_for(it) for it in there}
     )

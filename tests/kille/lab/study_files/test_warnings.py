@@ -147,7 +147,7 @@ def test_feedback_that_is_never_given_is_told(tmp_path: Path) -> None:
 
 def test_what_he_would_call_things_that_are_not_there_is_told(tmp_path: Path) -> None:
     [told] = found(tmp_path, (ANN, f'{ANN}\ncalls = {{ shoe = "boot" }}'))
-    assert told == "study.toml:8: there is no shoe in any scene that he could call so"
+    assert told == "study.toml:8: there is no shoe in any scene that they could call so"
 
 
 def test_the_left_of_what_has_no_front_is_told(tmp_path: Path) -> None:
@@ -163,7 +163,8 @@ def test_phases_in_which_he_has_no_word_are_told(tmp_path: Path) -> None:
     assert found(tmp_path, own) == []
     own = (ANN, f'{ANN}\nvocabulary = ["red"]')
     assert found(tmp_path, own) == [
-        f"study.toml:8: he has no word for the nouns of table, and says nothing in {it}"
+        "study.toml:8: Ann has no word for the nouns of table, "
+        f"and says nothing in {it}"
         for it in ("teach", "ask")
     ]
 
