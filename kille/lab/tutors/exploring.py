@@ -14,7 +14,14 @@ from random import Random
 from hypothesis import strategies as st
 
 from kille.dialogue.language import understand
-from kille.dialogue.meanings import CLAIMS, is_denial, value_at, word_of
+from kille.dialogue.meanings import (
+    CLAIMS,
+    DialogueTypes,
+    is_denial,
+    value_at,
+    word_of,
+)
+from kille.dialogue.tutoring import heard
 from kille.lab.tutors.openings import (
     Situation,
     leading_topics,
@@ -35,7 +42,7 @@ from kille.lab.worlds.sayings import (
     true_claims,
     without_glance,
 )
-from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.vocabulary import Vocabulary, vocabulary
 from kille.lab.worlds.worlds import World
 from ttr import Model, Pred, Record, RecordType
 from ttr.testing.strategies import Tutor
@@ -69,50 +76,56 @@ Talk = Sequence[Saying]
 Look = tuple[Callable[[World, World], Record], World]
 
 
-def exploring_tutor(language: str = "en", **shares: float) -> Tutor:
-    """A tutor who speaks this language; `shares` are those of `ttr.testing.Tutor`."""
-    moves, replies = partial(_moves, language), partial(_replies, language)
+def exploring_tutor(
+    language: str = "en", types: DialogueTypes | None = None, **shares: float
+) -> Tutor:
+    """A tutor who speaks a language, by default as the packaged theory has it.
+
+    `shares` are those of `ttr.testing.Tutor`.
+    """
+    words = vocabulary(language, types)
+    moves, replies = partial(_moves, words), partial(_replies, words)
     return Tutor(moves=moves, replies=replies, **shares)
 
 
-def _moves(language: str, s: Record, model: Model) -> Options:
+def _moves(words: Vocabulary, s: Record, model: Model) -> Options:
     """All that may be said or done, each kind of thing as often as any other."""
     world = world_of(s)
     return [
-        *_all_options(language, without_glance(world)),
+        *_all_options(words, without_glance(world)),
         *[_sample_happenings(world)] * OTHERS,
     ]
 
 
 @lru_cache(256)
-def _all_options(language: str, world: World) -> Options:
+def _all_options(words: Vocabulary, world: World) -> Options:
     """All that may be said, clearly or not."""
-    everything = _all(language, world)
+    everything = _all(words, world)
     unclear = [_sample_unclear(everything)] * OTHERS
     return [*map(_sample_texts, everything), *unclear, st.sampled_from(NONSENSE)]
 
 
-def _all(language: str, world: World) -> Sequence[Talk]:
+def _all(words: Vocabulary, world: World) -> Sequence[Talk]:
     """All that may be said, move by move."""
-    said = (sayings(language, act, world) for act in acts(language))
+    said = (sayings(words, act, world) for act in acts(words))
     return [one for one in said if one]
 
 
-def _replies(language: str, s: Record, model: Model) -> Options:
+def _replies(words: Vocabulary, s: Record, model: Model) -> Options:
     """What answers what the robot has said, or else a lesson or a question.
 
     Half of what needs no answer is what leads on from the state.
     """
     world = world_of(s)
     if s.shared.qud:
-        return _choice_options(language, world, s.shared.qud[0].ask)
-    now = situation(language, s)
+        return _choice_options(words, world, s.shared.qud[0].ask)
+    now = situation(words, s)
     leading = [*_leading_strategies(now), _sample_idle_looks(world)]
     if s.shared.pending:
-        judging = _verdict_options(language, world, s.shared.pending)
+        judging = _verdict_options(words, world, s.shared.pending)
         return [*judging, *judging, st.one_of(leading)]
     said = [
-        *_free_options(language, now.world, now.known),
+        *_free_options(words, now.world, now.known),
         *[_sample_happenings(world)] * OTHERS,
     ]
     return [*said, *leading * (len(said) // len(leading))]
@@ -125,49 +138,49 @@ def _leading_strategies(now: Situation) -> Sequence[st.SearchStrategy[object]]:
 
 
 @lru_cache(256)
-def _free_options(language: str, world: World, known: frozenset[Pred]) -> Options:
+def _free_options(words: Vocabulary, world: World, known: frozenset[Pred]) -> Options:
     """What a tutor may say who was not asked anything, clearly or not."""
-    free = _free(language, world, known)
+    free = _free(words, world, known)
     unclear = [_sample_unclear(free), _sample_misspelt(free, known)]
     return [*map(_sample_texts, free), *unclear * OTHERS]
 
 
-def _free(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
+def _free(words: Vocabulary, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
     """What a tutor may say who was not asked anything, mostly in words that are known.
 
     Half of it are lessons.
     """
     everything = [
         [it for it in said if known.issuperset(map(word_of, it.about.signs))] or said
-        for said in _all(language, world)
+        for said in _all(words, world)
     ]
     if world.attended_thing is None:
         return everything
     lessons = [
-        Saying(language, _lesson_act(claim), claim)
-        for phrase in phrases_of(language, world, world.attended_thing)
-        for claim in true_claims(language, world, world.attended_thing, phrase)
+        Saying(words, _lesson_act(claim), claim)
+        for phrase in phrases_of(words, world, world.attended_thing)
+        for claim in true_claims(words, world, world.attended_thing, phrase)
         if known.issuperset(map(word_of, (*phrase.signs, *claim.landmark.signs)))
     ]
     return [*everything, *[lessons] * len(everything)]
 
 
 def _verdict_options(
-    language: str, world: World, pending: Sequence[RecordType]
+    words: Vocabulary, world: World, pending: Sequence[RecordType]
 ) -> Options:
     """Whether what the robot claims is so: yes if it is, and no if it is not.
 
     What is not so is mostly corrected. Now and then they err.
     """
-    true = [claim for claim in pending if is_true(language, world, claim)]
-    agreeing = _sample_texts(_worldless_sayings(language, "affirm" if true else "deny"))
-    erring = _sample_texts(_worldless_sayings(language, "deny" if true else "affirm"))
-    asking = [_sample_texts(_worldless_sayings(language, act)) for act in _WONDERING]
+    true = [claim for claim in pending if is_true(words, world, claim)]
+    agreeing = _sample_texts(_worldless_sayings(words, "affirm" if true else "deny"))
+    erring = _sample_texts(_worldless_sayings(words, "deny" if true else "affirm"))
+    asking = [_sample_texts(_worldless_sayings(words, act)) for act in _WONDERING]
     if _label(pending[0]) == "rel":
-        asking.append(_sample_texts(perspectives_by_side(language, world)))
+        asking.append(_sample_texts(perspectives_by_side(words, world)))
     if true and len(pending) == 1:
         return [agreeing, agreeing, erring, *asking]
-    right = list(_corrections(language, world, pending[0]))
+    right = list(_corrections(words, world, pending[0]))
     return [agreeing, erring, *asking, *[_sample_texts(right)] * (3 if right else 0)]
 
 
@@ -175,33 +188,34 @@ _WONDERING = ("ask_certainty", "ask_why")
 """What one may ask about a claim."""
 
 
-def _corrections(language: str, world: World, content: RecordType) -> Iterator[Saying]:
+def _corrections(
+    words: Vocabulary, world: World, content: RecordType
+) -> Iterator[Saying]:
     """What is right where a claim is not, as a correction or by itself."""
     x = number_of(str(value_at(_part_of(content, "target"), "x")))
     if x not in world:
         return
     label = _label(content)
     shortly = [] if label == "rel" else [NOTHING]
-    for phrase in (THIS, *phrases_of(language, world, x), *shortly):
-        for claim in true_claims(language, world, x, phrase):
-            if _label(claim.content) == label:
-                yield Saying(language, "correct", claim)
+    for phrase in (THIS, *phrases_of(words, world, x), *shortly):
+        for claim in true_claims(words, world, x, phrase):
+            if _label(claim.content(words.types)) == label:
+                yield Saying(words, "correct", claim)
                 if phrase is not NOTHING:
-                    yield Saying(language, _lesson_act(claim), claim)
+                    yield Saying(words, _lesson_act(claim), claim)
 
 
-def is_true(language: str, world: World, content: RecordType) -> bool:
+def is_true(words: Vocabulary, world: World, content: RecordType) -> bool:
     """Whether a claim is true of the world, as the tutor sees it."""
     x = number_of(str(value_at(_part_of(content, "target"), "x")))
     if x not in world:
         return False
-    known = vocabulary(language)
     label = _label(content)
-    signs: Iterable[Record | None] = known.words_of(world, x)
+    signs: Iterable[Record | None] = words.words_of(world, x)
     if label == "rel":
         y = number_of(str(value_at(_part_of(content, "landmark"), "x")))
         front = str(value_at(content, "frame"))
-        signs = [known.relation_of(world, x, y, front)] if y in world else []
+        signs = [words.relation_of(world, x, y, front)] if y in world else []
     claim = content[label]
     said = claim.body if isinstance(claim, Negation) else claim
     assert isinstance(said, PType)
@@ -226,11 +240,11 @@ def _lesson_act(claim: Claim) -> str:
     return LESSON_ACTS[claim.sign.kind]
 
 
-def _choice_options(language: str, world: World, asked: str) -> Options:
+def _choice_options(words: Vocabulary, world: World, asked: str) -> Options:
     """Which of several moves was meant: in words, by pointing, or none of them."""
-    agreeing = [it for act in _YES_OR_NO for it in _worldless_sayings(language, act)]
-    settling = _plain_answers(language, world, asked)
-    mentions = sayings(language, "mention", world)
+    agreeing = [it for act in _YES_OR_NO for it in _worldless_sayings(words, act)]
+    settling = _plain_answers(words, world, asked)
+    mentions = sayings(words, "mention", world)
     pointing = [(glance_event, world.point_at(x)) for x in world.in_view]
     return [
         _sample_texts(agreeing),
@@ -244,20 +258,18 @@ def _choice_options(language: str, world: World, asked: str) -> Options:
 _YES_OR_NO = ("affirm", "deny")
 
 
-def _plain_answers(language: str, world: World, asked: str) -> Talk:
+def _plain_answers(words: Vocabulary, world: World, asked: str) -> Talk:
     """What plainly answers a question of the robot's."""
     match asked:
         case "AskFrame":
-            return perspectives_by_side(language, world)
+            return perspectives_by_side(words, world)
         case "OfferWord" | "AskHeard":
-            return [
-                it for act in _YES_OR_NO for it in _worldless_sayings(language, act)
-            ]
-    return sayings(language, "mention", world)
+            return [it for act in _YES_OR_NO for it in _worldless_sayings(words, act)]
+    return sayings(words, "mention", world)
 
 
-def _worldless_sayings(language: str, act: str) -> Talk:
-    return sayings(language, act, World())
+def _worldless_sayings(words: Vocabulary, act: str) -> Talk:
+    return sayings(words, act, World())
 
 
 def _sample_texts(options: Talk) -> st.SearchStrategy[str]:
@@ -279,8 +291,11 @@ def _sample_unclear(said: Sequence[Talk]) -> st.SearchStrategy[object]:
 def _either(mumbled: tuple[Saying, Saying, tuple[float, float]]) -> object:
     """The event that one of two texts was heard, each so probable."""
     *both, p = mumbled
-    sentences = [understand(one.text, one.language)[0] for one in both]
-    return hear_sentences(*sentences, p=p)
+    sentences = [
+        understand(one.text, one.words.language, types=one.words.types)[0]
+        for one in both
+    ]
+    return heard(*sentences, p=p)
 
 
 def _sample_misspelt(

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from kille.dialogue.meanings import word_of
 from kille.dialogue.reference import thing_at
-from kille.dialogue.state import words
+from kille.dialogue.state import words as words_of
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import number_of
 from kille.lab.worlds.sayings import (
@@ -29,7 +29,7 @@ from kille.lab.worlds.sayings import (
     sayings,
     without_glance,
 )
-from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.vocabulary import Vocabulary
 from kille.lab.worlds.worlds import World
 from ttr import Pred, Record
 
@@ -47,7 +47,7 @@ class Situation(NamedTuple):
     something is beside one of these, `is_new` that the robot has said nothing yet.
     """
 
-    language: str
+    words: Vocabulary
     world: World
     known: frozenset[Pred]
     untold: tuple[int, ...]
@@ -56,13 +56,13 @@ class Situation(NamedTuple):
     is_new: bool
 
 
-def situation(language: str, s: Record) -> Situation:
+def situation(words: Vocabulary, s: Record) -> Situation:
     """The situation of a tutor who speaks this language."""
     told = {thing_at(it, "target") for it in s.shared.here}
     return Situation(
-        language,
+        words,
         without_glance(world_of(s)),
-        frozenset(word_of(sign) for sign in words(s)),
+        frozenset(word_of(sign) for sign in words_of(s)),
         tuple(number_of(x) for x in s.view.things if x not in told),
         tuple((number_of(it.x), str(it.front)) for it in s.shared.turned),
         _is_of_turned(s),
@@ -72,31 +72,33 @@ def situation(language: str, s: Record) -> Situation:
 
 def leading_topics(now: Situation) -> Sequence[Talk]:
     """What leads on from a situation, topic by topic."""
-    language, world = now.language, now.world
+    words, world = now.words, now.world
     if now.is_taught:
-        return [perspectives_by_side(language, world)]
-    untold = [_name_questions(language, world, now.untold)] if now.untold else []
-    unsaid = [sayings(language, "ask_repeat", world)] if now.is_new else []
+        return [perspectives_by_side(words, world)]
+    untold = [_name_questions(words, world, now.untold)] if now.untold else []
+    unsaid = [sayings(words, "ask_repeat", world)] if now.is_new else []
     return [
-        *_word_topics(language, world, now.known),
-        *_front_topics(language, world, now.fronts),
+        *_word_topics(words, world, now.known),
+        *_front_topics(words, world, now.fronts),
         *untold * 2,
         *unsaid,
     ]
 
 
-def _word_topics(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
+def _word_topics(
+    words: Vocabulary, world: World, known: frozenset[Pred]
+) -> Sequence[Talk]:
     """What can be talked of in the words that are known, and in one that is not."""
     found = [
-        *_empty_table_topics(language, world, known),
-        _knowledge_questions(language, world, known),
-        _about_the_last(language, world),
-        _name_questions(language, world, world.in_view),
-        _questions_of_others(language, world),
-        _reflexive_lessons(language, world),
-        *_wrong_nouns(language, world, known),
-        *_flat_place_topics(language, world),
-        *_unknown_word_topics(language, world, known),
+        *_empty_table_topics(words, world, known),
+        _knowledge_questions(words, world, known),
+        _about_the_last(words, world),
+        _name_questions(words, world, world.in_view),
+        _questions_of_others(words, world),
+        _reflexive_lessons(words, world),
+        *_wrong_nouns(words, world, known),
+        *_flat_place_topics(words, world),
+        *_unknown_word_topics(words, world, known),
     ]
     return [talk for talk in found if talk]
 
@@ -106,88 +108,92 @@ SEVERAL = ("ask_places", "instruct_several")
 
 
 def _empty_table_topics(
-    language: str, world: World, known: frozenset[Pred]
+    words: Vocabulary, world: World, known: frozenset[Pred]
 ) -> Iterator[Talk]:
     """What one may ask, and say, in front of nothing."""
     if world.in_view:
         return
-    yield sayings(language, "ask_view", world)
+    yield sayings(words, "ask_view", world)
     for act in SEVERAL:
-        said = sayings(language, act, world)
+        said = sayings(words, act, world)
         yield [it for it in said if known.issuperset(map(word_of, it.about.signs))]
 
 
-def _knowledge_questions(language: str, world: World, known: frozenset[Pred]) -> Talk:
+def _knowledge_questions(
+    words: Vocabulary, world: World, known: frozenset[Pred]
+) -> Talk:
     """What one may ask who knows nothing."""
-    return () if known else sayings(language, "ask_knowledge", world)
+    return () if known else sayings(words, "ask_knowledge", world)
 
 
 BARE = ("ask_certainty", "ask_why", "forget_that")
 """The moves that may be about what was said last, without saying so."""
 
 
-def _about_the_last(language: str, world: World) -> Talk:
+def _about_the_last(words: Vocabulary, world: World) -> Talk:
     """What is about what was said last."""
-    said = (one for act in BARE for one in sayings(language, act, world))
+    said = (one for act in BARE for one in sayings(words, act, world))
     return [one for one in said if isinstance(one.about, Matter)]
 
 
-def _name_questions(language: str, world: World, things: Sequence[int]) -> Talk:
+def _name_questions(words: Vocabulary, world: World, things: Sequence[int]) -> Talk:
     """What each of these things is."""
-    phrases = (phrases_of(language, world, x)[0] for x in things)
-    return [Saying(language, "ask_name", Claim(None, phrase)) for phrase in phrases]
+    phrases = (phrases_of(words, world, x)[0] for x in things)
+    return [Saying(words, "ask_name", Claim(None, phrase)) for phrase in phrases]
 
 
-def _questions_of_others(language: str, world: World) -> Talk:
+def _questions_of_others(words: Vocabulary, world: World) -> Talk:
     """What the others are than what was talked of."""
     other = Claim(None, Phrase("Other"))
     acts_ = ("ask_name", "ask_place") if len(world.in_view) > 1 else ()
-    return [Saying(language, act, other) for act in acts_]
+    return [Saying(words, act, other) for act in acts_]
 
 
-def _reflexive_lessons(language: str, world: World) -> Talk:
+def _reflexive_lessons(words: Vocabulary, world: World) -> Talk:
     """Lessons that something stands beside itself."""
-    left = vocabulary(language).relations["left"]
-    ways = (phrases_of(language, world, x) for x in world.in_view)
+    left = words.relations["left"]
+    ways = (phrases_of(words, world, x) for x in world.in_view)
     claims = (Claim(left, one, other) for one, *_, other in ways)
-    return [Saying(language, "relate", claim) for claim in claims]
+    return [Saying(words, "relate", claim) for claim in claims]
 
 
-def _wrong_nouns(language: str, world: World, known: frozenset[Pred]) -> Iterator[Talk]:
+def _wrong_nouns(
+    words: Vocabulary, world: World, known: frozenset[Pred]
+) -> Iterator[Talk]:
     """What calls a thing by a noun that is known, but is not its own."""
-    nouns = [it for it in vocabulary(language).nouns.values() if word_of(it) in known]
+    nouns = [it for it in words.nouns.values() if word_of(it) in known]
     claims = [
-        Claim(noun, colour_phrase(language, world, x))
+        Claim(noun, colour_phrase(words, world, x))
         for x, noun in product(world.in_view, nouns)
-        if noun != vocabulary(language).noun_of(world, x)
+        if noun != words.noun_of(world, x)
     ]
     for act in ("instruct", "ask_whether"):
-        yield [Saying(language, act, claim) for claim in claims]
+        yield [Saying(words, act, claim) for claim in claims]
 
 
-def _flat_place_topics(language: str, world: World) -> Iterator[Talk]:
+def _flat_place_topics(words: Vocabulary, world: World) -> Iterator[Talk]:
     """What may be said of places in a picture that does not show them."""
     if world.deep:
         return
-    relations = vocabulary(language).relations.values()
+    relations = words.relations.values()
     claims = [
-        Claim(relation, *_colour_phrases(language, world, x, y))
+        Claim(relation, *_colour_phrases(words, world, x, y))
         for relation in relations
         for x, y in permutations(world.in_view, 2)
     ]
     for act in OF_PLACES:
-        yield [_place_saying(language, act, claim) for claim in claims]
+        yield [_place_saying(words, act, claim) for claim in claims]
 
 
 def _colour_phrases(
-    language: str, world: World, x: int, y: int
+    words: Vocabulary, world: World, x: int, y: int
 ) -> tuple[Phrase, Phrase]:
-    return colour_phrase(language, world, x), colour_phrase(language, world, y)
+    return colour_phrase(words, world, x), colour_phrase(words, world, y)
 
 
-def _place_saying(language: str, act: str, claim: Claim) -> Saying:
+def _place_saying(words: Vocabulary, act: str, claim: Claim) -> Saying:
     """What is said of places by way of a move; who rejects something denies it."""
-    return Saying(language, act, replace(claim, denies=act == "reject"))
+    return Saying(words, act, replace(claim, denies=act == "reject"))
 
 
 STRANGE = (
@@ -202,12 +208,12 @@ STRANGE = (
 
 
 def _unknown_word_topics(
-    language: str, world: World, known: frozenset[Pred]
+    words: Vocabulary, world: World, known: frozenset[Pred]
 ) -> Iterator[Talk]:
     """What has a word in it that is not known, of things that can be told apart."""
     for act in STRANGE:
-        if act in acts(language):
-            said = sayings(language, act, world)
+        if act in acts(words):
+            said = sayings(words, act, world)
             yield [it for it in said if _has_one_unknown(it, known)]
 
 
@@ -225,47 +231,46 @@ def _has_one_unknown(one: Saying, known: frozenset[Pred]) -> bool:
 
 
 def _front_topics(
-    language: str, world: World, fronts: Sequence[tuple[int, str]]
+    words: Vocabulary, world: World, fronts: Sequence[tuple[int, str]]
 ) -> Sequence[Talk]:
     """What perspectives make of it where things face some way, or that they do."""
     turned = [(y, front) for y, front in fronts if y in world]
     if not turned:
-        return [sayings(language, "orient", world)] if len(world.in_view) > 1 else []
-    beside = list(_claims_beside(language, world, turned))
-    claims = [[_place_saying(language, act, it) for it in beside] for act in OF_PLACES]
+        return [sayings(words, "orient", world)] if len(world.in_view) > 1 else []
+    beside = list(_claims_beside(words, world, turned))
+    claims = [[_place_saying(words, act, it) for it in beside] for act in OF_PLACES]
     phrases = [Phrase("", (it.sign, *it.landmark.signs)) for it in beside if it.sign]
     asked = [
-        Saying(language, act, Claim(None, phrase))
+        Saying(words, act, Claim(None, phrase))
         for act in ("ask_name", "ask_find")
         for phrase in phrases
     ]
     places = [
-        Saying(language, "ask_place", Claim(None, colour_phrase(language, world, x)))
+        Saying(words, "ask_place", Claim(None, colour_phrase(words, world, x)))
         for x in world.in_view
     ]
     taking = (
-        sayings(language, "take_frame", world),
-        perspectives_by_side(language, world),
+        sayings(words, "take_frame", world),
+        perspectives_by_side(words, world),
     )
     return [talk for talk in (*claims, asked, places, places, *taking) if talk]
 
 
 def _claims_beside(
-    language: str, world: World, turned: Sequence[tuple[int, str]]
+    words: Vocabulary, world: World, turned: Sequence[tuple[int, str]]
 ) -> Iterator[Claim]:
     """Where things are beside what faces some way: for a viewer, and for itself."""
-    known = vocabulary(language)
     for y, front in turned:
         for x, way in product(world.in_view, ("away", front)):
-            relation = None if x == y else known.relation_of(world, x, y, way)
+            relation = None if x == y else words.relation_of(world, x, y, way)
             if relation is not None:
-                pair = _colour_phrases(language, world, x, y)
+                pair = _colour_phrases(words, world, x, y)
                 yield Claim(relation, *pair)
 
 
-def perspectives_by_side(language: str, world: World) -> Talk:
+def perspectives_by_side(words: Vocabulary, world: World) -> Talk:
     """Whose perspective is meant, where nobody is named but the robot and the thing."""
-    taking = sayings(language, "take_frame", world)
+    taking = sayings(words, "take_frame", world)
     return [one for one in taking if not one.about.signs]
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import lru_cache
 
 from kille.dialogue.language import understand
-from kille.dialogue.meanings import predicate_at, value_at
+from kille.dialogue.meanings import DialogueTypes, predicate_at, value_at
 from ttr import Record, RecordType
 from ttr.types import PType
 from ttr.types.objects import Object
@@ -47,7 +47,9 @@ PLACES = {
 """Of how many things at least one is chosen by its place among them."""
 
 
-def answer_test(language: str) -> Callable[[Object, Object], bool]:
+def answer_test(
+    language: str, types: DialogueTypes | None = None
+) -> Callable[[Object, Object], bool]:
     """Whether an event is a move in this language that answers a question.
 
     >>> from ttr import Rec, record
@@ -62,7 +64,7 @@ def answer_test(language: str) -> Callable[[Object, Object], bool]:
             return False
         if "text" not in event:
             return False
-        meant = _readings(str(event.text), language)
+        meant = _readings(str(event.text), language, types)
         return any(
             content == event.content and _is_answer(move, event, question)
             for move, content in meant
@@ -97,8 +99,10 @@ def _is_place(content: RecordType, options: int) -> bool:
 
 
 @lru_cache(4096)
-def _readings(text: str, language: str) -> tuple[tuple[str, object], ...]:
+def _readings(
+    text: str, language: str, types: DialogueTypes | None
+) -> tuple[tuple[str, object], ...]:
     """What a text may be: moves, by their predicates, and what they are about."""
-    first, *_ = understand(text, language)
+    first, *_ = understand(text, language, types=types)
     moves = (it.type for it in first.readings)
     return tuple((predicate_at(it, "e").name, value_at(it, "content")) for it in moves)

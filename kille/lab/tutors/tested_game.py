@@ -9,6 +9,7 @@ from functools import lru_cache
 
 from hypothesis import strategies as st
 
+from kille.dialogue.meanings import DialogueTypes
 from kille.lab.tutors.exploring import exploring_tutor
 from kille.lab.tutors.question_answers import DROPPING, answer_test
 from kille.lab.worlds.games import simulated_game
@@ -23,14 +24,17 @@ def words(event: Record) -> str | None:
     return str(event.text) if "text" in event else None
 
 
-def roles_in(language: str) -> Roles:
-    """Where in a state the things are that properties speak of, in a language."""
+def roles_in(language: str, types: DialogueTypes | None = None) -> Roles:
+    """Where in a state the things are that properties speak of, in a language.
+
+    What is said is read by these types, or else by those of the packaged theory.
+    """
     return Roles(
         qud="shared.qud",
         commitments="shared.commitments",
         latest="shared.latest",
         words=words,
-        answers=answer_test(language),
+        answers=answer_test(language, types),
         drops=DROPPING,
         retracts=frozenset({"keep"}),
         moves=8,  # where each of the things that there are is

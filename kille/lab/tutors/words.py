@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import sign
 from kille.lab.worlds.sayings import (
     LESSON_ACTS,
     NOTHING,
@@ -19,7 +18,7 @@ from kille.lab.worlds.sayings import (
     perspective_matter,
     word_matter,
 )
-from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.vocabulary import Vocabulary, vocabulary
 from kille.lab.worlds.worlds import Thing
 from ttr import Record
 from ttr.aliases import Alias
@@ -45,14 +44,18 @@ class Words:
         """The tutor's word for a kind, a colour or a place of this English name."""
         if name in self.calls:
             return self.calls[name]
-        return vocabulary(self.language).form_of(name)
+        return self._vocabulary.form_of(name)
+
+    @property
+    def _vocabulary(self) -> Vocabulary:
+        return vocabulary(self.language)
 
     def sign(self, kind: str, word: str) -> Record:
         """The sign of a word."""
         means = (
             lexicon(self.language).means.get(word, "") if kind == "adjective" else ""
         )
-        return sign(word, kind, means=means)
+        return self._vocabulary.types.sign(word, kind, means=means)
 
     def phrase_for(self, thing: Thing, *by: str) -> Phrase:
         """A phrase for a thing by its colour, its noun, or both: "the red cup"."""
@@ -82,36 +85,36 @@ class Words:
         self, act: str, kind: str, word: str, landmark: Phrase | None, target: Phrase
     ) -> str:
         claim = Claim(self.sign(kind, word), target, landmark or NOTHING)
-        return Saying(self.language, act, claim).text
+        return Saying(self._vocabulary, act, claim).text
 
     def question(self, kind: str) -> str:
         """What this thing is, what colour it is, or where."""
-        return Saying(self.language, QUESTION_ACTS[kind], Claim(None, THIS)).text
+        return Saying(self._vocabulary, QUESTION_ACTS[kind], Claim(None, THIS)).text
 
     def which_question(self, phrase: Phrase) -> str:
         """Which thing a phrase is for."""
-        return Saying(self.language, "ask_find", Claim(None, phrase)).text
+        return Saying(self._vocabulary, "ask_find", Claim(None, phrase)).text
 
     def mention(self, phrase: Phrase) -> str:
         """A phrase by itself."""
-        return Saying(self.language, "mention", Claim(None, phrase)).text
+        return Saying(self._vocabulary, "mention", Claim(None, phrase)).text
 
     def plain_move(self, act: str) -> str:
         """A move that is about nothing in particular: `affirm`, `deny`, `greet` …"""
-        return Saying(self.language, act).text
+        return Saying(self._vocabulary, act).text
 
     def front_statement(self, front: str, phrase: Phrase) -> str:
         """Which way a thing faces."""
-        return Saying(self.language, "orient", facing_matter(front, phrase)).text
+        return Saying(self._vocabulary, "orient", facing_matter(front, phrase)).text
 
     def perspective(self, of: str) -> str:
         """Whose perspective is meant: that of the `viewer`, or of the `landmark`."""
-        return Saying(self.language, "take_frame", perspective_matter(of)).text
+        return Saying(self._vocabulary, "take_frame", perspective_matter(of)).text
 
     def forget_request(self, kind: str, word: str) -> str:
         """That a word is to be forgotten."""
         about = word_matter(self.sign(kind, word))
-        return Saying(self.language, "forget_word", about).text
+        return Saying(self._vocabulary, "forget_word", about).text
 
     called = Alias("word_for")
     described = Alias("phrase_for")

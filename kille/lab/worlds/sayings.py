@@ -14,10 +14,10 @@ from itertools import islice, permutations
 from string import Formatter
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import denial, meaning_at, merge_of, record_type
+from kille.dialogue.meanings import DialogueTypes, denied, merge_of
 from kille.dialogue.reference import meant_by
 from kille.dialogue.wording import tell
-from kille.lab.worlds.vocabulary import vocabulary
+from kille.lab.worlds.vocabulary import Vocabulary
 from kille.lab.worlds.worlds import World
 from ttr import Rec, Record, RecordType, record, rectype
 
@@ -63,11 +63,10 @@ class Phrase:
     talk: str = ""
     signs: tuple[Record, ...] = ()
 
-    @property
-    def meaning(self) -> RecordType:
+    def meaning(self, types: DialogueTypes) -> RecordType:
         """What it means."""
-        meant = meant_by(self.signs) if self.signs else rectype()
-        return merge_of(meant, record_type(self.talk)) if self.talk else meant
+        meant = meant_by(self.signs, types=types) if self.signs else rectype()
+        return merge_of(meant, types.record_type(self.talk)) if self.talk else meant
 
 
 NOTHING, THIS = Phrase(), Phrase("This")
@@ -85,19 +84,18 @@ class Claim:
     landmark: Phrase = NOTHING
     denies: bool = False
 
-    @property
-    def content(self) -> RecordType:
+    def content(self, types: DialogueTypes) -> RecordType:
         """What is said."""
         parts = {
-            label: part.meaning
+            label: part.meaning(types)
             for label, part in (("target", self.target), ("landmark", self.landmark))
             if part is not NOTHING
         }
         sign = self.sign
         said = (
-            record_type("Asked")
+            types.record_type("Asked")
             if sign is None
-            else meaning_at(sign, TEMPLATES[sign.kind])
+            else types.meaning_at(sign, TEMPLATES[sign.kind])
         )
         content = merge_of(said, rectype(parts))
         return denial(content) if self.denies else content
@@ -111,17 +109,37 @@ class Claim:
 
 @dataclass(frozen=True)
 class Matter:
-    """Anything else that is talked about: a word, a number, a perspective."""
+    """Anything else that is talked about: a word, a number, a perspective.
 
-    content: RecordType = Rec
-    signs: tuple[Record, ...] = ()
+    It is what a type is by its `name`, if it has one, with something set in it.
+    """
+
+    name: str = ""
+    labels: tuple[tuple[str, Phrase | Record], ...] = ()
+
+    def content(self, types: DialogueTypes) -> RecordType:
+        """What is talked about."""
+        parts = {
+            label: it.meaning(types) if isinstance(it, Phrase) else it.meaning
+            for label, it in self.labels
+        }
+        if not self.name:
+            return rectype(parts) if parts else Rec
+        content = types.record_type(self.name)
+        return merge_of(content, rectype(parts)) if parts else content
+
+    @property
+    def signs(self) -> tuple[Record, ...]:
+        """The words in it."""
+        found = (it.signs if isinstance(it, Phrase) else (it,) for _, it in self.labels)
+        return tuple(sign for signs in found for sign in signs)
 
 
 @dataclass(frozen=True)
 class Saying:
     """Something to be said: a move of the tutor's, and what it is about."""
 
-    language: str
+    words: Vocabulary
     act: str
     about: Claim | Matter = Matter()
 
@@ -133,25 +151,26 @@ class Saying:
 
 @lru_cache(65536)
 def _text(saying: Saying) -> str:
-    about = saying.about
-    move = record(content=about.content, signs=about.signs)
-    return tell(lexicon(saying.language), saying.act, move)
+    about, words = saying.about, saying.words
+    move = record(content=about.content(words.types), signs=about.signs)
+    return tell(lexicon(words.language), saying.act, move)
 
 
-def acts(language: str) -> tuple[str, ...]:
+def acts(words: Vocabulary) -> tuple[str, ...]:
     """The moves of the tutor's for which the lexicon has a wording."""
-    return tuple(lexicon(language).tells)
+    return tuple(lexicon(words.language).tells)
 
 
-def sayings(language: str, act: str, world: World) -> tuple[Saying, ...]:
+def sayings(words: Vocabulary, act: str, world: World) -> tuple[Saying, ...]:
     """What may be said by way of a move: its wordings, about all that there is.
 
+    >>> from kille.lab.worlds.vocabulary import vocabulary
     >>> from kille.lab.worlds.worlds import Thing
     >>> world = World((Thing("cup", "red", place=(2, 3)),))
-    >>> sayings("en", "instruct", world)[0].text
+    >>> sayings(vocabulary("en"), "instruct", world)[0].text
     'This is a cup.'
     """
-    return _sayings(language, act, without_glance(world))
+    return _sayings(words, act, without_glance(world))
 
 
 def without_glance(world: World) -> World:
@@ -160,11 +179,11 @@ def without_glance(world: World) -> World:
 
 
 @lru_cache(1024)
-def _sayings(language: str, act: str, world: World) -> tuple[Saying, ...]:
+def _sayings(words: Vocabulary, act: str, world: World) -> tuple[Saying, ...]:
     found = (
-        Saying(language, act, about)
-        for wording in lexicon(language).tells[act]
-        for about in _matters_of(language, _slots(wording), world)
+        Saying(words, act, about)
+        for wording in lexicon(words.language).tells[act]
+        for about in _matters_of(words, _slots(wording), world)
     )
     return tuple(dict.fromkeys(found))
 
@@ -174,29 +193,28 @@ def _slots(wording: str) -> frozenset[str]:
 
 
 def _matters_of(
-    language: str, slots: frozenset[str], world: World
+    words: Vocabulary, slots: frozenset[str], world: World
 ) -> Iterable[Claim | Matter]:
     """What a wording with these slots may be about, if the slots are known."""
     claiming = next((slot for slot in slots if _affirmed_slot(slot) in SLOTS), "")
     if claiming:
         kind = SLOTS[_affirmed_slot(claiming)]
         claims = _relations if kind == "relation" else _claims
-        said = claims(language, world, kind, "the_target" in slots)
+        said = claims(words, world, kind, "the_target" in slots)
         denies = claiming != _affirmed_slot(claiming)
         return (replace(claim, denies=denies) for claim in said)
     if slots == {"the_target"}:
-        return (Claim(None, phrase) for phrase in _phrases(language, world))
-    known = vocabulary(language)
-    nouns = known.nouns.values()
+        return (Claim(None, phrase) for phrase in _phrases(words, world))
+    nouns = words.nouns.values()
     match sorted(slots):
         case []:
             return [Matter()]
         case ["word"]:
-            return map(word_matter, known.all)
+            return map(word_matter, words.all)
         case ["counted"]:
-            return (Matter(rectype(counted=it.meaning), (it,)) for it in nouns)
+            return (Matter("", (("counted", it),)) for it in nouns)
         case ["front", "the_target"]:
-            return _all_facing(language, world)
+            return _all_facing(words, world)
         case ["the_landmark"]:
             phrases = (Phrase("", (noun,)) for noun in nouns)
             return (perspective_matter("landmark", phrase) for phrase in phrases)
@@ -205,104 +223,98 @@ def _matters_of(
     return ()
 
 
-def _all_facing(language: str, world: World) -> Iterator[Matter]:
+def _all_facing(words: Vocabulary, world: World) -> Iterator[Matter]:
     """Which way things face: as they do, and, where they have no front, some way."""
     for x in world.in_view:
         front = world.thing(x).front or "left"
-        for phrase in phrases_of(language, world, x):
+        for phrase in phrases_of(words, world, x):
             yield facing_matter(front, phrase)
 
 
 def facing_matter(front: str, phrase: Phrase) -> Matter:
     """That a thing faces this way: `left`, `towards` …"""
-    faces = named(f"Faces{front.capitalize()}")
-    return Matter(merge_of(faces, rectype(target=phrase.meaning)), phrase.signs)
+    return Matter(f"Faces{front.capitalize()}", (("target", phrase),))
 
 
-def perspective_matter(side: str, phrase: Phrase = NOTHING) -> Matter:
+def perspective_matter(side: str, phrase: Phrase | None = None) -> Matter:
     """That places are as the `viewer` has them, or the `landmark` of a phrase."""
-    content = named(f"By{side.capitalize()}")
-    if phrase is not NOTHING:
-        content = merge_of(content, rectype(landmark=phrase.meaning))
-    return Matter(content, phrase.signs)
+    landmark = () if phrase is None else (("landmark", phrase),)
+    return Matter(f"By{side.capitalize()}", landmark)
 
 
 def word_matter(sign: Record) -> Matter:
     """That it is a word that is talked of, as in "Forget cup"."""
-    return Matter(rectype(word=sign.meaning), (sign,))
+    return Matter("", (("word", sign),))
 
 
 def _affirmed_slot(slot: str) -> str:
     return slot.removeprefix("not_")
 
 
-def _claims(language: str, world: World, kind: str, phrased: bool) -> Iterator[Claim]:
+def _claims(
+    words: Vocabulary, world: World, kind: str, phrased: bool
+) -> Iterator[Claim]:
     """Claims with a noun or an adjective, as many of them true as not."""
-    known = vocabulary(language)
-    rest = known.nouns if kind == "noun" else known.adjectives
+    rest = words.nouns if kind == "noun" else words.adjectives
     for x in world.in_view:
-        true = [it for it in known.words_of(world, x) if it.kind == kind]
-        for target in phrases_of(language, world, x) if phrased else [NOTHING]:
+        true = [it for it in words.words_of(world, x) if it.kind == kind]
+        for target in phrases_of(words, world, x) if phrased else [NOTHING]:
             for sign in (*true, *islice(rest.values(), 2)):
                 yield Claim(sign, target)
 
 
 def _relations(
-    language: str, world: World, kind: str, phrased: bool
+    words: Vocabulary, world: World, kind: str, phrased: bool
 ) -> Iterator[Claim]:
     """Claims with a relation, as many of them true as not."""
-    known = vocabulary(language)
-    some = tuple(known.relations.values())[:1]
+    some = tuple(words.relations.values())[:1]
     for x, y in islice(permutations(world.in_view, 2), PAIRS):
-        true = known.relation_of(world, x, y)
+        true = words.relation_of(world, x, y)
         for sign in some if true is None else (true, *some):
-            for target in phrases_of(language, world, x) if phrased else [NOTHING]:
-                for landmark in phrases_of(language, world, y):
+            for target in phrases_of(words, world, x) if phrased else [NOTHING]:
+                for landmark in phrases_of(words, world, y):
                     yield Claim(sign, target, landmark)
 
 
 def true_claims(
-    language: str, world: World, x: int, phrase: Phrase = THIS
+    words: Vocabulary, world: World, x: int, phrase: Phrase = THIS
 ) -> Iterator[Claim]:
     """What is true of a thing, of which one speaks by this phrase.
 
     Where things are is not known of a flat picture, but talked of all the same.
     """
-    known = vocabulary(language)
-    for sign in known.words_of(world, x):
+    for sign in words.words_of(world, x):
         yield Claim(sign, phrase)
     for y in world.in_view:
         if y != x:
-            relation = known.relation_of(world, x, y) or known.relations["left"]
-            yield Claim(relation, phrase, colour_phrase(language, world, y))
+            relation = words.relation_of(world, x, y) or words.relations["left"]
+            yield Claim(relation, phrase, colour_phrase(words, world, y))
 
 
-def colour_phrase(language: str, world: World, x: int) -> Phrase:
+def colour_phrase(words: Vocabulary, world: World, x: int) -> Phrase:
     """A phrase for a thing in words that are known from the start: "the red one"."""
-    return Phrase("", vocabulary(language).adjectives_of(world, x)[:1])
+    return Phrase("", words.adjectives_of(world, x)[:1])
 
 
-def phrases_of(language: str, world: World, x: int) -> tuple[Phrase, ...]:
+def phrases_of(words: Vocabulary, world: World, x: int) -> tuple[Phrase, ...]:
     """How one may speak of a thing: "this", if it is attended to, and by its words."""
-    known = vocabulary(language)
-    noun, (colour, *_) = known.noun_of(world, x), known.adjectives_of(world, x)
+    noun, (colour, *_) = words.noun_of(world, x), words.adjectives_of(world, x)
     described = [Phrase("", it) for it in ((colour,), (noun,), (colour, noun))]
     return (THIS, *described) if x == world.attended_thing else tuple(described)
 
 
-def _phrases(language: str, world: World) -> Iterator[Phrase]:
+def _phrases(words: Vocabulary, world: World) -> Iterator[Phrase]:
     """The phrases for things in view, and such as may fit anything, or nothing."""
-    known = vocabulary(language)
     for x in world.in_view:
-        yield from phrases_of(language, world, x)
+        yield from phrases_of(words, world, x)
     yield THIS
     for talk in TALK:
         yield Phrase(talk)
-    for noun in known.nouns.values():
+    for noun in words.nouns.values():
         yield Phrase("", (noun,))
         yield Phrase("Other", (noun,))
     for x, y in islice(permutations(world.in_view, 2), PAIRS):
-        where = known.relation_of(world, x, y)
+        where = words.relation_of(world, x, y)
         if where is not None:
-            nouns = known.noun_of(world, x), known.noun_of(world, y)
+            nouns = words.noun_of(world, x), words.noun_of(world, y)
             yield Phrase("", (nouns[0], where, nouns[1]))

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import permutations
 
-from kille.dialogue.state import initial, words
+from kille.dialogue.state import initial
+from kille.dialogue.state import words as words_of
 from kille.lab.worlds.games import learned_words as learned
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glance_event
@@ -53,26 +54,26 @@ def game_after_school(game: Game, language: str = "en", times: int = 1) -> Game:
     cleared = world.clear()
     laid = replace(world, glance=cleared.glance + 1)
     given += [glance_event(cleared, world), glance_event(laid, cleared)]
-    facing = sayings(language, "orient", laid)[-1:]
+    facing = sayings(vocabulary(language), "orient", laid)[-1:]
     return continue_game(game, [*given, *(one.text for one in facing)])
 
 
 def lessons(language: str, world: World) -> Iterator[str | Record]:
     """What each thing in view is, pointed at, and then where they are, once a word."""
-    known = vocabulary(language)
+    words = vocabulary(language)
     for x in world.in_view:
         yield glance_event(world.point_at(x), world)
-        claim = Claim(known.noun_of(world, x), THIS)
-        yield Saying(language, "instruct", claim).text
+        claim = Claim(words.noun_of(world, x), THIS)
+        yield Saying(words, "instruct", claim).text
     said: set[Record] = set()
     for x, y in permutations(world.in_view, 2):
-        relation = known.relation_of(world, x, y)
+        relation = words.relation_of(world, x, y)
         if relation is None or relation in said:
             continue
         said.add(relation)
         yield glance_event(world.point_at(x), world)
-        claim = Claim(relation, THIS, phrases_of(language, world, y)[-1])
-        yield Saying(language, "relate", claim).text
+        claim = Claim(relation, THIS, phrases_of(words, world, y)[-1])
+        yield Saying(words, "relate", claim).text
 
 
 def continue_game(game: Game, given: Iterable[str | Record]) -> Game:
@@ -86,7 +87,7 @@ def continue_game(game: Game, given: Iterable[str | Record]) -> Game:
 
 def game_next_day(game: Game) -> Game:
     """The game on another day: it is known what was taught, but not what was said."""
-    known, s = game.start, initial(words(game.start), game.start.private.strategy)
+    known, s = game.start, initial(words_of(game.start), game.start.private.strategy)
     taught = [
         record(sign=it.sign, lessons=float(sum(x.holds for x in it.lessons)))
         for it in learned(game.model)

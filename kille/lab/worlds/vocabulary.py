@@ -67,13 +67,16 @@ _ENGLISH = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Vocabulary:
-    """The signs for what there is in a world, by what they are called here.
+    """The signs of a language for what there is in a world, by their names here.
 
-    `distances` are words for places that are no sides: they have no signs of their own.
+    They, and all that is said with them, have their meanings by `types`. `distances`
+    are words for places that are no sides: they have no signs of their own.
     """
 
+    language: str
+    types: DialogueTypes
     nouns: Mapping[str, Record]
     adjectives: Mapping[str, Record]
     relations: Mapping[str, Record]
@@ -152,6 +155,8 @@ def _vocabulary(types: DialogueTypes, language: str) -> Vocabulary:
         return found
 
     return Vocabulary(
+        language,
+        types,
         signs("noun", *KINDS),
         signs("adjective", *COLOURS, *SIZES.values()),
         signs("relation", *SIDES),

@@ -285,18 +285,11 @@ OF_THE_PACKAGED = {
 }
 """What is about the packaged theory."""
 
-ITS_OWN = {"dialogue_properties.py", "sayings.py", "words.py"}
-"""Modules of tutors who are simulated: they speak by the packaged theory."""
+ITS_OWN = {"dialogue_properties.py"}
+"""What is told of dialogues by the packaged theory, whatever theory they are of."""
 
 
-def test_a_name_that_a_theory_gives_to_another_kind_of_type_is_told() -> None:
-    types = DialogueTypes(Theory.parse("basic Scene\nPhrase := [x : Scene]"))
-    assert str(types.record_type("Phrase")) == "[x : Scene]"
-    with pytest.raises(TypeError, match="should be a record type, but is Scene"):
-        types.record_type("Scene")
-
-
-def test_only_tutors_speak_by_the_packaged_theory() -> None:
+def test_only_properties_ask_for_the_packaged_theory() -> None:
     asking = {
         file.name
         for file in ROOM.rglob("*.py")

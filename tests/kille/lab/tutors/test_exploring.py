@@ -1,4 +1,4 @@
-"""The tutor says everything that he has words for, and knows what is true."""
+"""The tutor says everything that they have words for, and knows what is true."""
 
 from string import Formatter
 
@@ -6,26 +6,27 @@ import pytest
 
 from kille.dialogue.language import LANGUAGES, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import (
-    denial,
-    kind_in,
-    meaning_at,
-    noun,
-    predicate_at,
-    set_at,
-)
-from kille.lab.tutors.exploring import happenings, is_true
+from kille.dialogue.meanings import denied, kind_in, noun, placed, predicate_at, set_at
+from kille.lab.study import Theory
+from kille.lab.theories.meanings import meanings_of
+from kille.lab.tutors.exploring import exploring_tutor, happenings, is_true
+from kille.lab.tutors.tested_game import roles_in
+from kille.lab.worlds.dialogue_properties import OF_TUTORING
+from kille.lab.worlds.games import simulated_game
 from kille.lab.worlds.sayings import acts, sayings
+from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import Thing, World, draw_world
 from ttr import RecordType
+from ttr.testing import Suite
 
 WORLD = draw_world(1)
+ENGLISH = vocabulary("en")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_move_is_said_and_understood(language):
-    for act in acts(language):
-        said = sayings(language, act, WORLD)
+    for act in acts(vocabulary(language)):
+        said = sayings(vocabulary(language), act, WORLD)
         assert said, f"the tutor never says {act}"
         for one in said[::7]:
             heard = understand(one.text, language)
@@ -41,7 +42,7 @@ def test_every_move_is_said_and_understood(language):
 def test_all_slots_are_filled(language):
     for act, wordings in lexicon(language).tells.items():
         slots = {it for text in wordings for _, it, _, _ in Formatter().parse(text)}
-        texts = [one.text for one in sayings(language, act, WORLD)]
+        texts = [one.text for one in sayings(vocabulary(language), act, WORLD)]
         assert not any("{" in text for text in texts)
         assert len(texts) > 1 or not slots - {None, "by"}
 
@@ -57,10 +58,10 @@ def test_he_knows_what_is_true():
         assert isinstance(content, RecordType)
         return content
 
-    assert is_true("en", world, naming("cup", "o1"))
-    assert not is_true("en", world, naming("cup", "o2"))
-    assert is_true("en", world, denied(naming("cup", "o2")))
-    assert not is_true("en", world.move(1, None), naming("cup", "o1"))
+    assert is_true(ENGLISH, world, naming("cup", "o1"))
+    assert not is_true(ENGLISH, world, naming("cup", "o2"))
+    assert is_true(ENGLISH, world, denied(naming("cup", "o2")))
+    assert not is_true(ENGLISH, world.move(1, None), naming("cup", "o1"))
 
 
 def test_things_are_put_taken_moved_and_pointed_at():
@@ -72,3 +73,17 @@ def test_things_are_put_taken_moved_and_pointed_at():
     assert any(not it.deep for it in after)
     assert () in views
     assert happenings(WORLD) == after
+
+
+def test_games_of_another_theory_are_explored_in_its_types():
+    types = meanings_of(Theory("deictic", meanings={"It": "[look : Look, x : Ind]"}))
+    suite = Suite(
+        simulated_game(WORLD, types=types),
+        exploring_tutor("en", types),
+        properties=OF_TUTORING,
+        roles=roles_in("en", types),
+        turns=6,
+        examples=10,
+        seed=0,
+    )
+    assert suite.played().explain_failure() == ""

@@ -8,15 +8,15 @@ from kille.lab.worlds.games import simulated_game, world_of
 from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.robot_profiles import ROBOTS
 from kille.lab.worlds.schooling import game_after_school
+from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import draw_world
 
 GAME = game_after_school(simulated_game(draw_world(1)))
 
 
 def acts(state, language="en"):
-    return {
-        one.act for talk in leading_topics(situation(language, state)) for one in talk
-    }
+    now = situation(vocabulary(language), state)
+    return {one.act for talk in leading_topics(now) for one in talk}
 
 
 def after(*given):
@@ -29,7 +29,7 @@ def after(*given):
 
 @pytest.mark.parametrize("robot", ROBOTS, ids=[robot.name for robot in ROBOTS])
 def test_all_that_leads_on_can_be_said_and_is_understood(robot):
-    now = situation(robot.language, robot.game(1).start)
+    now = situation(vocabulary(robot.language), robot.game(1).start)
     for talk in leading_topics(now):
         for one in talk[::5]:
             assert understand(one.text, robot.language)[0].readings, one.text
