@@ -10,17 +10,21 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from difflib import get_close_matches
 from pathlib import Path
 from reprlib import repr as brief
-from types import ModuleType
 from typing import Any, TypeAlias
 
+from kille.lab.own_code import (
+    WRITTEN,
+    OwnCodeError,
+    describe_exception,
+    load_object,
+)
 from kille.lab.results import ExperimentError
+from kille.lab.settings import suggest_name
 from kille.perception.learners import check_degrees
 from ttr.aliases import former_names
-from ttr.safety.consent import Consent, NotAllowedError
-from ttr.safety.python_files import run_named
+from ttr.safety.consent import Consent
 
 __all__ = ["Make", "Methods", "MethodFailedError", "candidates"]
 
@@ -30,8 +34,6 @@ Make: TypeAlias = Callable[[], Any]
 """Gives a learner that has learned nothing."""
 
 Methods: TypeAlias = Mapping[str, Make]
-
-_WRITTEN = "FILE.py:NAME or MODULE:NAME"
 
 
 class MethodFailedError(ExperimentError):
@@ -57,52 +59,19 @@ def candidates(
 def _maker(name: str, known: Methods, consent: Consent | None) -> Make:
     if name in known:
         return known[name]
-    module, colon, thing = name.rpartition(":")
-    if colon:
-        return _module_maker(module, thing, consent)
-    near = get_close_matches(name, known, n=1)
-    hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(known)}."
-    raise ExperimentError(
-        f"there is no method {name}: {hint} Your own is named {_WRITTEN}"
-    )
-
-
-# --- a user's own --------------------------------------------------------------------
-
-
-def _module_maker(path: str, thing: str, consent: Consent | None) -> Make:
-    module = _module(path, consent)
-    made: object = getattr(module, thing, None)
-    if callable(made):
-        return made
-    if made is not None:
-        raise ExperimentError(f"{thing} of {path} makes no learner: name a class")
-    own = [it for it in vars(module) if not it.startswith("_")]
-    near = get_close_matches(thing, own, n=1)
-    hint = f": did you mean {near[0]}?" if near else ""
-    raise ExperimentError(f"{path} has no {thing or 'learner without a name'}{hint}")
-
-
-def _module(path: str, consent: Consent | None) -> ModuleType:
-    if path.endswith(".py") and not Path(path).is_file():
-        raise ExperimentError(f"there is no file {path}")
+    if ":" not in name:
+        hint = suggest_name(name, known)
+        told = f"there is no method {name}: {hint}{'' if hint.endswith('?') else '.'}"
+        raise ExperimentError(f"{told} Your own is named {WRITTEN}")
     try:
-        return run_named(path, Path(), "_measured_", consent)
-    except NotAllowedError as error:
-        raise ExperimentError(error.message) from error
-    except (Exception, SystemExit) as error:
-        if _is_missing(path, error):
-            raise ExperimentError(
-                f"there is no module {path}: name a method as {_WRITTEN}"
-            ) from error
-        raise ExperimentError(f"{path} cannot be run: {_first_line(error)}") from error
-
-
-def _is_missing(path: str, error: BaseException) -> bool:
-    """Whether there is no module of this name, or none that it would be in."""
-    if not isinstance(error, ModuleNotFoundError) or error.name is None:
-        return False
-    return not path.endswith(".py") and f"{path}.".startswith(f"{error.name}.")
+        made = load_object(name, Path(), "_measured_", consent)
+    except OwnCodeError as error:
+        raise ExperimentError(error.message) from (error.__cause__ or error)
+    if not callable(made):
+        path, _, thing = name.rpartition(":")
+        raise ExperimentError(f"{thing} of {path} makes no learner: name a class")
+    make: Make = made
+    return make
 
 
 # --- the guard -----------------------------------------------------------------------
@@ -195,12 +164,9 @@ def _failing_as(name: str, doing: str) -> Iterator[None]:
     except MethodFailedError:
         raise
     except (Exception, SystemExit) as error:
-        raise MethodFailedError(name, f"{doing}: {_first_line(error)}") from error
-
-
-def _first_line(error: BaseException) -> str:
-    first = next(iter(str(error).splitlines()), "")
-    return f"{type(error).__name__}: {first}".removesuffix(": ")
+        raise MethodFailedError(
+            name, f"{doing}: {describe_exception(error)}"
+        ) from error
 
 
 def _article(noun: str) -> str:

@@ -13,13 +13,17 @@ from kille.dialogue.games import TUTORING
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.rules import bind
 from kille.lab.errors import TheoryError
-from kille.lab.own_code import describe_exception, failing_line
+from kille.lab.own_code import (
+    OwnCodeError,
+    describe_exception,
+    failing_line,
+    load_object,
+)
 from kille.lab.settings import suggest_name, why_no_file
 from kille.lab.study import Theory
 from kille.lab.theories.meanings import meanings_of
 from ttr import TTRError
-from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError
-from ttr.safety.python_files import run_named
+from ttr.safety.consent import OWN_FOLDER, Consent
 from ttr.theories.theory import load
 from ttr.updates import (
     Algorithm,
@@ -179,23 +183,14 @@ def _load_rules(file: Path, _: int, consent: Consent) -> Mapping[str, Rule]:
 
 
 def _run_python(reference: str, consent: Consent | None) -> Any:
-    path, colon, name = reference.rpartition(":")
+    path, colon, _ = reference.rpartition(":")
     if not colon or not path.endswith(".py"):
         raise TheoryError(f"rules are named {_WRITTEN}, found {reference}")
-    _check_there(Path(path))
     try:
-        module = run_named(path, Path(), "_rules_", consent)
-    except NotAllowedError as error:
-        raise TheoryError(error.message) from error
-    except (Exception, SystemExit) as error:
-        at = f"{path}:{failing_line(path, error) or 1}"
-        raise TheoryError(
-            f"{path} cannot be run: {describe_exception(error)}", at
-        ) from error
-    if name not in vars(module):
-        own = tuple(it for it in vars(module) if not it.startswith("_"))
-        raise TheoryError(f"{path} has no {name}: {suggest_name(name, own)}")
-    return vars(module)[name]
+        return load_object(reference, Path(), "_rules_", consent)
+    except OwnCodeError as error:
+        at = f"{path}:{error.line or 1}" if error.__cause__ is not None else ""
+        raise TheoryError(error.message, at) from error
 
 
 def _check_there(file: Path) -> None:

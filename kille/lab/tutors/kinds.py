@@ -186,7 +186,7 @@ def _maker_problems(make: str, given: Mapping[str, Any], study: Study) -> Iterat
         tutor = maker(**given)
         lacking = [it for it in ("name", "turns") if not hasattr(tutor, it)]
     except (Exception, SystemExit) as error:
-        told = describe_error(make.rpartition(":")[0], study.folder, error)
+        told = describe_error(make, study.folder, error)
         yield f"{make} makes no tutor: {told}"
         return
     for needed in lacking:

@@ -13,11 +13,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 from kille.lab.errors import StudyError
-from kille.lab.own_code import describe_exception, failing_line
-from kille.lab.settings import suggest_name, why_no_file
+from kille.lab.own_code import (
+    WRITTEN,
+    OwnCodeError,
+    describe_exception,
+    failing_line,
+    load_object,
+)
 from kille.lab.tutors.tutor import Tutor
-from ttr.safety.consent import Consent, NotAllowedError
-from ttr.safety.python_files import run_named
+from ttr.safety.consent import Consent
 
 Make = Callable[..., Tutor]
 
@@ -30,36 +34,21 @@ def load_maker(name: str, folder: Path, consent: Consent | None = None) -> Make:
     """
     where, colon, what = name.rpartition(":")
     if not colon:
-        raise StudyError([f"{name} names no tutor: write FILE.py:NAME or MODULE:NAME"])
-    if where.endswith(".py") and (told := why_no_file(_file(where, folder))):
-        raise StudyError([told])
+        raise StudyError([f"{name} names no tutor: write {WRITTEN}"])
     try:
-        python = os.path.expanduser(where)
-        module = run_named(python, folder, "_tutor_", consent)
-    except NotAllowedError as error:
-        raise StudyError([error.message]) from error
-    except (Exception, SystemExit) as error:
-        told = describe_error(where, folder, error)
-        raise StudyError([f"{where} cannot be used: {told}"]) from error
-    made: Make | None = getattr(module, what, None)
-    if made is None:
-        own = [it for it in vars(module) if not it.startswith("_")]
-        raise StudyError([f"{where} has no {what}: {suggest_name(what, own)}"])
+        made = load_object(name, folder, "_tutor_", consent)
+    except OwnCodeError as error:
+        line = f" (line {error.line})" if error.line else ""
+        is_told = isinstance(error.__cause__, SyntaxError)
+        raise StudyError([f"{error}{'' if is_told else line}"]) from error
     if not callable(made):
         raise StudyError([f"{what} of {where} makes no tutor: name a class"])
-    return made
+    make: Make = made
+    return make
 
 
-def describe_error(where: str, folder: Path, error: BaseException) -> str:
-    """What was raised, and on which line of the file, if it does not say so itself."""
-    line = failing_line(str(_file(where, folder)), error)
-    says = isinstance(error, SyntaxError) or not line
-    return (
-        describe_exception(error)
-        if says
-        else f"{describe_exception(error)} (line {line})"
-    )
-
-
-def _file(where: str, folder: Path) -> Path:
-    return folder / os.path.expanduser(where)
+def describe_error(name: str, folder: Path, error: BaseException) -> str:
+    """What a tutor raised, and on which line of the file."""
+    path = folder / os.path.expanduser(name.rpartition(":")[0])
+    line = failing_line(str(path), error)
+    return f"{describe_exception(error)}{f' (line {line})' if line else ''}"

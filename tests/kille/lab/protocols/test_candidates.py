@@ -78,7 +78,7 @@ def test_a_method_of_a_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
         ("no_such_module:Parrot", "there is no module no_such_module"),
         ("mine.py:Parot", "mine.py has no Parot: did you mean Parrot?"),
         ("mine.py:value", "value of mine.py makes no learner"),
-        ("mine.py:", "mine.py has no learner without a name"),
+        ("mine.py:", "mine.py has no object without a name"),
         ("broken.py:Parrot", "broken.py cannot be run: SyntaxError"),
     ],
 )

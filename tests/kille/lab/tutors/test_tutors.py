@@ -410,8 +410,8 @@ def test_a_tutor_of_ones_own_is_made_anew_for_each_dialogue(tmp_path):
         ("own.py:Mute", "a tutor needs turns, and what own.py:Mute makes has none"),
         ("own.py:Broken", "own.py:Broken makes no tutor: ValueError: no voice (line "),
         ("own.py:Shy", "own.py:Shy makes no tutor: ValueError: no name (line "),
-        ("gone.py:A", "gone.py cannot be used: SystemExit: 3 (line 2)"),
-        ("no_such:A", "no_such cannot be used: ModuleNotFoundError: "),
+        ("gone.py:A", "gone.py cannot be run: SystemExit: 3 (line 2)"),
+        ("no_such:A", "there is no module no_such: write FILE.py:NAME"),
     ],
 )
 def test_what_makes_no_tutor_is_told(tmp_path, make, why):
