@@ -6,6 +6,7 @@ the study is checked, before anything is played.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import product
@@ -135,6 +136,10 @@ class Study:
     """The file, as it was named."""
     consent: Consent | None = field(default=None, compare=False, repr=False)
     """As that of a theory."""
+
+    def path(self, name: str) -> Path:
+        """The file or folder that a setting names, from the folder of the study."""
+        return self.folder / os.path.expanduser(name)
 
     def runs(self) -> Iterator[Run]:
         """All dialogues; those that are to be compared with each other in a row."""

@@ -33,7 +33,7 @@ def sources(study: Study) -> dict[str, str]:
     ['the study']
     """
     names = sorted(set(_paths(study)))
-    paths = (study.folder / os.path.expanduser(name) for name in names)
+    paths = map(study.path, names)
     found = {it: _digest(it) for it in paths if _is_part(it, study)}
     named = {os.path.relpath(it, study.folder): found[it] for it in found}
     return {STUDY: _hash([study.source.encode()]), **named}

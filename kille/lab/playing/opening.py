@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from random import Random
@@ -54,7 +53,7 @@ def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
     set_ = fill_settings(named.settings, SETTINGS[named.kind])
     match named.kind:
         case "scripted":
-            return read_script(name, study.folder / os.path.expanduser(set_["file"]))
+            return read_script(name, study.path(set_["file"]))
         case "own":
             words = Words(theory.language)
             make = load_maker(set_["make"], study.folder, study.consent)
@@ -102,5 +101,5 @@ def _simulated_tutor(
 
 def _placing_of(study: Study, set_: Mapping[str, Any], chance: Random) -> Placing:
     if "folder" in set_:
-        return read_ratings(study.folder / os.path.expanduser(set_["folder"]))
+        return read_ratings(study.path(set_["folder"]))
     return draw_speaker(set_["inside"], set_["outside"], set_["habit"], chance)

@@ -5,7 +5,6 @@ What only the disk, or the rest of the study, can tell is found by `faults`.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from random import Random
@@ -118,7 +117,7 @@ def open_scene(study: Study, run: Run) -> Scene:
     chance = Random(f"scene {run.scene} {run.seed}")
     make = _opener(named.kind)
     if "folder" in set_:
-        make = partial(make, study.folder / os.path.expanduser(set_["folder"]))
+        make = partial(make, study.path(set_["folder"]))
     return make(set_, chance)
 
 
@@ -185,7 +184,7 @@ def _folder_problems(named: Named, study: Study) -> Iterator[Problem]:
     folder = named.settings.get("folder")
     if folder is None:
         return
-    if told := why_no_folder(study.folder / os.path.expanduser(folder)):
+    if told := why_no_folder(study.path(folder)):
         yield Problem(("folder",), told)
 
 

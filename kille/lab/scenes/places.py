@@ -67,8 +67,8 @@ BEARINGS = {side: math.atan2(away, right) for side, (right, away) in SIDES.items
 
 def side_of(world: World, x: int, y: int) -> tuple[str, float]:
     """On which side x is of y, for the viewer, and how far off its middle."""
-    (ax, ay), (bx, by) = world.place(x), world.place(y)
-    bearing = math.atan2(ay - by, ax - bx)
+    right, away = world.offset(x, y)
+    bearing = math.atan2(away, right)
     fits = {side: math.cos(bearing - way) for side, way in BEARINGS.items()}
     best = max(fits, key=lambda it: fits[it])
     return best, 1.0 - fits[best]

@@ -45,7 +45,7 @@ def refused_names(study: Study) -> Iterator[Problem]:
             )
     for name, tutor in study.tutors.items():
         if tutor.kind == "scripted":
-            path = str(study.folder / os.path.expanduser(tutor.settings["file"]))
+            path = str(study.path(tutor.settings["file"]))
             key = ("tutors", name, "file")
             yield from _refusals(key, lambda it: check_called(it, ".dlg"), path)
 

@@ -6,7 +6,6 @@ answered as the tutor has it: both would count as mistakes of the theory.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -70,9 +69,7 @@ def _places(tutor: Named, study: Study) -> Iterator[str]:
     """The words for places that a tutor has, if it is known where they are from."""
     folder = tutor.settings.get("folder")
     try:
-        placing = (
-            read_ratings(study.folder / os.path.expanduser(folder)) if folder else None
-        )
+        placing = read_ratings(study.path(folder)) if folder else None
     except ExperimentError:
         return
     yield from Speaker(placing or Person()).words

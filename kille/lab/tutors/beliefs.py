@@ -179,8 +179,5 @@ class Beliefs:
 def _offset(occasion: Occasion) -> tuple[float, float]:
     """Where a thing is from what it is beside: metres right and away."""
     assert occasion.y is not None
-    (ax, ay), (bx, by) = (
-        occasion.world.place(occasion.x),
-        occasion.world.place(occasion.y),
-    )
-    return STEP * (ax - bx), STEP * (ay - by)
+    right, away = occasion.world.offset(occasion.x, occasion.y)
+    return STEP * right, STEP * away

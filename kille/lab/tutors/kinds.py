@@ -5,7 +5,6 @@ What only the world, or the rest of the study, can tell is found by `faults`.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from inspect import signature
@@ -24,11 +23,11 @@ from kille.lab.settings import (
 )
 from kille.lab.study import Named, Study
 from kille.lab.tutors.own import describe_error, load_maker
-from kille.lab.tutors.scripted import unplayable_lines
+from kille.lab.tutors.scripted import script_lines, unplayable_lines
 from kille.lab.tutors.simulated import FEEDBACK
 from kille.lab.tutors.spatial_judges import SIDES, read_ratings
 from kille.lab.tutors.words import Words
-from ttr.dialogues.stories import StoryError, read_stories
+from ttr.dialogues.stories import StoryError
 
 _SIMULATED: Settings = {
     "calls": Setting(dict, {}, about='what they call something else: {mug = "cup"}'),
@@ -111,12 +110,12 @@ def _problems_at(key: str, what: Iterator[str]) -> Iterator[Problem]:
 
 def _script_problems(name: str, study: Study) -> Iterator[str]:
     """Why a script cannot be played, if it cannot."""
-    path = study.folder / os.path.expanduser(name)
+    path = study.path(name)
     if told := why_no_file(path):
         yield told
         return
     try:
-        lines = [line for story in read_stories(path) for line in story.lines]
+        lines = script_lines(path)
     except StoryError as error:
         yield str(error)
         return
@@ -125,7 +124,7 @@ def _script_problems(name: str, study: Study) -> Iterator[str]:
 
 def _ratings_problems(name: str, study: Study) -> Iterator[str]:
     """Why people's ratings cannot be used, if they cannot."""
-    path = study.folder / os.path.expanduser(name)
+    path = study.path(name)
     if told := why_no_folder(path):
         yield told
         return

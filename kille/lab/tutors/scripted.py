@@ -38,8 +38,12 @@ def read_script(name: str, path: Path) -> Scripted:
 
     `StoryError` where the file has none.
     """
-    stories = read_stories(path)
-    return Scripted(name, [line for story in stories for line in story.lines])
+    return Scripted(name, script_lines(path))
+
+
+def script_lines(path: Path) -> tuple[Line, ...]:
+    """The lines of all stories of a file; `StoryError` where it has none."""
+    return tuple(line for story in read_stories(path) for line in story.lines)
 
 
 # --- what nobody could play -----------------------------------------------------------

@@ -126,8 +126,7 @@ def direction(world: World, x: int, y: int, front: str) -> Vector | None:
     way = front.removeprefix("faces_")
     if not world.deep or way not in _TURNS or x == y:
         return None
-    (ax, ay), (bx, by) = world.place(x), world.place(y)
-    dx, dy = float(ax - bx), float(ay - by)
+    dx, dy = map(float, world.offset(x, y))
     far = (dx * dx + dy * dy) ** 0.5
     if not far:
         return None
@@ -148,8 +147,7 @@ def distance(world: World, x: int, y: int) -> float:
     >>> distance(World(things), 1, 2)
     0.5
     """
-    (ax, ay), (bx, by) = world.place(x), world.place(y)
-    return STEP * math.hypot(ax - bx, ay - by)
+    return STEP * math.hypot(*world.offset(x, y))
 
 
 def oddness(world: World, number: int) -> float:

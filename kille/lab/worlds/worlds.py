@@ -161,6 +161,11 @@ class World:
             raise ValueError(f"thing {number} of {self.name} is not in view")
         return place
 
+    def offset(self, x: int, y: int) -> Place:
+        """How many steps x is to the right of y, and how many farther away."""
+        (ax, ay), (bx, by) = self.place(x), self.place(y)
+        return ax - bx, ay - by
+
     # --- what may happen -------------------------------------------------------------
 
     def move(self, number: int, place: Place | None) -> World:

@@ -15,8 +15,8 @@ from kille.lab.study_files.phases import (
     kinds_of,
     turns_before,
 )
-from kille.lab.study_files.warnings.tutors import script_lines
 from kille.lab.study_files.words import SPEAKING
+from kille.lab.tutors.scripted import script_lines
 
 _ASKING = ("ask", "practise", "find")
 
@@ -39,7 +39,11 @@ def _nothing_asked(study: Study) -> Iterator[Problem]:
     if kinds & {"own", "keyboard"} or (asked and kinds & {*SPEAKING}):
         return
     scripts = [it for it in study.tutors.values() if it.kind == "scripted"]
-    marks = {line.mark for it in scripts for line in script_lines(it, study)}
+    marks = {
+        line.mark
+        for it in scripts
+        for line in script_lines(study.path(it.settings["file"]))
+    }
     if "S>" not in marks:
         told = 'nothing is asked, so that no answers are measured: write do = "ask"'
         yield Problem(("phases",), told)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import zip_longest
 
@@ -14,9 +13,9 @@ from kille.lab.study_files.phases import TEACHING, kind_of
 from kille.lab.study_files.words import SPEAKING, names_in_scenes, words_of
 from kille.lab.theories import language_of
 from kille.lab.theories.meanings import meanings_of
+from kille.lab.tutors.scripted import script_lines
 from kille.lab.tutors.words import Words
 from kille.lab.worlds.worlds import KINDS
-from ttr.dialogues.stories import Line, read_stories
 
 
 def tutor_warnings(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
@@ -90,15 +89,9 @@ def _has_one(words: Words, own: Iterable[str], there: Iterable[str]) -> bool:
 # --- scripts --------------------------------------------------------------------------
 
 
-def script_lines(tutor: Named, study: Study) -> tuple[Line, ...]:
-    """The lines of a scripted tutor's file."""
-    path = study.folder / os.path.expanduser(tutor.settings["file"])
-    return tuple(line for story in read_stories(path) for line in story.lines)
-
-
 def _script_warnings(tutor: Named, study: Study) -> Iterator[Problem]:
     key = ("tutors", tutor.name, "file")
-    lines = script_lines(tutor, study)
+    lines = script_lines(study.path(tutor.settings["file"]))
     for line in lines:
         if line.mark in ("S~", "="):
             told = f"what {line.mark} expects is not measured: write S> and all of it"
