@@ -11,13 +11,12 @@ from dataclasses import dataclass
 
 from kille.dialogue.language import Utterance
 from kille.dialogue.state import blank_model, initial
-from kille.lab.people.steps import example
+from kille.lab.people.instructions import example, format_view
 from kille.lab.people.typed_lines import Ask, read_line
 from kille.lab.people.typed_sayings import acts, asked_kind, claimed_words, sentences
-from kille.lab.people.views import format_view
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.events import occasion_after
 from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.table_commands import occasion_after
 from ttr import Model, record
 from ttr.judging import Judgement
 from ttr.probability import CERTAIN

@@ -6,13 +6,18 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from kille.lab.errors import StudyError
-from kille.lab.people.steps import example, instruction, kept_kind, question
+from kille.lab.people.instructions import (
+    example,
+    format_view,
+    instruction,
+    kept_kind,
+    question,
+)
 from kille.lab.people.typed_lines import Ask, read_line
 from kille.lab.people.typed_sayings import QUESTIONS, acts, claimed_words
-from kille.lab.people.views import format_view
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.events import occasion_after
 from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.table_commands import occasion_after
 from kille.lab.tutors.tutor import (
     Asked,
     Happens,

@@ -7,15 +7,18 @@ lessons and questions as long as what they answer is answered in the same way.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from contextlib import closing
+import random
+from collections.abc import Iterator, Mapping
+from contextlib import closing, contextmanager
 from math import nan
+
+import numpy as np
 
 from kille.dialogue.state import words
 from kille.lab import scenes
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.errors import StudyError
-from kille.lab.playing.opening import robot_of, tutor_of
+from kille.lab.playing.players import robot_of, tutor_of
 from kille.lab.protocols.phases import CHANGING, RESTING, successor, tasks
 from kille.lab.robots import Robot
 from kille.lab.robots.replies import Reply, degrees
@@ -41,6 +44,28 @@ def play(study: Study, run: Run) -> Played:
     A tutor is told if a move of theirs cannot be made, and may make another.
     Whatever a theory, a learner or a tutor of one's own raises ends it.
     """
+    with _seed_generators(run):
+        return _play(study, run)
+
+
+@contextmanager
+def _seed_generators(run: Run) -> Iterator[None]:
+    """What learners and rules of one's own draw by chance follows from the run, too.
+
+    Many a classifier draws from the generators of Python or numpy that a process has.
+    """
+    before, before_of_arrays = random.getstate(), np.random.get_state()  # noqa: NPY002
+    chance = run.chance("whatever draws without a generator of its own")
+    random.seed(chance.getrandbits(32))
+    np.random.seed(chance.getrandbits(32))  # noqa: NPY002
+    try:
+        yield
+    finally:
+        random.setstate(before)
+        np.random.set_state(before_of_arrays)  # noqa: NPY002
+
+
+def _play(study: Study, run: Run) -> Played:
     scene = scenes.open_scene(study, run)
     with closing(robot_of(study, run, scene)) as robot:
         talk, name = _Dialogue(study, run, robot), run.tutor

@@ -8,8 +8,8 @@ from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes, packaged_types
 from kille.dialogue.wording import did_not_understand
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.events import change_world
 from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.table_commands import change_world
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glance_event, look_event, number_of, thing
 from kille.lab.worlds.schooling import game_next_day

@@ -22,7 +22,7 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.tutoring import heard
-from kille.lab.tutors.openings import (
+from kille.lab.tutors.leading_topics import (
     Situation,
     leading_topics,
     perspectives_by_side,

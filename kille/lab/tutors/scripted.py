@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from kille.lab.scenes import WHOLE
-from kille.lab.scenes.events import PLACED, is_step
+from kille.lab.scenes.table_commands import PLACED, is_step
 from kille.lab.study import Study
 from kille.lab.tutors.tutor import Asked, Happens, Move, Says, Shows, Task, Turns
 from ttr.dialogues.stories import Line, read_stories

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 from kille.lab.robots.replies import Reply
 from kille.lab.scenes.occasions import KINDS, Occasion
-from kille.lab.tutors.answers import answer_robot
 from kille.lab.tutors.beliefs import Beliefs, Manner
+from kille.lab.tutors.simulated_answers import answer_robot
 from kille.lab.tutors.tutor import Asked, Move, Says, Shows, Task, Turns, Waits
 from kille.lab.worlds.sayings import QUESTION_ACTS
 

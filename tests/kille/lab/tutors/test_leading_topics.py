@@ -3,7 +3,7 @@
 import pytest
 
 from kille.dialogue.language import LANGUAGES, understand
-from kille.lab.tutors.openings import leading_topics, situation
+from kille.lab.tutors.leading_topics import leading_topics, situation
 from kille.lab.worlds.games import simulated_game, world_of
 from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.robot_profiles import ROBOTS

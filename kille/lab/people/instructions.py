@@ -1,4 +1,4 @@
-"""What is wanted of a tutor in each step of a dialogue, as a person reads it."""
+"""What a person reads in each step of a dialogue: what there is, and what is wanted."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from kille.lab.scenes.occasions import Occasion
 from kille.lab.tutors.simulated import BY
 from kille.lab.tutors.tutor import Task
 from kille.lab.tutors.words import Words
-from kille.lab.worlds.worlds import Thing
+from kille.lab.worlds.worlds import Thing, World
 
 _LESSONS = {
     "noun": "say what #{x} is",
@@ -93,3 +93,35 @@ def example(kind: str, language: str) -> str:
             landmark = words.phrase_for(car, "noun")
             return words.lesson(kind, words.word_for("behind"), landmark)
     return "#2"
+
+
+# --- what there is --------------------------------------------------------------------
+
+
+def format_view(occasion: Occasion, world: World) -> str:
+    """What there is in a world of an occasion, or in what a camera has taken.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),)).point_at(1)
+    >>> print(format_view(Occasion("noun", world, 1), world))
+    On the table:
+      #1 red cup, 2 right 3 away  <- pointed at
+    """
+    things = [f"  {_format_thing(world, it, occasion.view)}" for it in world.in_view]
+    if occasion.view is not None:
+        return "\n".join((f"Before the camera ({occasion.view}):", *things))
+    return "\n".join(("On the table:", *things)) if things else "The table is empty."
+
+
+def _format_thing(world: World, number: int, view: object) -> str:
+    """A thing; where it is, a camera's view says itself, if that is known."""
+    thing, (right, away) = world.thing(number), world.place(number)
+    place = "" if view is not None else f", {_steps(right)} right {_steps(away)} away"
+    front = f", facing {thing.front}" if thing.front else ""
+    pointed = "  <- pointed at" if number == world.focus else ""
+    called = f"{thing.colour} {thing.kind}".strip()
+    return f"#{number} {called}{place}{front}{pointed}"
+
+
+def _steps(far: float) -> str:
+    return f"{round(far, 1):zg}"
