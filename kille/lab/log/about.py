@@ -35,7 +35,7 @@ class About:
 
 
 def about_rows(study: Study, folder: Path) -> dict[str, str]:
-    """What a new log keeps of a study, by name."""
+    """The rows of a new log's table `about`."""
     return {
         "title": study.title,
         "source": study.source,
@@ -49,13 +49,13 @@ def about_rows(study: Study, folder: Path) -> dict[str, str]:
 
 
 def versions() -> dict[str, str]:
-    """What dialogues are played by here."""
+    """The versions of the software that plays dialogues here."""
     packages = ("kille", "numpy", "scikit-learn", "opencv-contrib-python-headless")
     return {"python": platform.python_version(), **{it: version(it) for it in packages}}
 
 
 def about_in(connection: sqlite3.Connection, folder: Path) -> About:
-    """What is kept in a log; RunError where it is none."""
+    """Read what a log is of; RunError if it is not a log."""
     check_ours(connection, folder)
     found = dict(connection.execute("SELECT name, value FROM about"))
     return About(
@@ -70,7 +70,7 @@ def about_in(connection: sqlite3.Connection, folder: Path) -> About:
 
 
 def check_same(before: About, study: Study, folder: Path) -> None:
-    """Refuses what would mix dialogues that are not of one study."""
+    """Refuse to mix dialogues of different studies in one log."""
     differs = changed_sources(before.sources, sources(study))
     if differs:
         raise RunError(

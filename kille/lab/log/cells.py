@@ -51,7 +51,7 @@ def cells(value: tuple[Any, ...]) -> tuple[Cell, ...]:
 
 
 def read_cells(of: type[Row], found: Sequence[Any]) -> Row:
-    """The turn or answer that these are the cells of.
+    """Make a turn or an answer of its cells.
 
     >>> from kille.lab.dialogues import Turn
     >>> turn = Turn(1, "first", "Ann", "instruct", "This is a cup.", "OK.", 4)

@@ -22,7 +22,7 @@ FILE, LOCK = "log.db", ".lock"
 
 @contextmanager
 def lock_folder(folder: Path) -> Iterator[None]:
-    """Keeps all other writers out of a folder, which is made."""
+    """Make a folder, and keep all other writers out of it."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         file = open(folder / LOCK, "a+", opener=open_private)  # noqa: SIM115
@@ -46,7 +46,7 @@ def lock_folder(folder: Path) -> Iterator[None]:
 
 
 def connect(path: Path, mode: str = "mode=rw") -> sqlite3.Connection:
-    """A connection to a file. RunError for a journal that kille never writes."""
+    """Connect to a database. RunError for a journal that kille never writes."""
     if has_strange_journal(path):
         raise RunError(
             f"{path} has a journal beside it that kille never writes: take it away"
@@ -58,7 +58,7 @@ def connect(path: Path, mode: str = "mode=rw") -> sqlite3.Connection:
 
 
 def reading_mode(path: Path) -> str:
-    """How to read a log that may lie where nothing can be written.
+    """How to open a log for reading, also in a folder that cannot be written.
 
     SQLite wants to keep a file beside it. Where it cannot, and none waits there to be
     read, the log alone is all there is.
@@ -70,7 +70,7 @@ def reading_mode(path: Path) -> str:
 
 @contextmanager
 def explain_errors(folder: Path) -> Iterator[None]:
-    """What the system says of a folder, as a line for people."""
+    """Turn errors of the system into one line for people, a RunError."""
     try:
         yield
     except sqlite3.Error as error:

@@ -55,7 +55,7 @@ DEADLY = "every worker that played it died: is there memory enough?"
 
 
 def play_to_outcome(study: Study, run: Run, play: Play) -> Outcome:
-    """What becomes of a run, whatever the theory or the tutor in it does.
+    """Play a run; whatever the theory or the tutor in it raises makes it broken.
 
     >>> def play(study, run):
     ...     return {}[run.theory]
@@ -72,7 +72,7 @@ def play_to_outcome(study: Study, run: Run, play: Play) -> Outcome:
 
 
 def broken_run(run: Run, error: BaseException, seconds: float) -> Broken:
-    """A run of which this error is the end, after so many seconds."""
+    """A run that failed with this error after `seconds`."""
     trace = "".join(traceback.format_exception(error))
     return Broken(
         run, _keepable(reason_of(_root_cause(error))), _keepable(trace), seconds
@@ -80,12 +80,12 @@ def broken_run(run: Run, error: BaseException, seconds: float) -> Broken:
 
 
 def _keepable(text: str) -> str:
-    """A text that can be kept: halves of characters are spelled out."""
+    """A text that a database takes: surrogates are escaped."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def _root_cause(error: BaseException) -> BaseException:
-    """What was first to go wrong: what a learner of one's own raised, not who told."""
+    """The error that caused all others, such as one of a user's learner."""
     while error.__cause__ is not None:
         error = error.__cause__
     return error

@@ -39,7 +39,7 @@ def read(folder: Path) -> Iterator[Finished]:
 
 
 def broken_runs(folder: Path) -> tuple[Broken, ...]:
-    """All dialogues that were not, in the order of the study."""
+    """All dialogues that broke, in the order of the study."""
     with _open_log(folder) as connection:
         rows = connection.execute(f"{_RUNS} WHERE reason <> '' ORDER BY place")
         return tuple(_read_broken(row) for row in rows)
@@ -54,7 +54,7 @@ def outcomes(folder: Path) -> Iterator[Outcome]:
 
 
 def find_outcome(folder: Path, name: str) -> Outcome:
-    """What became of a run, by its name or its number, from 1.
+    """Find what became of a run by its name, or by its number from 1.
 
     RunError where there is no such run in the log.
     """
@@ -68,7 +68,7 @@ def find_outcome(folder: Path, name: str) -> Outcome:
 
 
 def count_outcomes(folder: Path) -> int:
-    """How many runs are over, as they should be or not."""
+    """Count the runs that are over, finished or broken."""
     with _open_log(folder) as connection:
         (found,) = connection.execute("SELECT count(*) FROM runs").fetchone()
         return int(found)
@@ -81,7 +81,7 @@ def about(folder: Path) -> About:
 
 
 def fact_names(folder: Path) -> tuple[str, ...]:
-    """The names of what else was counted in any dialogue, in order."""
+    """The names of all facts that were counted, sorted."""
     with _open_log(folder) as connection:
         found = connection.execute("SELECT DISTINCT facts FROM runs").fetchall()
     return tuple(sorted({name for (it,) in found for name in json.loads(it)}))

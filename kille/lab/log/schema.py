@@ -23,7 +23,7 @@ def table(of: type) -> str:
 
 
 def marks(values: tuple[object, ...]) -> str:
-    """As many question marks as there are values.
+    """Placeholders of SQL, one for each value.
 
     >>> marks((1, "a"))
     '?, ?'
@@ -32,7 +32,7 @@ def marks(values: tuple[object, ...]) -> str:
 
 
 def _create_table(of: type) -> str:
-    """The table for turns or answers of runs, in their order."""
+    """The statement that creates the table of turns or of answers."""
     kinds = ", ".join(f'"{it.name}" {it.kind}' for it in columns(of))
     return f"""
         CREATE TABLE {table(of)} (
@@ -75,7 +75,7 @@ def is_empty(connection: sqlite3.Connection) -> bool:
 
 
 def check_ours(connection: sqlite3.Connection, folder: Path) -> None:
-    """RunError where it is no log, one of another kille, or has what no kille wrote."""
+    """RunError for another program's file, another version, or a foreign schema."""
     (found,) = connection.execute("PRAGMA application_id").fetchone()
     if found != APPLICATION_ID:
         raise RunError(f"{folder / FILE} is no log of a study: name another folder")
@@ -97,7 +97,7 @@ def check_ours(connection: sqlite3.Connection, folder: Path) -> None:
 
 
 def check_rows(connection: sqlite3.Connection, folder: Path) -> None:
-    """RunError where a log, whose tables are ours, has rows that no kille wrote."""
+    """RunError for rows that kille never writes."""
     for fault in row_faults(connection):
         raise _untrusted_error(folder, fault)
 
@@ -110,7 +110,7 @@ def _untrusted_error(folder: Path, fault: str) -> RunError:
 
 @cache
 def _parts() -> Schema:
-    """The parts of a log in which nothing is."""
+    """The schema of an empty log."""
     return schema_made_by(make)
 
 

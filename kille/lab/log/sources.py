@@ -42,7 +42,7 @@ def sources(study: Study) -> dict[str, str]:
 def changed_sources(
     before: Mapping[str, str], now: Mapping[str, str]
 ) -> tuple[str, ...]:
-    """What is not as it was, the study itself first.
+    """The names of what has changed, the study itself first.
 
     >>> before, now = {"the study": "1", "a.py": "2"}, {"the study": "1", "a.py": "3"}
     >>> changed_sources(before, now)
@@ -53,7 +53,7 @@ def changed_sources(
 
 
 def _paths(study: Study) -> Iterator[str]:
-    """What may be paths in a study: `FILE:NAME` is of the file."""
+    """All texts of a study that may be paths; of `FILE:NAME`, the file."""
     parts = (*study.theories.values(), *study.tutors.values(), *study.scenes.values())
     for text in _texts([vars(part) for part in (*parts, *study.phases)]):
         yield text
@@ -61,7 +61,7 @@ def _paths(study: Study) -> Iterator[str]:
 
 
 def _is_part(path: Path, study: Study) -> bool:
-    """Whether there is such a file or folder, and not one that all of this is in."""
+    """Whether a path exists, and the study is not inside of it."""
     try:
         return path.exists() and path.resolve() not in _enclosing_folders(study)
     except (OSError, ValueError):  # a sentence is no path
@@ -104,7 +104,7 @@ def _digest(path: Path) -> str:
 
 
 def _pieces(path: Path) -> Iterator[bytes]:
-    """What is in a file, piece by piece; of a very large one, only its size."""
+    """The contents of a file in pieces; of a very large one, only its size."""
     with open_file(path) as file:
         size = file.seek(0, os.SEEK_END)
         if size > HUGE:

@@ -29,7 +29,7 @@ Row: TypeAlias = tuple[Cell, ...]
 
 
 def write_tables(folder: Path) -> tuple[Path, ...]:
-    """Writes all tables beside the log in a folder; the files that were written.
+    """Write all tables beside the log in a folder, and return their files.
 
     RunError where there is no log, or they cannot be written.
     """
@@ -163,7 +163,7 @@ def _parquet(kinds: Mapping[str, str], path: Path) -> Iterator[_Write]:
 def _write_draft(
     path: Path, kinds: Mapping[str, str], writing: _Writing
 ) -> Iterator[_Write]:
-    """Writes a file beside it that takes its place when it is whole."""
+    """Write a draft that takes the place of the file when it is whole."""
     draft = path.with_name(f".{path.name}.part")
     try:
         with writing(kinds, draft) as write:

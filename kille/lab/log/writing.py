@@ -24,7 +24,7 @@ from ttr.aliases import Alias
 
 
 class Log:
-    """The log of a study that is open to write; `opened` makes or goes on with one."""
+    """The log of a study that is open to write; `open` makes or continues one."""
 
     def __init__(self, study: Study, folder: Path, connection: sqlite3.Connection):
         self.folder = folder
@@ -34,7 +34,7 @@ class Log:
     @classmethod
     @contextmanager
     def open(cls, study: Study, folder: Path) -> Iterator[Self]:
-        """The log of this study in a folder, for one writer at a time.
+        """Open the log of a study in a folder, for one writer at a time.
 
         RunError where another study's log is there, where another writes to it, or
         where it cannot be written.
@@ -49,19 +49,19 @@ class Log:
                 connection.execute("PRAGMA journal_mode = DELETE")
 
     def reasons(self) -> Mapping[Run, str]:
-        """The runs that are over, each with the reason why it broke, if it did."""
+        """Why each run that is over broke; empty for those that did not."""
         told = "SELECT theory, tutor, scene, seed, reason FROM runs ORDER BY place"
         rows: list[tuple[Any, ...]] = self._connection.execute(told).fetchall()
         return {Run(*run): reason for *run, reason in rows}
 
     def forget_broken(self) -> int:
-        """Drops what is kept of broken runs, so that they are played again."""
+        """Delete all broken runs, so that they are played again; how many."""
         told = "DELETE FROM runs WHERE reason <> ''"
         with explain_errors(self.folder), self._connection:
             return self._connection.execute(told).rowcount
 
     def write(self, outcome: Outcome) -> Outcome:
-        """Keeps what became of a run, all of it or nothing; gives what is kept.
+        """Write what became of a run, all of it or nothing; return what was written.
 
         A dialogue with something in it that cannot be kept, such as a tutor's half of a
         character, is a broken one.
@@ -102,7 +102,7 @@ class Log:
 
 
 def _open_connection(study: Study, folder: Path) -> sqlite3.Connection:
-    """A connection to a log that is this study's, made where there is none."""
+    """Connect to the log of this study, and make it if there is none."""
     with explain_errors(folder):
         create_private_file(folder / FILE)
         connection = connect(folder / FILE)
@@ -128,7 +128,7 @@ def _prepare(connection: sqlite3.Connection, study: Study, folder: Path) -> None
 
 
 def _create_log(connection: sqlite3.Connection, study: Study, folder: Path) -> None:
-    """Makes the tables of a new log, and says what it is of."""
+    """Create the tables of a new log, and write what it is of."""
     with connection:
         connection.execute("BEGIN IMMEDIATE")
         make(connection)

@@ -99,7 +99,7 @@ def example(kind: str, language: str) -> str:
 
 
 def format_view(occasion: Occasion, world: World) -> str:
-    """What there is in a world of an occasion, or in what a camera has taken.
+    """What there is in a world, or in what a camera has taken.
 
     >>> from kille.lab.worlds.worlds import Thing
     >>> world = World((Thing("cup", "red", place=(2, 3)),)).point_at(1)
@@ -114,7 +114,7 @@ def format_view(occasion: Occasion, world: World) -> str:
 
 
 def _format_thing(world: World, number: int, view: object) -> str:
-    """A thing; where it is, a camera's view says itself, if that is known."""
+    """A thing with its place, unless a camera shows that."""
     thing, (right, away) = world.thing(number), world.place(number)
     place = "" if view is not None else f", {_steps(right)} right {_steps(away)} away"
     front = f", facing {thing.front}" if thing.front else ""

@@ -57,21 +57,21 @@ class TypedReply(Reply):
 
     @property
     def way(self) -> str:
-        """What is claimed is asserted."""
+        """How it is put: what is claimed is asserted."""
         if self.points is not None:
             return "point"
         return "assert" if self.claimed else "admit"
 
     @property
     def wants(self) -> str:
-        """Who asks, or says nothing that can be read, wants to be told."""
+        """What the person wants to be told, if they ask or cannot be read."""
         if self.odd and not self.asks:
             return "ask_again"
         return next((_WANTS[it] for it in self.acts if it in _WANTS), "")
 
     @property
     def is_lost(self) -> bool:
-        """A person understands."""
+        """Never: a person understands."""
         return False
 
     @property
@@ -81,7 +81,7 @@ class TypedReply(Reply):
 
     @property
     def is_open(self) -> bool:
-        """Who asks back has not answered, unless they want to be told the answer."""
+        """Whether the person asks back, and not for the answer itself."""
         return self.asks and not self.wants
 
     @property
@@ -115,18 +115,18 @@ class TypedRobot:
         self._occasion: Occasion | None = None
 
     def see(self, occasion: Occasion) -> Reply:
-        """What is seen is told with what is said next."""
+        """Keep what is seen: it is shown with what is said next."""
         self._occasion = occasion
         self._seen = f"\n{format_view(occasion, occasion.world_seen)}"
         return self._reply("")
 
     def wait(self, occasion: Occasion) -> Reply:
-        """They may say something."""
+        """Let the person say something."""
         self.see(occasion)
         return self._reply(self._line("The tutor waits: you may say something."))
 
     def hear(self, text: str) -> Reply:
-        """They answer, and once more if no answer is read in what they type."""
+        """Let the person answer, once more if what they type is no answer."""
         kind = asked_kind(text, self._language)
         line = self._line(f"Tutor: {text}")
         if kind and not self._is_answer(line, kind):
@@ -134,7 +134,7 @@ class TypedRobot:
         return self._reply(line)
 
     def happen(self, command: str) -> Reply:
-        """What a script has happen: they see it, and are asked where it is a look."""
+        """Show what a script has happen; at a look, the person may say something."""
         now = self._occasion
         if command == "restart":
             return self.rest()
@@ -146,21 +146,21 @@ class TypedRobot:
         return self.see(occasion_after(now, command))
 
     def rest(self) -> Reply:
-        """They are told that another day begins."""
+        """Say that another day begins."""
         self._before += "\nAnother day begins: you know what you were taught."
         return self._reply("")
 
     def name(self, number: int) -> str | None:
-        """Nothing is known of what they call things."""
+        """None: nothing is known of how a person names things."""
         return None
 
     def close(self) -> None:
-        """Nothing is to be let go of."""
+        """There is nothing to release."""
 
     # --- what they see and type ------------------------------------------------------
 
     def _line(self, told: str) -> str:
-        """The line that they type, with what has happened since the last one."""
+        """Show what has happened since the last line, and read the next one."""
         before, self._before, self._seen = f"{self._before}{self._seen}", "", ""
         line = self._read(f"{before}\n{told}" if before else told)
         while line == "?" or (
@@ -216,7 +216,7 @@ class TypedRobot:
 
 
 def _move(reading: Utterance, model: Model) -> Judgement:
-    """What was said, as a move: that it was, is certain."""
+    """What was said, as a judgement that is certain."""
     said = record()
     return Judgement(
         said, reading.type, CERTAIN, lambda: model.judge(said, reading.type).why, model

@@ -69,7 +69,7 @@ class Keyboard:
     ask: Ask = read_line
 
     def turns(self, task: Task) -> Turns:
-        """What they type until they go on."""
+        """The moves that the person types until they go on."""
         return _Step(self, task).turns()
 
 
@@ -86,7 +86,7 @@ class _Step:
         self._reminded = False
 
     def turns(self) -> Turns:
-        """What they type until they go on."""
+        """The moves that the person types until they go on."""
         task = self._task
         told = f"\nStep {task.number}, {task.phase}: {instruction(task)}."
         if self._now is not None:
@@ -108,14 +108,14 @@ class _Step:
         )
 
     def _is_owing(self) -> bool:
-        """Whether they have yet to ask, and were not told so."""
+        """Whether the person has yet to ask, and was not told so."""
         owes, self._reminded = self._owes and not self._reminded, True
         return owes
 
     # --- what comes of a line --------------------------------------------------------
 
     def _respond(self, line: str) -> Generator[Move, Reply, str]:
-        """What they are told after a line: the robot's reply, or why there is none."""
+        """What the person is shown after a line: the robot's reply, or an error."""
         if line == HELP:
             return self._help()
         if line == ON:
@@ -168,7 +168,7 @@ class _Step:
     # --- what is kept of it ----------------------------------------------------------
 
     def _corrects(self, act: str) -> bool:
-        """Whether it is against what the robot has said; it may have asked, though."""
+        """Whether a move corrects the robot, which may have asked, though."""
         last = self._last
         return (
             act in _CORRECTING
@@ -178,7 +178,7 @@ class _Step:
         )
 
     def _question_asked(self, moves: tuple[str, ...]) -> Asked | None:
-        """The question that the step is for, if it is this one."""
+        """The question of this step, if this move asks it."""
         kind, now = kept_kind(self._task), self._now
         asks = kind in {QUESTIONS.get(it) for it in moves}
         if not self._owes or not asks or now is None:
@@ -192,7 +192,7 @@ class _Step:
         return Asked(kind, right, x, y, frozenset({right})) if right else None
 
     def _right(self, kind: str, now: Occasion, x: int) -> str:
-        """What they hold to be right; nothing where they do not say."""
+        """What the person holds to be right; nothing if they do not say."""
         words, thing = Words(self._who.language), now.world.thing(x)
         match kind:
             case "reference":

@@ -35,7 +35,7 @@ class _Garbled(ValueError):
 
 
 def read_line(text: str) -> str:
-    """The line that a person types, without blanks around it.
+    """Read the line that a person types, without blanks around it.
 
     Raises `Gone` where the input has ended, cannot be read, or the terminal was closed.
     """
@@ -54,7 +54,7 @@ def read_line(text: str) -> str:
 
 
 def wait_until_ready(text: str) -> None:
-    """Shows a text; at a terminal, it goes on when the person there is ready."""
+    """Show a text, and at a terminal wait until the person is ready."""
     if sys.stdin is not None and sys.stdin.isatty():
         with suppress(ImportError):
             import_module("readline")  # so that lines can be edited as they are typed
@@ -80,7 +80,7 @@ def _show(text: str) -> None:
 
 
 def _end_line(told: str = "") -> None:
-    """Begins a new line after what was typed, if there still is a terminal."""
+    """Begin a new line after what was typed, if there still is a terminal."""
     try:
         _show(f"\n{told}" if told else "")
     except (OSError, ValueError):
@@ -88,7 +88,7 @@ def _end_line(told: str = "") -> None:
 
 
 def _fit_to_terminal(text: str) -> str:
-    """A text as wide as the terminal, with further lines a little farther in."""
+    """Wrap a text to the width of the terminal, with hanging indents."""
     if not sys.stdout.isatty():
         return text
     columns = shutil.get_terminal_size().columns

@@ -50,7 +50,7 @@ def play(study: Study, run: Run) -> Played:
 
 @contextmanager
 def _seed_generators(run: Run) -> Iterator[None]:
-    """What learners and rules of one's own draw by chance follows from the run, too.
+    """Seed the global random generators by the run, for learners and rules of users.
 
     Many a classifier draws from the generators of Python or numpy that a process has.
     """
@@ -84,7 +84,7 @@ def _play(study: Study, run: Run) -> Played:
 
 
 class _Dialogue:
-    """A dialogue as it goes on."""
+    """A dialogue that is being played."""
 
     def __init__(self, study: Study, run: Run, robot: Robot) -> None:
         self._most, self._robot = study.turns, robot
@@ -129,7 +129,7 @@ class _Dialogue:
             self._record_answer(task, tutor, asked, self._last)
 
     def record(self) -> Played:
-        """The dialogue, as far as it went."""
+        """The dialogue so far, as a value."""
         known = [] if self._last is None else list(words(self._last.state))
         facts = {"words known": float(len(known)), "not understood": float(self._lost)}
         return Played(tuple(self._turns), tuple(self._answers), self._lessons(), facts)
@@ -142,7 +142,7 @@ class _Dialogue:
         return len(private.lessons) + int(sum(it.lessons for it in private.taught))
 
     def _make_move(self, task: Task, tutor: Tutor, move: Move) -> Reply:
-        """What the robot replies to a move, which is recorded."""
+        """Make a move of the tutor's, record it, and return the robot's reply."""
         length, corrects = 0, False
         match move:
             case Says():
@@ -209,7 +209,7 @@ class _Dialogue:
 
 
 def _next_move(moves: Turns, reply: Reply) -> Move | None:
-    """The next move of a tutor who was told the reply; None at the end."""
+    """The tutor's next move after a reply; None at the end."""
     try:
         return moves.send(reply)
     except StopIteration:
@@ -225,7 +225,7 @@ def _move_instead(moves: Turns, error: StudyError | SensorError) -> Move | None:
 
 
 def _is_answer(move: Move, reply: Reply, asked: Asked) -> bool:
-    """Whether it is the answer; what a script expects is whatever is said next.
+    """Whether a reply answers the question; scripts expect the next reply.
 
     Nothing is answered while things are laid, or pointed at: the tutor has the floor.
     """
@@ -245,7 +245,7 @@ def _answer_given(task: Task, asked: Asked, reply: Reply) -> str:
 
 
 def _thing_asked(task: Task, asked: Asked) -> str:
-    """What was asked about, by its name in the world."""
+    """The name of what was asked about."""
     if task.of is None or not asked.x:
         return ""
     thing = task.of.name(asked.x)
@@ -253,5 +253,5 @@ def _thing_asked(task: Task, asked: Asked) -> str:
 
 
 def _look_name(occasion: Occasion) -> str:
-    """What was shown, from which it can be shown again."""
+    """The name of what was shown, from which it can be shown again."""
     return occasion.world_seen.name if occasion.view is None else str(occasion.view)

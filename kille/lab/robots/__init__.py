@@ -30,7 +30,7 @@ class Robot(Protocol):
         ...
 
     def happen(self, command: str) -> Reply:
-        """Have something happen before one's eyes that a script says."""
+        """Carry out a command of a script: `look`, `point 2`, `restart` …"""
         ...
 
     def rest(self) -> Reply:
@@ -38,9 +38,9 @@ class Robot(Protocol):
         ...
 
     def name(self, number: int) -> str | None:
-        """What a thing of the world is to it in the latest look."""
+        """The robot's own name for a thing of the world in the latest look."""
         ...
 
     def close(self) -> None:
-        """Let go of all that it holds."""
+        """Release all resources."""
         ...

@@ -75,39 +75,39 @@ class Reply:
 
     @property
     def asks(self) -> bool:
-        """Whether it asks something of its own accord."""
+        """Whether the robot asks something of its own accord."""
         return not ASKING.isdisjoint(self.acts)
 
     @property
     def wants(self) -> str:
-        """The last move after which it wants to be told something, if there is one."""
+        """The last move after which the robot wants to be told something, or ""."""
         return next((it for it in reversed(self.acts) if it in WANTING), "")
 
     @property
     def is_lost(self) -> bool:
-        """Whether it says that it has not understood, which is no move."""
+        """Whether the robot says that it has not understood, which is not a move."""
         return bool(self.text) and not self.moves
 
     @property
     def is_open(self) -> bool:
-        """Whether it asks about what was said, so that it has not answered it yet."""
+        """Whether the robot asks back, so that it has not answered yet."""
         return bool(self.state.shared.qud)
 
     @property
     def way(self) -> str:
-        """How it has answered: `assert`, `think`, `admit` …; `none` if it has not."""
+        """How the robot has answered: `assert`, `think`, `admit` …, or `none`."""
         ways = (_way(act) for act in self.acts)
         return next((way for way in ways if way), "none")
 
     @property
     def pointed_thing(self) -> int | None:
-        """The thing of the world at which it points, if it does."""
+        """The thing of the world that the robot points at, if any."""
         points = (x for move in self.moves for x in move.sit.points)
         return next((self.number(x) for x in points), None)
 
     @property
     def things(self) -> tuple[int | None, ...]:
-        """What it speaks of in its last move: a target, and what that is beside."""
+        """The target and the landmark of the robot's last move."""
         content = self.moves[-1].sit.content if self.moves else None
         if not isinstance(content, RecordType):
             return ()
@@ -115,22 +115,22 @@ class Reply:
 
     @property
     def word(self) -> str:
-        """The first word in its last move."""
+        """The first word in the robot's last move."""
         signs = self.moves[-1].sit.signs if self.moves else ()
         return next((str(it.form) for it in signs), "")
 
     @property
     def focus(self) -> int | None:
-        """The thing that it attends to."""
+        """The thing that the robot attends to."""
         return next((self.number(x) for x in self.state.view.focus), None)
 
     @property
     def fronts(self) -> Mapping[int | None, str]:
-        """Which way it knows that things of the world face."""
+        """Which way things face, as far as the robot knows."""
         return {self.number(it.x): str(it.front) for it in self.state.shared.turned}
 
     def claimed_word(self, kind: str) -> str:
-        """The word of a kind that it claims to be true, the first of several."""
+        """The first word of a kind that the robot claims to be true."""
         for move in self.moves:
             content = move.sit.content
             if isinstance(content, RecordType) and _is_affirmation(content):
@@ -154,7 +154,7 @@ def _act(move: Judgement) -> str:
 
 
 def _is_affirmation(content: RecordType) -> bool:
-    """Whether a content claims something, and not that it is not so."""
+    """Whether a content is a claim without a negation."""
     found = [content[label] for label in CLAIMS if label in content]
     return bool(found) and not any(isinstance(it, Negation) for it in found)
 
@@ -172,7 +172,7 @@ def _things(content: RecordType) -> Iterator[str]:
 def degrees(
     s: Record, model: Model, kind: str, x: str, y: str = ""
 ) -> Mapping[str, float]:
-    """How probably each word of a kind that it knows is true of x, or of x beside y.
+    """The probability of each known word of a kind for x, or for x beside y.
 
     Adjectives are those for colours, of which a thing has one.
     """

@@ -18,7 +18,7 @@ from ttr.updates import Game, Run, Turn
 
 
 class SimulatedRobot:
-    """A robot that is its games alone: what it sees follows from the world's name."""
+    """A robot without a body: what it sees follows from the name of the world."""
 
     def __init__(
         self, game: Game, language: str = "en", types: DialogueTypes | None = None
@@ -28,15 +28,15 @@ class SimulatedRobot:
         self._now: Run = game.begin()
 
     def see(self, occasion: Occasion) -> Reply:
-        """A glance at what is shown."""
+        """Glance at what is shown."""
         return self._take(glance_event(occasion.world_seen, self._world))
 
     def wait(self, occasion: Occasion) -> Reply:
-        """A look on its own turn."""
+        """Look on its own turn."""
         return self._take(look_event(occasion.world_seen, self._world))
 
     def hear(self, text: str) -> Reply:
-        """A text; it says so if it does not understand it."""
+        """Hear a text; the reply says so if it is not understood."""
         assert self._game.hear is not None
         event = self._game.hear(text)
         if event is None:
@@ -45,7 +45,7 @@ class SimulatedRobot:
         return self._take(event)
 
     def happen(self, command: str) -> Reply:
-        """`look`, `point 2`, `place 2 3.5 4`, `remove 2` or `restart`."""
+        """Carry out `look`, `point 2`, `place 2 3.5 4`, `remove 2` or `restart`."""
         world = self._world
         if command == "restart":
             return self.rest()
@@ -54,7 +54,7 @@ class SimulatedRobot:
         return self._take(glance_event(change_world(world, command), world))
 
     def rest(self) -> Reply:
-        """Another day: see `kille.lab.worlds.schooling.game_next_day`."""
+        """Begin another day, see `kille.lab.worlds.schooling.game_next_day`."""
         state, model, _ = self._now
         ended = dataclasses.replace(self._game, start=state, model=model)
         self._now = game_next_day(ended).begin()
@@ -65,7 +65,7 @@ class SimulatedRobot:
         return thing(number) if number in self._world else None
 
     def close(self) -> None:
-        """Nothing is to be let go of."""
+        """There is nothing to release."""
 
     @property
     def _world(self) -> World:

@@ -18,35 +18,35 @@ class WholeRobot:
         self._occasion: Occasion | None = None
 
     def see(self, occasion: Occasion) -> Reply:
-        """Have it before one's eyes; it is looked at when something is said of it."""
+        """Turn to what is shown; it is looked at when something is said of it."""
         self._occasion = occasion
         self._theatre.turn_to(occasion)
         self._agent.gaze.attention = self._theatre.attention()
         return self._reply(None)
 
     def wait(self, occasion: Occasion) -> Reply:
-        """A look of one's own accord."""
+        """Look of its own accord."""
         self._agent.look()
         return self._reply(self._agent.exchanges[-1])
 
     def hear(self, text: str) -> Reply:
-        """A text, with a glance at what it is about."""
+        """Hear a text, and glance at what it is about."""
         self._agent.hear(text)
         return self._reply(self._agent.exchanges[-1])
 
     def happen(self, command: str) -> Reply:
-        """What `Agent.do` makes of a command."""
+        """Carry out a command by `Agent.do`."""
         before = len(self._agent.exchanges)
         self._agent.do(command)
         return self._reply(next(iter(self._agent.exchanges[before:]), None))
 
     def rest(self) -> Reply:
-        """Another day."""
+        """Begin another day."""
         self._agent.do("restart")
         return self._reply(None)
 
     def name(self, number: int) -> str | None:
-        """The thing in the latest look that a finger on this one would mean."""
+        """The thing in the latest look that is this one of the world."""
         view = self._agent.view
         if view is None or self._occasion is None:
             return None
@@ -54,7 +54,7 @@ class WholeRobot:
         return None if found is None else thing(found)
 
     def close(self) -> None:
-        """Let go of eyes and memory."""
+        """Close the sensor and the memory."""
         self._agent.close()
 
     def _number(self, x: str) -> int | None:

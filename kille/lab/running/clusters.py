@@ -68,7 +68,7 @@ def cluster_crew(scheduler: Scheduler, study: Study, play: Play) -> Iterator[Pla
 
 
 class _Cluster:
-    """Sends batches, and takes what becomes of them."""
+    """Sends batches of runs to a cluster, and receives their outcomes."""
 
     def __init__(self, client: Client, place: str, study: Study, play: Play) -> None:
         self.client, self.place = client, place
@@ -80,7 +80,7 @@ class _Cluster:
         self.count, self.glance = 1, 0.0
 
     def play_all(self, runs: Sequence[Run]) -> Generator[Outcome, None, None]:
-        """Plays all, in any order."""
+        """Play all runs, in any order."""
         left, suspects = deque(runs), list[Run]()
         try:
             yield from self._play_many(left, suspects)
@@ -125,7 +125,7 @@ class _Cluster:
         future.add_done_callback(self.over.put)
 
     def _next(self) -> Future:
-        """The next batch that is over; RunError where nobody is there any more."""
+        """The next batch that is over; RunError if no worker is left."""
         while True:
             with suppress(Empty):
                 future = self.over.get(timeout=GLANCE)
@@ -134,21 +134,21 @@ class _Cluster:
             self._check_there()
 
     def _check_there(self) -> None:
-        """RunError where there has been no worker for long."""
+        """RunError if there has been no worker for too long."""
         if self._count_workers():
             self.seen = time.monotonic()
         elif time.monotonic() - self.seen > PATIENCE:
             raise RunError(f"no worker is left at {self.place}: {_GO_ON}")
 
     def _workers(self) -> int:
-        """How many were there a moment ago, at least one: others may come and go."""
+        """The number of workers a moment ago, at least one."""
         if time.monotonic() > self.glance:
             self.count = max(1, self._count_workers())
             self.glance = time.monotonic() + GLANCE
         return self.count
 
     def _count_workers(self) -> int:
-        """How many are there now; RunError where the scheduler is gone."""
+        """The number of workers now; RunError if the scheduler is gone."""
         if self.client.status != "running":
             raise self._gone_error()
         try:
@@ -160,7 +160,7 @@ class _Cluster:
         return RunError(f"the scheduler at {self.place} is gone: {_GO_ON}")
 
     def _result(self, future: Future) -> list[Outcome] | None:
-        """What became of a batch; None where workers died with it."""
+        """The outcomes of a batch; None if workers died with it."""
         found: list[list[Outcome]] = []
         # "lost" is what was played by a worker that is gone, and is being played anew.
         while not found and future.status in ("pending", "finished", "lost"):
@@ -179,7 +179,7 @@ class _Cluster:
         raise RunError(" ".join(told.split())) from error
 
     def _gather(self, future: Future) -> list[list[Outcome]]:
-        """What a batch gave, if it did; TimeoutError where that takes long."""
+        """The results of a batch, if any; TimeoutError if that takes too long."""
 
         async def gathered() -> list[list[Outcome]]:
             found = self.client.gather([future], errors="skip", asynchronous=True)
@@ -207,7 +207,7 @@ _ONE_AT_A_TIME = threading.Lock()
 
 
 def play_batch(payload: bytes, runs: Sequence[Run]) -> list[Outcome]:
-    """Plays these runs in a worker, one after the other, whatever threads it has."""
+    """Play these runs in a worker one after the other, even if it has threads."""
     with _ONE_AT_A_TIME, one_thread():
         study, play = _load_study(payload)
         return [play_to_outcome(study, run, play) for run in runs]
@@ -215,13 +215,13 @@ def play_batch(payload: bytes, runs: Sequence[Run]) -> list[Outcome]:
 
 @lru_cache(1)
 def _load_study(payload: bytes) -> tuple[Study, Play]:
-    """The study and who plays it, taken out once in each process."""
+    """Unpickle the study and what plays it, once in each process."""
     found: tuple[Study, Play] = cloudpickle.loads(payload)
     return found
 
 
 def kille_here() -> str:
-    """The version of kille that a worker has."""
+    """The version of kille on a worker."""
     return version("kille")
 
 
@@ -229,14 +229,14 @@ def kille_here() -> str:
 
 
 class _Connecting(Client):  # type: ignore[misc]
-    """A client that is closed at once where it finds nobody.
+    """A client that is closed at once if it cannot connect.
 
     Dask would close it when it is collected as garbage, and could wait for itself then.
     What its loop was still waiting for when it was closed is nobody's error.
     """
 
     def start(self, **settings: Any) -> None:
-        """Connects to the scheduler."""
+        """Connect to the scheduler."""
         try:
             super().start(**settings)
         except BaseException:
@@ -267,7 +267,7 @@ def _connect(scheduler: Scheduler, seconds: float) -> Iterator[Client]:
 
 
 def _security(scheduler: Scheduler) -> Security:
-    """How Dask is to protect the connection; RunError where TLS lacks certificates."""
+    """How the connection is protected; RunError if TLS has no certificates."""
     files = {
         "tls_ca_file": scheduler.authority,
         "tls_client_cert": scheduler.certificate,
@@ -285,7 +285,7 @@ def _security(scheduler: Scheduler) -> Security:
 
 
 def _why_unreached(scheduler: Scheduler, error: BaseException) -> str:
-    """Why nobody is reached at an address."""
+    """Why the scheduler could not be reached."""
     cause: BaseException | None = error
     while cause and not isinstance(cause, SSLError):
         cause = cause.__cause__
@@ -333,7 +333,7 @@ _LOGGERS = (
 
 @contextmanager
 def silence_dask() -> Iterator[None]:
-    """What Dask logs is for those who mend it: one line of an error says enough."""
+    """Silence the loggers of Dask: one line of an error says enough."""
     loggers = [logging.getLogger(name) for name in _LOGGERS]
     before = [it.level for it in loggers]
     for it in loggers:

@@ -31,7 +31,7 @@ def play_runs(
     play: Play | None = None,
     by: Crew | None = None,
 ) -> Iterator[Iterator[Outcome]]:
-    """What becomes of these runs, as they end; who plays them is let go after it.
+    """Play runs, and yield their outcomes as they end; the crew is released after it.
 
     They are played `default_play` by this process, if nothing else is said.
     """
@@ -44,14 +44,14 @@ def play_runs(
 
 
 def default_play() -> Play:
-    """What plays a dialogue as its theory, tutor and scene have it."""
+    """The function that plays a dialogue, `kille.lab.playing.play`."""
     from kille.lab.playing import play
 
     return play
 
 
 def crew(workers: int | None = None, scheduler: Scheduler | None = None) -> Crew:
-    """Those who play: so many processes here, or a cluster.
+    """A crew of so many processes on this machine, or of a cluster.
 
     By default it is one process for each core; one is this process itself. RunError
     where a cluster is asked for, and Dask is missing or certificates cannot be used.
@@ -72,7 +72,7 @@ def crew(workers: int | None = None, scheduler: Scheduler | None = None) -> Crew
 
 
 def cores() -> int:
-    """How many processors this process may use."""
+    """The number of processors that this process may use."""
     return len(os.sched_getaffinity(0))
 
 

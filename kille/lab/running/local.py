@@ -39,7 +39,7 @@ _NONE_BEGIN = "no workers can be begun on this machine: try --workers 1"
 
 @contextmanager
 def local_crew(workers: int, study: Study, play: Play) -> Iterator[PlayAll]:
-    """So many processes of this machine, as `Crew` has it."""
+    """A crew of so many processes on this machine."""
     # What a script defines itself can only be sent by value.
     by_value = wrap_non_picklable_objects(play, keep_wrapper=False)
     with Workers(workers, pickle.dumps((study, by_value))) as begun:
@@ -48,7 +48,7 @@ def local_crew(workers: int, study: Study, play: Play) -> Iterator[PlayAll]:
 
 @dataclass
 class _Hand:
-    """What a worker has to play: it plays the first run, once it is ready."""
+    """The runs of a worker, which plays the first of them once it is ready."""
 
     runs: deque[Run] = field(default_factory=deque)
     is_ready: bool = False
@@ -82,7 +82,7 @@ class Workers:
         return self
 
     def __exit__(self, *error: object) -> None:
-        """Ends them all, whatever they do."""
+        """End all workers, whatever they do."""
         # The group has its name for as long as its first process is not waited for.
         with suppress(ProcessLookupError):
             os.killpg(self._process.pid, signal.SIGKILL)
@@ -92,7 +92,7 @@ class Workers:
             channel.close()
 
     def play_all(self, runs: Sequence[Run]) -> Generator[Outcome, None, None]:
-        """Plays all, in any order."""
+        """Play all runs, in any order."""
         suspects: list[Run] = []
         yield from self._play(runs, suspects)
         for run in suspects:
@@ -102,7 +102,7 @@ class Workers:
                 yield Broken(it, DEADLY, "", 0.0)
 
     def _play(self, runs: Sequence[Run], deadly: list[Run]) -> Iterator[Outcome]:
-        """Plays these runs but those with which a worker dies: they become `deadly`."""
+        """Play these runs; those with which a worker dies become `deadly`."""
         left = deque(runs)
         while count := len(left) + sum(len(it.runs) for it in self._hands.values()):
             for _ in range(min(self.count, count) - len(self._hands)):
@@ -113,7 +113,7 @@ class Workers:
                 yield from self._hear(channel, left, deadly)
 
     def _begin(self) -> None:
-        """Begins another worker, which has yet to load the study."""
+        """Start another worker, which has yet to load the study."""
         ours, theirs = Pipe()
         with theirs:
             try:
@@ -125,7 +125,7 @@ class Workers:
             ours.send_bytes(self._payload)
 
     def _deal(self, left: deque[Run]) -> None:
-        """Sends runs to all who can play one; the last are shared evenly."""
+        """Send runs to all workers that are free; the last are shared evenly."""
         for ahead in range(AHEAD if len(left) > self.count else 1):
             for channel, hand in self._hands.items():
                 if left and hand.is_ready and len(hand.runs) <= ahead:
@@ -136,7 +136,7 @@ class Workers:
     def _hear(
         self, channel: Connection, left: deque[Run], deadly: list[Run]
     ) -> Iterator[Outcome]:
-        """What a worker says, or what becomes of its runs if it died."""
+        """Receive an outcome from a worker, or bury it if it died."""
         try:
             said = channel.recv()
         except (EOFError, OSError):
@@ -152,7 +152,7 @@ class Workers:
             yield said
 
     def _bury(self, channel: Connection, left: deque[Run], deadly: list[Run]) -> None:
-        """Takes back the runs of a worker that died; the first may be why."""
+        """Take back the runs of a worker that died; the first may be why."""
         channel.close()
         hand = self._hands.pop(channel)
         if not hand.is_ready:

@@ -14,7 +14,7 @@ from kille.lab.study import Study
 
 
 class Difference(NamedTuple):
-    """The first that is not as it was: where, what it was, and what it is now."""
+    """The first difference between two dialogues: where, and both values."""
 
     where: str
     before: str
@@ -27,7 +27,7 @@ def replay(
     play: Play | None = None,
     by: Crew | None = None,
 ) -> Iterator[tuple[Outcome, Difference | None]]:
-    """Plays these dialogues of a study again, each with the first that differs."""
+    """Play these dialogues again; yield each with its first difference, or None."""
     known = {it.run: it for it in befores}
     with play_runs(study, tuple(known), play, by) as outcomes:
         for now in outcomes:
@@ -36,7 +36,7 @@ def replay(
 
 
 def difference(before: Outcome, now: Outcome) -> Difference | None:
-    """Where two dialogues part: at a turn, an answer, or in what was counted.
+    """The first difference of two dialogues: in a turn, an answer, or a count.
 
     How long they took does not matter, nor where in the program they broke.
     """
@@ -61,7 +61,7 @@ def _difference(before: Played, now: Played) -> Difference | None:
 
 
 def _first(what: str, before: Sequence[Any], now: Sequence[Any]) -> Difference | None:
-    """The first row of two that differs, and what of it."""
+    """The first difference between two lists of rows."""
     for number, (one, other) in enumerate(zip_longest(before, now), start=1):
         where = f"{what} {number}"
         if one is None or other is None:
@@ -83,7 +83,7 @@ def _first_part(
 
 
 def _is_same(one: Any, other: Any) -> bool:
-    """Equal; and what is no number is as good as another such."""
+    """Whether two values are equal; NaN equals NaN."""
     if isinstance(one, float) and isinstance(other, float):
         return one == other or (math.isnan(one) and math.isnan(other))
     if isinstance(one, Mapping) and isinstance(other, Mapping):

@@ -42,7 +42,7 @@ def run(
     by: Crew | None = None,
     told: Callable[[Progress], None] = lambda progress: None,
 ) -> Summary:
-    """Plays what is left of a study; every dialogue is in the log when it is over.
+    """Play what is left of a study; each dialogue is logged when it is over.
 
     Stopped at any moment, and run again, it goes on. `by` are those who play, by
     default this process alone; `told` hears of every dialogue that is over. StudyError
@@ -63,6 +63,6 @@ def run(
 
 
 def forget_broken(study: Study, folder: Path) -> int:
-    """Drops what is kept of broken runs, so that they are played again; how many."""
+    """Delete all broken runs, so that they are played again; how many."""
     with Log.open(study, folder) as log:
         return log.forget_broken()

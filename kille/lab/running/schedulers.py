@@ -33,7 +33,7 @@ class Scheduler:
 
     @property
     def is_encrypted(self) -> bool:
-        """Do both sides show a certificate, and does nobody else understand them?"""
+        """Whether the connection is encrypted, and both sides show a certificate."""
         return self.address.partition("://")[0] in ENCRYPTED
 
     @property
@@ -56,7 +56,7 @@ class Scheduler:
         )
 
     def check(self) -> None:
-        """RunError where the files cannot be used, or are not for this address."""
+        """RunError if the files cannot be used, or do not go with the address."""
         files = (self.authority, self.certificate, self.key)
         if not any(files):
             return
@@ -73,7 +73,7 @@ class Scheduler:
 
 
 def _check_files(authority: Path, certificate: Path, key: Path) -> None:
-    """RunError where these are no certificates, or the key is another's."""
+    """RunError if these are not certificates, or the key does not fit."""
     context = ssl.create_default_context()
     read, expected = f"{authority}", "certificates of an authority"
     try:
@@ -89,7 +89,7 @@ def _check_files(authority: Path, certificate: Path, key: Path) -> None:
 
 
 def _is_loopback(address: str) -> bool:
-    """Is it reached from this machine alone?
+    """Whether an address can be reached from this machine only.
 
     >>> [_is_loopback(it) for it in ("tcp://[::1]:8786", "localhost:8786", "10.0.0.1")]
     [True, True, False]

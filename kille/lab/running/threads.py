@@ -19,7 +19,7 @@ READ_WHEN_LOADED = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """What is loaded, and what will be loaded meanwhile, adds up in one thread."""
+    """Limit numerical libraries to one thread, also those that are loaded meanwhile."""
     before = {name: os.environ.get(name) for name in READ_WHEN_LOADED}
     os.environ.update(dict.fromkeys(READ_WHEN_LOADED, "1"))
     try:

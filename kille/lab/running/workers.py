@@ -30,7 +30,7 @@ READY = None
 
 
 def fork_workers(control: socket.socket, work: Callable[[Connection], None]) -> None:
-    """Forks a worker for each channel that arrives, until the control socket closes."""
+    """Fork a worker for each channel that arrives, until the control socket closes."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)  # these are for whoever sends the runs
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # then the system forgets the dead
@@ -42,7 +42,7 @@ def fork_workers(control: socket.socket, work: Callable[[Connection], None]) -> 
 
 
 def _next_channel(control: socket.socket) -> int | None:
-    """The file descriptor that arrives next; None when nobody is there any more."""
+    """The next file descriptor that arrives; None when the other side is gone."""
     try:
         _, channels, _, _ = socket.recv_fds(control, 1, 1)
     except ConnectionError:
@@ -53,7 +53,7 @@ def _next_channel(control: socket.socket) -> int | None:
 def _fork(
     control: socket.socket, channel: int, work: Callable[[Connection], None]
 ) -> None:
-    """Starts a process that does this work, and nothing after it."""
+    """Fork a process that does this work and then exits."""
     if os.fork():
         return
     try:
@@ -71,7 +71,7 @@ def _fork(
 
 
 def serve(channel: Connection) -> None:
-    """Plays each run that arrives on a channel, and sends back what became of it.
+    """Play each run that arrives on a channel, and send back its outcome.
 
     The first message is the study and what plays it, pickled.
     """
@@ -98,7 +98,7 @@ def _load_study(payload: bytes) -> tuple[Study, Play]:
 
 
 def _play_pickled(study: Study, run: Run, play: Play) -> bytes:
-    """What became of a run, pickled; one whose results cannot be sent is broken."""
+    """Play a run and pickle its outcome; one that cannot be pickled is broken."""
     found: Outcome = play_to_outcome(study, run, play)
     try:
         return pickle.dumps(found)
@@ -107,7 +107,7 @@ def _play_pickled(study: Study, run: Run, play: Play) -> bytes:
 
 
 def load() -> None:
-    """Loads what plays dialogues, so that workers share it."""
+    """Import what plays dialogues, so that all workers share it."""
     import kille.lab.playing  # noqa: F401
 
     gc.collect()

@@ -37,7 +37,7 @@ Methods: TypeAlias = Mapping[str, Make]
 
 
 class MethodFailedError(ExperimentError):
-    """A learner that failed, or gave what are no degrees; `name` is the method's."""
+    """A learner failed, or gave wrong degrees; `name` is that of the method."""
 
     def __init__(self, name: str, trouble: str) -> None:
         super().__init__(f"the method {name} failed: {trouble}")
@@ -108,7 +108,7 @@ class _Guarded:
             return self._degrees(self._learner.predict_proba_one(x))
 
     def __getattr__(self, attribute: str) -> Any:
-        """What else the learner can do is left to it."""
+        """Everything else is handed on to the learner."""
         found = getattr(self._learner, attribute)
         if not callable(found):
             return found

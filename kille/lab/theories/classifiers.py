@@ -58,7 +58,7 @@ NAMES: Mapping[str, Known] = {
 
 
 def words_of(theory: Theory) -> Mapping[str, MakeWord]:
-    """What makes the words of each kind in a simulated world, for one dialogue.
+    """What makes words of each kind in a simulated world, for one dialogue.
 
     `ExperimentError` for a learner that there is not, or that cannot be made.
     """
@@ -88,5 +88,5 @@ def learners_of(theory: Theory) -> Learners:
 
 
 def _maker(name: str, known: Mapping[str, Make], theory: Theory) -> Make:
-    """What makes a learner of a theory; what it raises later carries its name."""
+    """What makes a learner of a theory; its later errors carry its name."""
     return candidates([name], known, theory.consent)[name]

@@ -32,7 +32,7 @@ from ttr.updates import Game
 def game_of(
     theory: Theory, world: World, *, colours: Iterable[Record] | None = None
 ) -> Game:
-    """The game that the theory makes in front of a simulated world.
+    """The game of a theory in front of a simulated world.
 
     Its robot knows these `colours`, or else all; which words are of colours it knows
     anyhow. `TheoryError` where the theory cannot be used.
@@ -83,7 +83,7 @@ def agent_of(theory: Theory, sensor: str | Sensor, **settings: Any) -> Agent:
 
 
 def change_game(game: Game, theory: Theory) -> Game:
-    """The game with the theory's own strategy and rules."""
+    """Give a game the theory's own strategy and rules."""
     if not (theory.strategy or theory.rules or theory.without):
         return game
     start = replace(game.start, {"private.strategy": strategy_of(theory)})
@@ -91,7 +91,7 @@ def change_game(game: Game, theory: Theory) -> Game:
 
 
 def language_of(theory: Theory) -> str:
-    """The language as games are told it, with the folder of its own files if any."""
+    """The language of a theory as games name it, with the folder of its own files."""
     if theory.grammar is None:
         return theory.language
     return language_in(theory.grammar, theory.language)

@@ -29,7 +29,7 @@ class Heard(NamedTuple, Generic[X]):
 
 
 class Pupil(Generic[X]):
-    """A learner that follows what was heard; it is made by `make`.
+    """A learner that is kept up to date with lessons; `make` gives a new one.
 
     >>> class Last:
     ...     def learn_one(self, x, label, key): self.label = label

@@ -61,7 +61,7 @@ def algorithm_of(theory: Theory) -> Algorithm:
 
 
 def missing_rules(theory: Theory) -> Iterator[str]:
-    """What it is to be without, and is not there; `TheoryError` as `algorithm_of`."""
+    """Rules to be left out that are unknown; `TheoryError` as `algorithm_of`."""
     yield from _missing_rules(theory, _all_rules(theory))
 
 
@@ -73,14 +73,14 @@ def _missing_rules(theory: Theory, whole: Algorithm) -> Iterator[str]:
 
 
 def _all_rules(theory: Theory) -> Algorithm:
-    """The games with the rules of one's own, on the types of the theory."""
+    """The algorithm with the user's rules, on the types of the theory."""
     types = meanings_of(theory)
     usual = bind(TUTORING, types)
     return bind(_add_own_rules(usual, theory), types) if theory.rules else usual
 
 
 def without_rules(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
-    """The strategy as it is if rules of these names never apply; None if it never does.
+    """The algorithm in which these rules never apply; None if nothing is left.
 
     >>> from kille.dialogue.games.naming import NAMING
     >>> print(without_rules(NAMING, ["recognise", "hedge_name", "guess_name"]))
@@ -111,7 +111,7 @@ def without_rules(algorithm: Algorithm, names: Collection[str]) -> Algorithm | N
 
 
 def describe_rule(rule: Rule, packaged: Collection[Rule]) -> str:
-    """What a rule is, to be read: in the notation, or what it is for and its Python.
+    """A rule to be read: in the notation, or as its Python code.
 
     Of the `packaged` rules it is what they are for.
     """
@@ -127,7 +127,7 @@ def describe_rule(rule: Rule, packaged: Collection[Rule]) -> str:
 
 
 def packaged_rules(types: DialogueTypes) -> frozenset[Rule]:
-    """The rules of the games of tutoring as they are, on some types."""
+    """The packaged rules of tutoring, on these types."""
     return frozenset(rules_of(bind(TUTORING, types)))
 
 
@@ -135,7 +135,7 @@ def packaged_rules(types: DialogueTypes) -> frozenset[Rule]:
 
 
 def _add_own_rules(whole: Algorithm, theory: Theory) -> Algorithm:
-    """The games with a theory's own rules in place of those of their names."""
+    """Put the user's rules of a theory in the place of those of their names."""
     reference, consent = theory.rules, theory.consent
     if reference.endswith(".ttr"):
         return _put_in_place(
@@ -166,7 +166,7 @@ def _read_theory_rules(file: Path, consent: Consent | None) -> Mapping[str, Rule
 
 
 def _check_single(rules: Iterable[tuple[str, Rule]], of: str) -> Mapping[str, Rule]:
-    """Rules by the names that they stand for, of which no two may be the same."""
+    """Rules by the names that they replace; `TheoryError` if two replace one."""
     found: dict[str, Rule] = {}
     for name, one in rules:
         if name in found:
@@ -201,7 +201,7 @@ def _check_there(file: Path) -> None:
 def _apply_change(
     change: Callable[[Algorithm], Any], whole: Algorithm, of: str
 ) -> Algorithm:
-    """The games as a function changes them."""
+    """Let a user's function change the algorithm."""
     try:
         made = change(whole)
     except (Exception, SystemExit) as error:
@@ -214,7 +214,7 @@ def _apply_change(
 
 
 def _rules_by_name(found: object, reference: str) -> Mapping[str, Rule]:
-    """Rules by the names of those in whose place they stand."""
+    """Rules by the names of those that they replace."""
     match found:
         case Rule():
             return {found.name: found}

@@ -77,7 +77,7 @@ def pupil_input(kind: str, of: Observation) -> object:
 def with_known_colours(
     model: Model, makes: Mapping[str, MakeWord], signs: Sequence[Record]
 ) -> Model:
-    """The model in which these words are judged by those that are made for their kind.
+    """The model in which known words are of the class that is made for their kind.
 
     What a word is known to be true of without lessons stays known.
     """
@@ -93,7 +93,7 @@ def with_known_colours(
 def act_with(
     makes: Mapping[str, MakeWord],
 ) -> Callable[[TypeNode, Model], tuple[Record, Model]]:
-    """How moves are made by a robot whose new words are made so, by their kinds."""
+    """The `act` of a robot whose new words are made by these functions."""
 
     def acted(planned: TypeNode, model: Model) -> tuple[Record, Model]:
         move, after = act(planned, _with_new_words(planned, model, makes))
@@ -105,7 +105,7 @@ def act_with(
 def _with_new_words(
     planned: TypeNode, model: Model, makes: Mapping[str, MakeWord]
 ) -> Model:
-    """The model that has the words in which something is about to be learned."""
+    """The model with all words that a planned move teaches."""
     assert isinstance(planned, RecordType)
     for content in value_at(planned, "teaches"):
         sign = next(it for it in value_at(planned, "signs") if claims(content, it))
@@ -115,7 +115,7 @@ def _with_new_words(
 
 
 def _share_lessons(model: Model) -> Model:
-    """The model in which every guest has heard the lessons in all words of its kind."""
+    """The model in which guests have heard the lessons of all words of their kind."""
     guests = [it for it in learned_words(model) if isinstance(it, GuestWord)]
     for kind in dict.fromkeys(it.sign.kind for it in guests):
         own = [it for it in guests if it.sign.kind == kind]
