@@ -64,7 +64,7 @@ class Answer(NamedTuple):
 
     @property
     def is_right(self) -> bool:
-        """Whether it said what the tutor holds to be so."""
+        """Whether the robot said what the tutor holds to be so."""
         return self.said == self.right
 
     @property

@@ -22,7 +22,7 @@ class StudyError(Exception):
 
 
 class TheoryError(Exception):
-    """Something of a theory that cannot be used: why, and where if that is known."""
+    """A part of a theory cannot be used: why, and where if that is known."""
 
     def __init__(self, message: str, at: str = "") -> None:
         super().__init__(message, at)

@@ -50,7 +50,7 @@ _MOST = 12
 
 @dataclass(frozen=True)
 class Setting:
-    """A setting: of which types its values are, and what it is where it is not set.
+    """A setting: the types of its values, and its default.
 
     A text is one `among` some, if any are named, and a number from `least` to `most`,
     in a `unit` if it has one. With `several` it is a list of such values, in which none
@@ -76,7 +76,7 @@ class Setting:
     about: str = ""
 
     def problem_with(self, value: object) -> str:
-        """Why a value is none for it, as a sentence without an end; else nothing."""
+        """Why a value does not fit, without a full stop; empty if it fits."""
         if self.several:
             return self._problem_with_list(value)
         is_blank = self.needed and isinstance(value, str) and not value.strip()
@@ -177,7 +177,7 @@ def setting_problems(
 
 
 def nearest_name(name: str, known: Collection[str], told: str) -> str:
-    """The known name that is most like this one, told so; nothing if none is.
+    """Format the known name that is most like this one; empty if none is like it.
 
     >>> nearest_name("NUONS", ["nouns", "relations"], "did you mean {}?")
     'did you mean nouns?'
@@ -188,7 +188,7 @@ def nearest_name(name: str, known: Collection[str], told: str) -> str:
 
 
 def suggest_name(name: str, known: Collection[str]) -> str:
-    """A way out for a name that nothing has: the nearest known one, or all of them."""
+    """A hint for an unknown name: the nearest known one, or all of them."""
     if found := nearest_name(name, known, "did you mean {}?"):
         return found
     listed = ", ".join([*known][:_MOST]) + ", …" * (len(known) > _MOST)
@@ -196,7 +196,7 @@ def suggest_name(name: str, known: Collection[str]) -> str:
 
 
 def why_no_file(path: Path) -> str:
-    """Why this is no file; nothing if it is one."""
+    """Why a path is not a file; empty if it is one."""
     if os.path.isfile(path):
         return ""
     if os.path.isdir(path):
@@ -205,7 +205,7 @@ def why_no_file(path: Path) -> str:
 
 
 def why_no_folder(path: Path) -> str:
-    """Why this is no folder; nothing if it is one."""
+    """Why a path is not a folder; empty if it is one."""
     if os.path.isdir(path):
         return ""
     if os.path.exists(path):
@@ -214,7 +214,7 @@ def why_no_folder(path: Path) -> str:
 
 
 def _no_such_path(kind: str, path: Path, others: Sequence[Path]) -> str:
-    """That there is no such path, with the nearest of the others that are there."""
+    """The message that there is no such path, with the nearest that exists."""
     names = [it.name for it in others if it.suffix == path.suffix]
     hint = f": {suggest_name(path.name, names)}" if names else ""
     return f"there is no {kind} {path}{hint}"
@@ -228,7 +228,7 @@ def _siblings(path: Path) -> Sequence[Path]:
 
 
 def show_value(value: object) -> str:
-    """A value as it is told: in short, and as it would be written.
+    """A value in short, as it would be written in TOML.
 
     >>> show_value(True), show_value("cup"), show_value([1, 2])
     ('true', '"cup"', 'a list')

@@ -102,11 +102,11 @@ class Run:
 
     @property
     def pair(self) -> tuple[str, str, int]:
-        """What it has in common with the runs of other theories."""
+        """What a run has in common with those of other theories."""
         return self.tutor, self.scene, self.seed
 
     def chance(self, of: str) -> Random:
-        """The chance by which something goes in it: the same for all theories."""
+        """The random generator for something in it, the same for all theories."""
         return Random(f"{of} {self.tutor} {self.scene} {self.seed}")
 
 
@@ -142,7 +142,7 @@ class Study:
         return self.folder / os.path.expanduser(name)
 
     def runs(self) -> Iterator[Run]:
-        """All dialogues; those that are to be compared with each other in a row."""
+        """All dialogues; those that are compared with each other stand in a row."""
         for seed, scene, tutor, theory in product(
             self.seeds, self.scenes, self.tutors, self.theories
         ):

@@ -39,7 +39,7 @@ class Captured(Scene):
 
 @lru_cache(8)
 def _open_gallery(folder: Path) -> Gallery:
-    """The pictures in a folder, which are tried once whether they open."""
+    """The pictures in a folder, which are opened once to try them."""
     return open_gallery(folder, folder.name)
 
 

@@ -28,7 +28,7 @@ SPOTS = list(product(range(SIDE), range(SIDE)))
 
 @dataclass(frozen=True)
 class Drawn(Scene):
-    """A table on which some of the things that there are are laid each time.
+    """A table on which some of the things are laid each time.
 
     The things of each kind that are `taught` come first.
     """

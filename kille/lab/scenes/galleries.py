@@ -51,7 +51,7 @@ class Gallery:
         return f"Left out, since they do not open: {', '.join(self.unread)}."
 
     def percept(self, path: Path) -> Percept:
-        """What is seen of a picture in one scan: the one thing that it shows."""
+        """The one thing that a picture shows, as it is seen in one scan."""
         if path not in self.seen:
             self.seen[path] = look_at_picture(path).percepts[0]
         return self.seen[path]
@@ -80,7 +80,7 @@ def is_gallery(folder: Path) -> bool:
 
 
 def open_gallery(folder: Path, name: str) -> Gallery:
-    """The gallery in this folder; ExperimentError where there is nothing to tell apart.
+    """Open a gallery; ExperimentError if it has fewer than two categories.
 
     The name is what it is called where it is told of.
     """

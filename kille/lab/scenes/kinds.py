@@ -34,7 +34,7 @@ MOST = 100
 
 
 def _metres(default: float, about: str) -> Setting:
-    """A length on a table that is not a metre wide; who means centimetres is told."""
+    """A length in metres; centimetres would be too large for the table."""
     return Setting(float, default, most=1.0, unit="metres", about=about)
 
 
@@ -122,7 +122,7 @@ def open_scene(study: Study, run: Run) -> Scene:
 
 
 def _opener(kind: str) -> Callable[..., Scene]:
-    """What makes scenes of a kind. Eyes are imported by those who need them."""
+    """What opens scenes of a kind; perception is imported only if it is needed."""
     match kind:
         case "drawn":
             from kille.lab.scenes.drawn import draw_scene
@@ -166,7 +166,7 @@ def faults(named: Named, study: Study) -> Iterator[Problem]:
 
 
 def _setting_problems(named: Named) -> Iterator[Problem]:
-    """What is wrong with what is set of a scene."""
+    """What is wrong with the settings of a scene."""
     if named.kind == "rendered":
         yield from _rendering_problems(named)
     set_ = fill_settings(named.settings, SETTINGS[named.kind])
@@ -201,7 +201,7 @@ def _empty_phases(scene: Scene, named: Named, study: Study) -> Iterator[Problem]
 
 
 def _how_to_keep(named: Named) -> str:
-    """What has something kept for later."""
+    """The hint by which something is kept for later."""
     set_ = fill_settings(named.settings, SETTINGS[named.kind])
     if named.kind == "captures":
         return "name the scenes that are, new = […]"
@@ -211,7 +211,7 @@ def _how_to_keep(named: Named) -> str:
 
 
 def _rendering_problems(named: Named) -> Iterator[Problem]:
-    """What cannot be rendered, of the things that a scene names, and how."""
+    """The things and faults of a scene that cannot be rendered."""
     from kille.sensors.synthetic import open_synthetic
     from kille.sensors.synthetic.catalogue import NAMES
 

@@ -17,7 +17,7 @@ from kille.sensors.captures import Shot, description_of, is_sequence, read_seque
 
 @dataclass(frozen=True, eq=False)
 class Scenes:
-    """Labelled scenes by name; what is seen in one is worked out once and kept."""
+    """Labelled scenes by name; what is seen in one is computed once."""
 
     name: str
     shots: Mapping[str, tuple[Shot, ...]]
@@ -77,7 +77,7 @@ def _is_labelled(folder: Path) -> bool:
 
 
 def splits(scenes: Scenes, teach: Sequence[str], ask: Sequence[str]) -> list[Split]:
-    """The splits that are asked for; by default each scene is asked, the others taught.
+    """The requested splits; by default each scene is asked, and the others taught.
 
     ExperimentError for a scene that is not there, and where no thing of an asked scene
     is taught in any other.
@@ -101,6 +101,6 @@ def splits(scenes: Scenes, teach: Sequence[str], ask: Sequence[str]) -> list[Spl
 
 
 def taught_things(scenes: Scenes, split: Split) -> set[str]:
-    """What is taught, of the things that are asked for."""
+    """The things that are both taught and asked for."""
     taught = {thing for scene in split.teach for thing in scenes.things(scene)}
     return taught & scenes.things(split.ask)

@@ -30,7 +30,7 @@ class Astray:
     def world_seen(
         self, world: World, numbers: Sequence[int], chance: Random
     ) -> World | None:
-        """The world as it is seen; None where that is as it is."""
+        """The world as it is seen; None if it is seen as it is."""
         if not (self.off or self.share or self.shift):
             return None
         shift = self.shift / STEP
@@ -50,7 +50,7 @@ TABLE = 9.0
 
 
 def round_place(right: float, away: float) -> Place:
-    """A place by the tenth of a millimetre: as a name says it."""
+    """Round a place to a tenth of a millimetre, as the names of worlds have it."""
     return round(right, 3), round(away, 3)
 
 

@@ -62,7 +62,7 @@ class Rendered(Scene):
     def _target_occasion(
         self, ring: float, point: int, chance: Random
     ) -> Occasion | None:
-        """The target at a place, give or take a centimetre; None where it cannot be."""
+        """The target near a place; None if it cannot stand there."""
         target, landmark = self.pair
         for _ in range(_TRIES):
             bearing = 2 * math.pi * point / _POINTS

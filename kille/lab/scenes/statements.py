@@ -28,7 +28,7 @@ _FLAT = 0.05  # metres: what is nearer than that has no direction on the table
 _TRUE = 0.5
 
 _LEVEL = ("left", "right", "away", "towards", "near", "far")
-"""What words are about that say something of places on a table."""
+"""The topics of words that say something of places on a table."""
 
 _OTHERWISE = ("between", "touching", "in", "inside", "against")
 """Words for what is near that say more than that."""
@@ -99,7 +99,7 @@ def _true_statements(folder: Path) -> Mapping[str, tuple[Place, ...]]:
 
 
 def _level_distance(x: Configuration) -> float:
-    """How far the target is from the landmark on the level, in metres."""
+    """The horizontal distance of the target from the landmark, in metres."""
     return math.hypot(x.offset[0], x.offset[1])
 
 

@@ -81,7 +81,7 @@ class Theatre:
 
     @property
     def name(self) -> str:
-        """What is shown in it."""
+        """The name of what is shown."""
         return self._name
 
     def turn_to(self, occasion: Occasion) -> None:
@@ -89,11 +89,11 @@ class Theatre:
         self._view = occasion.view
 
     def frame(self) -> Frame:
-        """The frame that is to be seen."""
+        """The frame that is shown."""
         return _look_at(self._view).frame
 
     def look(self, scans: int, pointed: Any) -> Look:
-        """The look at it, in which what is pointed at comes first."""
+        """The look at what is shown; what is pointed at comes first."""
         seen = _look_at(self._view)
         if not isinstance(pointed, tuple) or not isinstance(pointed[0], Frame):
             return seen
@@ -103,7 +103,7 @@ class Theatre:
         return replace(seen, percepts=(*alike[:1], *rest))
 
     def attention(self) -> Attention:
-        """That of who has seen nothing of it yet, and follows the tutor's finger."""
+        """The attention of a robot that has seen nothing yet and follows the finger."""
         seen = _look_at(self._view)
         if not seen.percepts:
             return Attention()
@@ -111,7 +111,7 @@ class Theatre:
         return Attention(pointed)
 
     def number_in_view(self, occasion: Occasion, number: int, view: View) -> int | None:
-        """The number that a thing of the world has in a view of the robot's."""
+        """The number that a thing of the world has in the robot's view."""
         name = occasion.world.thing(number).kind
         outline = view.look.frame.outlines.get(name)
         if outline is None:
@@ -120,7 +120,7 @@ class Theatre:
         return int(np.argmax(shared)) + 1 if any(shared) else None
 
     def close(self) -> None:
-        """Nothing is to be let go of."""
+        """There is nothing to release."""
 
 
 def _look_at(view: object) -> Look:
@@ -155,7 +155,7 @@ def _shots(folder: Path) -> tuple[Shot, ...]:
 
 
 def lay_table(source: str, stands: Sequence[Stand]) -> Synthetic:
-    """A table on which things stand so. SensorError where they cannot."""
+    """Lay a table on which things stand so. SensorError if they cannot."""
     stage = open_synthetic(source)
     for name, *spot in stands:
         stage.place(name, At(*spot))

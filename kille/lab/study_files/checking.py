@@ -46,7 +46,7 @@ def check(study: Study) -> tuple[str, ...]:
 
 
 def _study_problems(study: Study) -> Iterator[Problem]:
-    """What a study must not use; or else what is wrong with its parts."""
+    """What a study may not use, or else what is wrong with its parts."""
     refused = [*refused_names(study)]
     yield from refused or _part_problems(study)
 
@@ -106,7 +106,7 @@ PLAIN: Mapping[str, Any] = {
 
 
 def valid_part(data: Mapping[str, Any], wrong: Collection[Key]) -> Mapping[str, Any]:
-    """A study without what is written wrongly, so that the rest of it can be tried."""
+    """The part of a study that is written correctly, so that it can be tried."""
     left = {
         key: _valid_table(data, key, wrong) for key in ("theories", "tutors", "scenes")
     }
@@ -138,5 +138,5 @@ def _valid_table(
 
 
 def _is_wrong(key: Key, wrong: Collection[Key]) -> bool:
-    """Whether something is wrong with what has this key, or in it."""
+    """Whether the value of this key, or something in it, is wrong."""
     return any(it[: len(key)] == key for it in wrong)

@@ -23,13 +23,13 @@ def python_in(study: Study) -> tuple[str, ...]:
 
 
 def check_allowed(study: Study) -> None:
-    """Raises `StudyError`, a line for each name of what a study must not use."""
+    """Raise `StudyError` with a line for each thing that a study may not use."""
     if found := [*refused_names(study)]:
         raise StudyError(format_problems(found, study.source, study.file))
 
 
 def refused_names(study: Study) -> Iterator[Problem]:
-    """What a study must not use; nothing of one that was made in Python."""
+    """What a study may not use; nothing if it was made in Python."""
     consent = study.consent
     if consent is None:
         return
@@ -51,7 +51,7 @@ def refused_names(study: Study) -> Iterator[Problem]:
 
 
 def _python_named(study: Study) -> Iterator[tuple[Key, str]]:
-    """The Python that a study names, and where it does."""
+    """The Python that a study names, each with its key."""
     for name, theory in study.theories.items():
         if (module := _module_named(theory.rules)).endswith(".py"):
             yield ("theories", name, "rules"), module
@@ -64,12 +64,12 @@ def _python_named(study: Study) -> Iterator[tuple[Key, str]]:
 
 
 def _module_named(reference: str) -> str:
-    """The file or module in FILE.py:NAME or MODULE:NAME; nothing in another name."""
+    """The file or module in FILE.py:NAME or MODULE:NAME; empty for other names."""
     return os.path.expanduser(reference.rpartition(":")[0])
 
 
 def _files_named(theory: Theory) -> Iterator[tuple[Key, str]]:
-    """The files of a theory that are read as something, and where they are named."""
+    """The files that a theory names, each with its key."""
     if theory.rules.endswith(".ttr"):
         yield ("rules",), theory.rules
     if isinstance(theory.meanings, str) and theory.meanings:
@@ -80,7 +80,7 @@ def _files_named(theory: Theory) -> Iterator[tuple[Key, str]]:
 
 
 def _expected_ending(path: str) -> str:
-    """What a file has to be called: as what comes with the package, or a theory."""
+    """The ending that a file must have: that of a packaged file, or `.ttr`."""
     ending = Path(path).suffix
     return ending if ending in {Path(it).suffix for it in FILES} else ".ttr"
 

@@ -49,7 +49,7 @@ def parse(text: str, path: Path, consent: Consent = OWN_FOLDER) -> Study:
 
 
 def read_source(path: Path) -> str:
-    """The text of a file; `StudyError` where there is none."""
+    """Read the text of a file; `StudyError` if there is none."""
     try:
         return read_text(path, SETTINGS)
     except FileNotFoundError as error:
@@ -59,7 +59,7 @@ def read_source(path: Path) -> str:
 
 
 def parse_data(text: str, path: Path) -> Mapping[str, Any]:
-    """What is in a text; `StudyError` where it is no TOML."""
+    """Parse a text; `StudyError` if it is not TOML."""
     try:
         return parse_toml(text)
     except ValueError as error:
@@ -70,7 +70,7 @@ def parse_data(text: str, path: Path) -> Mapping[str, Any]:
 def study_of(
     data: Mapping[str, Any], text: str, path: Path, consent: Consent = OWN_FOLDER
 ) -> Study:
-    """The study of data without faults."""
+    """Make a study of data that has no problems."""
     folder = path.resolve().parent
     allowed = consent.with_folders(folder, PACKAGED)
     seeds = data["seeds"]
@@ -115,7 +115,7 @@ def _read_theory(
 
 
 def _resolve_name(reference: str, folder: Path) -> str:
-    """What a name in a file of one's own is named from everywhere."""
+    """The full path of a name in the user's own file; other names as they are."""
     return (
         str(_resolve_path(reference, folder)) if _OWN.search(reference) else reference
     )
@@ -131,7 +131,7 @@ def _read_named(name: str, given: Mapping[str, Any]) -> Named:
 
 
 def _read_phases(given: list[Mapping[str, Any]]) -> Iterator[Phase]:
-    """The phases; each has a name of its own, by which its answers are known."""
+    """The phases, each with a name of its own."""
     taken: set[str] = set()
     for one in given:
         wanted = one.get("name") or one["do"]
@@ -158,7 +158,7 @@ _SLIPS = (
 
 
 def why_not_toml(text: str, error: Exception) -> tuple[int, str]:
-    """On which line of a text, and why, it is no TOML.
+    """The line at which a text is not TOML, and why.
 
     Python 3.11 has the place of a mistake only in its message.
     """
@@ -171,7 +171,7 @@ def why_not_toml(text: str, error: Exception) -> tuple[int, str]:
 
 
 def _plain_reason(what: str, line: str, text: str) -> str:
-    """What the reader says, in the words of who writes, and a way out."""
+    """The parser's message in plain words, with a hint."""
     if what == "Cannot overwrite a value" and "=" in line:
         return f"{line.partition('=')[0].strip()} is there twice"
     header = re.match(r"\s*\[+\s*([^\]]+?)\s*\]", line)
@@ -184,7 +184,7 @@ def _plain_reason(what: str, line: str, text: str) -> str:
 
 
 def _twice(table: str, text: str) -> str:
-    """That a table is there twice, or once as one of several and once alone."""
+    """The message for a table that is declared twice."""
     several = f"[[{table}]]"
     if several in text:
         return f"[{table}] is there beside {several}: write {several} each time"

@@ -86,7 +86,7 @@ def strategy_file_problems(theory: Theory) -> Iterator[Problem]:
 
 
 def _other_language(theory: Theory) -> str:
-    """That the folder has files of another language, if it has."""
+    """A hint that the folder has files of another language; empty if not."""
     assert theory.grammar is not None
     for language in LANGUAGES:
         if any((theory.grammar / it.format(language)).is_file() for it in FILES):
@@ -163,7 +163,7 @@ _FILED = {"says": "says", "tells": "tutor"}
 
 
 def _slot_problems(wordings: list[Any], known: list[str]) -> Iterator[str]:
-    """What is wrong with the wordings of an act, which may be anything in TOML."""
+    """What is wrong with the wordings of a move, whatever TOML they are."""
     odd = [it for it in wordings if not isinstance(it, str)]
     if odd:
         yield f"a wording is a text or a list of texts, found {_kind_of(odd[0])}"
@@ -179,7 +179,7 @@ def _slot_problems(wordings: list[Any], known: list[str]) -> Iterator[str]:
 
 
 def _kind_of(value: object) -> str:
-    """What a value of TOML is, in words."""
+    """The kind of a TOML value, in words."""
     match value:
         case dict():
             return "a table"

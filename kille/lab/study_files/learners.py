@@ -20,7 +20,7 @@ from kille.scene import Configuration, Percept
 
 
 def learner_problems(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
-    """What is wrong with what judges the words, whether `simulated` or `whole`."""
+    """What is wrong with a theory's learners, for `simulated` or `whole` robots."""
     for kind in theory.learners:
         for seen in sorted(eyes):
             yield from _learner_problems(kind, theory, seen)
@@ -55,7 +55,7 @@ def _learner_problems(kind: str, theory: Theory, seen: str) -> Iterator[Problem]
 
 
 def _try_noun(objects: ObjectMemory) -> None:
-    """A lesson and a question, as the whole robot gives them to one's own learner."""
+    """Give a user's learner a lesson and a question, as the whole robot does."""
     x = _percept()
     objects.learn_one(x, "cup")
     objects.evidence(x)
@@ -77,7 +77,7 @@ def _percept() -> Percept:
 
 
 def _suggestion(name: str, known: Collection[str]) -> str:
-    """What somebody may have meant who wrote this for a learner."""
+    """What was probably meant by the name of a learner."""
     if name.endswith(".py"):
         return f"write what it is called in the file, {Path(name).name}:NAME"
     return suggest_name(name, known)

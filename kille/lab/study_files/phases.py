@@ -17,7 +17,7 @@ TEACHING = ("teach", "practise", "talk")
 
 
 def is_plain(study: Study) -> bool:
-    """Whether all tutors do what the phases say, and nothing else."""
+    """Whether all tutors do exactly what the phases say."""
     plain = (*SPEAKING, "several")
     return all(tutor.kind in plain for tutor in study.tutors.values())
 
@@ -59,7 +59,7 @@ def unreached_phases(study: Study, opened: Mapping[str, Scene]) -> Iterator[Prob
 
 
 def turns_before(study: Study, scene: Scene) -> list[int]:
-    """How many turns there are at least before each phase, and in the end.
+    """The least number of turns before each phase, and in the end.
 
     0 where that is not known, as of tutors who may pass things over.
     """
@@ -73,7 +73,7 @@ def turns_before(study: Study, scene: Scene) -> list[int]:
 
 
 def _least_turns(phase: Phase) -> int:
-    """How many turns a task takes at least: something is shown, and something said."""
+    """The least number of turns of a task: something is shown, and something said."""
     if phase.do in CHANGING:
         return 0
     return 1 if phase.do in (*RESTING, "forget", "align") else 2

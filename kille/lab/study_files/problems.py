@@ -35,7 +35,7 @@ def format_problems(found: Iterable[Problem], text: str, path: Path) -> tuple[st
 
 
 def _on_one_line(text: str) -> str:
-    """The text, if long without its middle: what is wrong is often told at its end."""
+    """The text on one line, without its middle if it is long."""
     plain = " ".join(text.split())
     if len(plain) <= _FIRST + _LAST:
         return plain
@@ -70,7 +70,7 @@ def lines_of(text: str) -> Mapping[Key, int]:
 
 
 def line_of(lines: Mapping[Key, int], key: Key) -> int:
-    """The line of a key, or of the nearest that it is in; 1 where none is known.
+    """The line of a key, or of the nearest table around it; 1 if none is known.
 
     >>> line_of({("tutors", "Ann"): 4}, ("tutors", "Ann", "kind"))
     4
@@ -81,7 +81,7 @@ def line_of(lines: Mapping[Key, int], key: Key) -> int:
 
 
 def _statements(text: str) -> Iterator[tuple[int, str]]:
-    """The statements, each with its first line; a value may go on over several.
+    """The statements, each with its first line; a value may span several lines.
 
     Whether it ends is tried at each of its lines; of a text that takes too long so,
     only the first statements are given.
@@ -116,7 +116,7 @@ def _keys_in(table: Mapping[str, Any]) -> Iterator[Key]:
 
 
 def _header_names(table: Any) -> tuple[str, ...]:
-    """The names in a header, which declares one table within another."""
+    """The names in a header, outermost first."""
     names: list[str] = []
     while table := table[0] if isinstance(table, list) else table:
         [(name, table)] = table.items()

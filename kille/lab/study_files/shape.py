@@ -101,7 +101,7 @@ def shape_problems(data: Mapping[str, Any]) -> Iterator[Problem]:
 
 
 def _is_count(data: Mapping[str, Any]) -> bool:
-    """Whether it says how many seeds there are, and not which."""
+    """Whether the number of seeds is given, and not a list."""
     seeds = data.get("seeds")
     return isinstance(seeds, int) and not isinstance(seeds, bool)
 
@@ -116,7 +116,7 @@ def _count_problems(seeds: int) -> Iterator[Problem]:
 
 
 def _contrast_problems(data: Mapping[str, Any]) -> Iterator[str]:
-    """What is wrong with the theories that are to be compared, two by two."""
+    """What is wrong with the contrasts of theories."""
     theories, contrasts = data.get("theories"), data.get("contrasts")
     known = [*theories] if isinstance(theories, dict) else []
     lists = contrasts if isinstance(contrasts, list) else []
@@ -187,7 +187,7 @@ def _phase_problems(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
 
 
 def _check_kind(key_of_kind: str, what: str, known: Mapping[str, Settings]) -> Check:
-    """What is wrong with something whose kind says what may be set of it."""
+    """A check of something whose kind says which settings it has."""
 
     def check(name: str, given: Mapping[str, Any]) -> Iterator[Problem]:
         kind = given.get(key_of_kind)

@@ -103,7 +103,7 @@ def _meaning_problems(theory: Theory, eyes: Collection[str]) -> Iterator[Problem
 
 
 def _inline_problems(types: Mapping[str, str], error: TTRError) -> Iterator[Problem]:
-    """Mistakes in types that stand in the study, each at the type where it is."""
+    """Mistakes in types that are written in the study, each with its key."""
     for one in error.errors if isinstance(error, MistakesError) else (error,):
         line = one.span.text if one.span else one.message
         hint = f" ({one.hint})" if one.hint else ""
@@ -111,7 +111,7 @@ def _inline_problems(types: Mapping[str, str], error: TTRError) -> Iterator[Prob
 
 
 def _key_of(types: Mapping[str, str], told: str) -> Key:
-    """The type of which something is told, as a key; all of them if it is not named."""
+    """The key of the type that a message names; that of all types if it names none."""
     named = (it for it in re.findall(r"\w+", told) if it in types)
     return ("meanings", *list(named)[:1])
 
@@ -156,7 +156,7 @@ def _problems_of_error(key: Key, error: TTRError) -> Iterator[Problem]:
 
 
 def _failed_claims(key: Key, file: Path, theory: Theory) -> Iterator[Problem]:
-    """What a theory file claims of itself and does not hold."""
+    """The claims of a theory file that do not hold."""
     consent = theory.consent or OWN_FOLDER
     report = check(load(file, allow=consent.folders))
     for failure in report.failures:
@@ -171,7 +171,7 @@ def _is_error(fault: Fault) -> bool:
 
 
 def _is_moot(fault: Fault, packaged: Collection[Rule]) -> bool:
-    """Whether it is of a rule of the package's that the theory has no use for."""
+    """Whether a fault is of a packaged rule that the theory has no use for."""
     return fault.sort in NEVER and fault.rule in packaged
 
 
@@ -207,7 +207,7 @@ _SAID = {
 
 
 def _trial_problems(theory: Theory) -> Iterator[Problem]:
-    """Why the theory fails at a few sentences, whatever code of its own raises."""
+    """Why a theory fails at a few sentences, whatever its own code raises."""
     world = World(_THINGS)
     text = ""
     try:
@@ -232,7 +232,7 @@ def _trial_problems(theory: Theory) -> Iterator[Problem]:
 
 
 def _describe_cause(error: BaseException, theory: Theory) -> str:
-    """What an error says; of what it is, too, and where, in rules of one's own."""
+    """The message of an error; in the user's rules with its class and line."""
     file = theory.rules.rpartition(":")[0]
     line = failing_line(file, error)
     if line:
@@ -241,7 +241,7 @@ def _describe_cause(error: BaseException, theory: Theory) -> str:
 
 
 def _first_cause(error: BaseException) -> BaseException:
-    """What failed first, and made the others fail; a learner's failure names it."""
+    """The error that caused all others, up to a learner's, which names it."""
     while error.__cause__ is not None and not isinstance(error, ExperimentError):
         error = error.__cause__
     return error

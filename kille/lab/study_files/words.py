@@ -121,7 +121,7 @@ def _unused_words_of(
 
 
 def _never_taught(phase: Phase, study: Study, names: NamesInScenes) -> Iterator[str]:
-    """What is to be forgotten, and is taught by nobody."""
+    """Words to be forgotten that nobody teaches."""
     plural = str(phase.settings.get("what", "nouns"))
     known: tuple[str, ...] = getattr(names, WORDS[plural])
     forms = _forms(known, study.tutors.values(), study)
@@ -136,7 +136,7 @@ def _never_taught(phase: Phase, study: Study, names: NamesInScenes) -> Iterator[
 def _forms(
     names: Iterable[str], tutors: Iterable[Named], study: Study
 ) -> Collection[str]:
-    """What the tutors call all this, in the languages of the theories."""
+    """The tutors' words for these names, in the languages of the theories."""
     several = [
         words_of(theory.language, tutor)
         for theory in study.theories.values()

@@ -112,7 +112,7 @@ def _all(words: Vocabulary, world: World) -> Sequence[Talk]:
 
 
 def _replies(words: Vocabulary, s: Record, model: Model) -> Options:
-    """What answers what the robot has said, or else a lesson or a question.
+    """Answers to what the robot has said, or else lessons and questions.
 
     Half of what needs no answer is what leads on from the state.
     """
@@ -168,7 +168,7 @@ def _free(words: Vocabulary, world: World, known: frozenset[Pred]) -> Sequence[T
 def _verdict_options(
     words: Vocabulary, world: World, pending: Sequence[RecordType]
 ) -> Options:
-    """Whether what the robot claims is so: yes if it is, and no if it is not.
+    """Judgements of what the robot claims: yes if it is true, no if it is not.
 
     What is not so is mostly corrected. Now and then they err.
     """
@@ -191,7 +191,7 @@ _WONDERING = ("ask_certainty", "ask_why")
 def _corrections(
     words: Vocabulary, world: World, content: RecordType
 ) -> Iterator[Saying]:
-    """What is right where a claim is not, as a correction or by itself."""
+    """What is true instead of a claim, as a correction or as a lesson."""
     x = number_of(str(value_at(_part_of(content, "target"), "x")))
     if x not in world:
         return
@@ -273,12 +273,12 @@ def _worldless_sayings(words: Vocabulary, act: str) -> Talk:
 
 
 def _sample_texts(options: Talk) -> st.SearchStrategy[str]:
-    """One of these, as a text."""
+    """Sample one of these, as a text."""
     return st.sampled_from(options).map(lambda one: one.text)
 
 
 def _sample_unclear(said: Sequence[Talk]) -> st.SearchStrategy[object]:
-    """What was heard of what may have been the one or the other of two texts."""
+    """Sample events in which one of two texts was heard."""
     random = Random(len(said))
     pairs = [
         (random.choice(random.choice(said)), random.choice(random.choice(said)), p)
@@ -301,7 +301,7 @@ def _either(mumbled: tuple[Saying, Saying, tuple[float, float]]) -> object:
 def _sample_misspelt(
     said: Sequence[Talk], known: frozenset[Pred]
 ) -> st.SearchStrategy[str]:
-    """Questions with a word in them that nearly is one that the robot knows."""
+    """Sample questions with a word that is nearly one that the robot knows."""
     asked = [
         one for talk in said for one in talk if one.act in ("ask_place", "ask_find")
     ]
@@ -320,7 +320,7 @@ def _sample_misspelt(
 
 
 def _sample_happenings(world: World) -> st.SearchStrategy[Record]:
-    """One of the things that may happen, as the event in which it is seen.
+    """Sample something that may happen, as the event in which it is seen.
 
     Each kind of thing happens as often as any other.
     """
@@ -330,7 +330,7 @@ def _sample_happenings(world: World) -> st.SearchStrategy[Record]:
 
 
 def _sample_idle_looks(world: World) -> st.SearchStrategy[Record]:
-    """The robot looks, and it is its turn: all is as it was, or other things are there.
+    """Sample looks on the robot's own turn: all is as it was, or has changed.
 
     What is pointed at is the tutor's to speak of.
     """
@@ -341,7 +341,7 @@ def _sample_idle_looks(world: World) -> st.SearchStrategy[Record]:
 
 
 def _sample_looks(world: World, after: Sequence[Look]) -> st.SearchStrategy[Record]:
-    """One of these looks, as an event."""
+    """Sample one of these looks, as an event."""
     return st.sampled_from(after).map(lambda one: one[0](one[1], world))
 
 

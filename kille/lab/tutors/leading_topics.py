@@ -40,7 +40,7 @@ OF_PLACES = ("relate", "correct", "reject", "ask_whether")
 
 
 class Situation(NamedTuple):
-    """What a state has of all that decides what leads on from it.
+    """The part of a state that decides what leads on from it.
 
     Things are numbers: `untold` are those in view of which nothing was said; `fronts`
     face some way that is known. `is_taught` says that it was just learned where
@@ -110,7 +110,7 @@ SEVERAL = ("ask_places", "instruct_several")
 def _empty_table_topics(
     words: Vocabulary, world: World, known: frozenset[Pred]
 ) -> Iterator[Talk]:
-    """What one may ask, and say, in front of nothing."""
+    """What one may ask and say when nothing is in view."""
     if world.in_view:
         return
     yield sayings(words, "ask_view", world)
@@ -131,19 +131,19 @@ BARE = ("ask_certainty", "ask_why", "forget_that")
 
 
 def _about_the_last(words: Vocabulary, world: World) -> Talk:
-    """What is about what was said last."""
+    """Sayings about what was said last."""
     said = (one for act in BARE for one in sayings(words, act, world))
     return [one for one in said if isinstance(one.about, Matter)]
 
 
 def _name_questions(words: Vocabulary, world: World, things: Sequence[int]) -> Talk:
-    """What each of these things is."""
+    """Questions what each of these things is."""
     phrases = (phrases_of(words, world, x)[0] for x in things)
     return [Saying(words, "ask_name", Claim(None, phrase)) for phrase in phrases]
 
 
 def _questions_of_others(words: Vocabulary, world: World) -> Talk:
-    """What the others are than what was talked of."""
+    """Questions about the other things than the one that was talked of."""
     other = Claim(None, Phrase("Other"))
     acts_ = ("ask_name", "ask_place") if len(world.in_view) > 1 else ()
     return [Saying(words, act, other) for act in acts_]
@@ -160,7 +160,7 @@ def _reflexive_lessons(words: Vocabulary, world: World) -> Talk:
 def _wrong_nouns(
     words: Vocabulary, world: World, known: frozenset[Pred]
 ) -> Iterator[Talk]:
-    """What calls a thing by a noun that is known, but is not its own."""
+    """Sayings that call a thing by a known noun of another kind."""
     nouns = [it for it in words.nouns.values() if word_of(it) in known]
     claims = [
         Claim(noun, colour_phrase(words, world, x))
@@ -210,7 +210,7 @@ STRANGE = (
 def _unknown_word_topics(
     words: Vocabulary, world: World, known: frozenset[Pred]
 ) -> Iterator[Talk]:
-    """What has a word in it that is not known, of things that can be told apart."""
+    """Sayings with an unknown word, of things that can be told apart."""
     for act in STRANGE:
         if act in acts(words):
             said = sayings(words, act, world)
@@ -233,7 +233,7 @@ def _has_one_unknown(one: Saying, known: frozenset[Pred]) -> bool:
 def _front_topics(
     words: Vocabulary, world: World, fronts: Sequence[tuple[int, str]]
 ) -> Sequence[Talk]:
-    """What perspectives make of it where things face some way, or that they do."""
+    """Sayings about perspectives, if things face some way, or that they do."""
     turned = [(y, front) for y, front in fronts if y in world]
     if not turned:
         return [sayings(words, "orient", world)] if len(world.in_view) > 1 else []

@@ -91,7 +91,7 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
 
 
 def _is_place(content: RecordType, options: int) -> bool:
-    """Whether what is mentioned is one of so many things by its place among them."""
+    """Whether one of several things is mentioned by its place among them."""
     target = content["target"]
     assert isinstance(target, RecordType)
     said = [T for _, T in target.fields if isinstance(T, PType)]

@@ -8,7 +8,7 @@ from kille.lab.tutors.tutor import Task, Turns, Tutor
 
 
 class Several:
-    """Some tutors, of whom the next one goes on with every phase, or with every task.
+    """Several tutors who take turns, with every phase or with every task.
 
     Which one it is follows from the number of the task alone, or from how many phases
     there were.

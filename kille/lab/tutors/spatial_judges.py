@@ -82,7 +82,7 @@ class Person:
         return str(chance.choice(list(chances), p=list(chances.values())))
 
     def shifted(self, by: float) -> Person:
-        """Who speaks of closeness more often, by so much in log-odds."""
+        """A person who speaks of closeness more often, by so much in log-odds."""
         return Person(_shift_share(self.inside, by), _shift_share(self.outside, by))
 
 
@@ -97,7 +97,7 @@ def draw_person(habit: float, chance: np.random.Generator) -> Person:
 
 
 def draw_speaker(inside: float, outside: float, habit: float, chance: Random) -> Person:
-    """Who speaks of closeness so often, give or take a deviation of log-odds."""
+    """A person who speaks of closeness so often, with a deviation of log-odds."""
     return Person(inside, outside).shifted(habit * chance.gauss(0, 1))
 
 
@@ -145,7 +145,7 @@ class Placing(Protocol):
 
 @dataclass(frozen=True)
 class Rated:
-    """Who says words as people have rated them of places on a grid."""
+    """A person who says words as people have rated them for places on a grid."""
 
     words: Mapping[str, Sequence[tuple[Place, float]]]
 
@@ -188,7 +188,7 @@ def read_ratings(folder: Path) -> Rated:
 
 @dataclass(frozen=True)
 class Speaker:
-    """Who speaks of places so, in the landmark's own frame in this share of cases.
+    """A tutor who speaks of places so, in the landmark's frame in this share of cases.
 
     One who `draws` says a word by its chances, others say the likeliest. They have
     `only` these words, or all where none is named, and where these are hardly ever said

@@ -104,7 +104,7 @@ class Task:
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     def chance(self, of: str) -> Random:
-        """The chance by which something goes in it."""
+        """The random generator for something in this task."""
         return self.run.chance(f"{of} {self.phase} {self.number}")
 
     @property
@@ -120,7 +120,7 @@ class Tutor(Protocol):
 
     @property
     def name(self) -> str:
-        """Who it is: for several tutors, whose turn it is."""
+        """The name; of several tutors, that of the one whose turn it is."""
         ...
 
     def turns(self, task: Task) -> Turns:

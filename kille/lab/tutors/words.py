@@ -74,11 +74,11 @@ class Words:
         landmark: Phrase | None = None,
         target: Phrase = THIS,
     ) -> str:
-        """That a word is true of this thing, or of one thing beside another."""
+        """Say that a word is true of this thing, or of one thing beside another."""
         return self._claim_text(LESSON_ACTS[kind], kind, word, landmark, target)
 
     def correction(self, kind: str, word: str, landmark: Phrase | None = None) -> str:
-        """That, instead of what was said, a word is true of this thing."""
+        """Say that, instead of what was said, a word is true of this thing."""
         return self._claim_text("correct", kind, word, landmark, THIS)
 
     def _claim_text(
@@ -88,11 +88,11 @@ class Words:
         return Saying(self._vocabulary, act, claim).text
 
     def question(self, kind: str) -> str:
-        """What this thing is, what colour it is, or where."""
+        """Ask what this thing is, which colour it has, or where it is."""
         return Saying(self._vocabulary, QUESTION_ACTS[kind], Claim(None, THIS)).text
 
     def which_question(self, phrase: Phrase) -> str:
-        """Which thing a phrase is for."""
+        """Ask which thing a phrase is for."""
         return Saying(self._vocabulary, "ask_find", Claim(None, phrase)).text
 
     def mention(self, phrase: Phrase) -> str:
@@ -104,15 +104,15 @@ class Words:
         return Saying(self._vocabulary, act).text
 
     def front_statement(self, front: str, phrase: Phrase) -> str:
-        """Which way a thing faces."""
+        """Say which way a thing faces."""
         return Saying(self._vocabulary, "orient", facing_matter(front, phrase)).text
 
     def perspective(self, of: str) -> str:
-        """Whose perspective is meant: that of the `viewer`, or of the `landmark`."""
+        """Say whose perspective is meant: that of the `viewer` or the `landmark`."""
         return Saying(self._vocabulary, "take_frame", perspective_matter(of)).text
 
     def forget_request(self, kind: str, word: str) -> str:
-        """That a word is to be forgotten."""
+        """Ask to forget a word."""
         about = word_matter(self.sign(kind, word))
         return Saying(self._vocabulary, "forget_word", about).text
 

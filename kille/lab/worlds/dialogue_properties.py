@@ -1,4 +1,4 @@
-"""What talk that teaches should be like, besides what any talk should, as properties.
+"""Properties of dialogues that teach, besides those of all dialogues.
 
 They are checked on dialogues, as those of `ttr.testing` are.
 """
@@ -49,7 +49,7 @@ def _overretracted(dialogue: Dialogue, roles: Roles) -> Checked:
 
 
 def _forgotten_keys(move: Record) -> Iterable[str]:
-    """The keys of what a move unlearns; what is only told once more is none of it."""
+    """The keys of the lessons that a move unlearns."""
     undone = move.undone if move.undoes else ()
     return (*move.forgets, *move.dropped, *(it.key for it in undone))
 
@@ -84,7 +84,7 @@ def _why_ungrounded(content: RecordType, trial: Trial) -> str:
 
 
 def _why_unlinked(trial: Trial) -> str:
-    """Whether the lessons in the state are not those that were given."""
+    """Why the lessons in the state are not those that were given; empty if they are."""
     before, after = (
         {lesson.key: lesson for lesson in run.state.private.lessons}
         for run in (trial.before, trial.after)
@@ -146,7 +146,7 @@ def _overclaims(dialogue: Dialogue, roles: Roles) -> Checked:
 
 
 def _why_inverted(named: Sequence[tuple[int, float, float]]) -> str:
-    """Whether less certain words were used for what is more probable in every way."""
+    """Why words are less certain for what is more probable; empty if they are not."""
     for rank, best, lead in named:
         for other, p, margin in named:
             if rank > other and best < p and lead < margin:

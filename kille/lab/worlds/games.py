@@ -76,7 +76,7 @@ def simulated_game(
 def model_of(
     world: World, signs: Iterable[Record] = (), types: DialogueTypes | None = None
 ) -> Model:
-    """The model of what can be seen in such a world, by what the words are true of."""
+    """The model of what can be seen in a world, and of what these words are true of."""
     types = types or packaged_types()
     model = blank_model(types).witnessed(types["Look"], by=_is_look)
     for number in range(1, len(world.things) + 1):
@@ -85,7 +85,7 @@ def model_of(
 
 
 def with_known_words(model: Model, signs: Iterable[Record]) -> Model:
-    """The model in which these words are judged, by what they know without lessons."""
+    """Add words to a model, with what they know without lessons."""
     for sign in signs:
         if word(model, word_of(sign)) is None:
             model = model.witnessed(word_of(sign), by=LearnedWord.without_lessons(sign))
@@ -93,13 +93,13 @@ def with_known_words(model: Model, signs: Iterable[Record]) -> Model:
 
 
 def word(model: Model, pred: Pred) -> LearnedWord | None:
-    """What a predicate is true of in a model, as a word that was learned."""
+    """The learned word that judges a predicate in a model, if there is one."""
     found = model.facts.functions.get(pred)
     return found if isinstance(found, LearnedWord) else None
 
 
 def learned_words(model: Model) -> tuple[LearnedWord, ...]:
-    """All words that a model judges by what it has learned, in order of their names."""
+    """All learned words of a model, sorted by name."""
     found = [it for it in model.facts.functions.values() if isinstance(it, LearnedWord)]
     return tuple(sorted(found, key=lambda it: word_of(it.sign).name))
 
@@ -158,7 +158,7 @@ def keys_of(model: Model, sign: Record) -> tuple[str, ...]:
 
 
 def _learn(model: Model, sign: Record, content: RecordType) -> tuple[str, Model]:
-    """The model in which a content was learned, and the key of the lesson."""
+    """Learn a content: the key of the lesson, and the model after it."""
     pred = word_of(sign)
     number = max((it.number for _, it in _lessons(model)), default=0) + 1
     taught = (word(model, pred) or LearnedWord(sign)).after_lesson(
@@ -168,7 +168,7 @@ def _learn(model: Model, sign: Record, content: RecordType) -> tuple[str, Model]
 
 
 def claim_arguments(sign: Record, content: RecordType) -> tuple[str, ...]:
-    """What a content claims its word to be true of."""
+    """The arguments of which a content claims its word to be true."""
     look, target = value_at(content, "look"), content["target"]
     assert isinstance(target, RecordType)
     x = str(value_at(target, "x"))
@@ -180,7 +180,7 @@ def claim_arguments(sign: Record, content: RecordType) -> tuple[str, ...]:
 
 
 def _unlearn(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], Model]:
-    """The words that are lost without these lessons, and the model without them."""
+    """Forget lessons: the words that are lost, and the model after it."""
     forgotten = set(keys)
     lost = []
     for it in learned_words(model):
@@ -204,7 +204,7 @@ def _lessons(model: Model) -> Iterator[tuple[Record, WordLesson]]:
 
 
 def _latest_lessons(model: Model, count: int) -> list[Record]:
-    """So many of the lessons that were given last, as reminders."""
+    """The last lessons, as reminders."""
     ordered = sorted(_lessons(model), key=lambda it: -it[1].number)
     return [_reminder(sign, lesson) for sign, lesson in ordered[:count]]
 

@@ -1,4 +1,4 @@
-"""What is seen in a look at a world: views as events, and what words can be about."""
+"""What is seen in a look at a world: events of seeing, and features of things."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ __getattr__ = former_names(__name__, {"seen": "look_event", "glanced": "glance_e
 Vector = tuple[float, ...]
 
 TRAITS = 4
-"""How many numbers there are in what a kind looks like."""
+"""The number of features of a kind."""
 
 LOOKS = 0.25
-"""How much two looks at one thing differ, as a share of how much two things do."""
+"""The difference between two looks at a thing, relative to that of two things."""
 
 
 def thing(number: int) -> str:
@@ -94,7 +94,7 @@ def _has_stayed(number: int, world: World, before: World) -> bool:
 
 @lru_cache(65536)
 def traits(world: World, number: int) -> Vector:
-    """What a thing looks like: its kind, and how it and this look at it differ."""
+    """The features of a thing: those of its kind, with the noise of it and of the look."""
     kind = world.thing(number).kind
     typical = _uniform(f"kind {world.traits} {kind}", TRAITS)
     return _blur(typical, world, number)
@@ -151,13 +151,13 @@ def distance(world: World, x: int, y: int) -> float:
 
 
 def oddness(world: World, number: int) -> float:
-    """How little a thing looks like what is typical of its kind, on the whole."""
+    """How far the features of a thing are from what is typical of its kind."""
     own = _normal(f"thing {world.traits} {number} {TRAITS}", TRAITS)
     return math.hypot(*own)
 
 
 def _blur(typical: Vector, world: World, number: int) -> Vector:
-    """What is typical, as it is of this thing, and as it is seen now."""
+    """Typical features with the noise of this thing and of this look."""
     n = len(typical)
     own = _normal(f"thing {world.traits} {number} {n}", n)
     now = _normal(f"look {world.traits} {number} {world.glance} {n}", n)

@@ -34,7 +34,7 @@ class RobotProfile:
     since: Callable[[Game], Game] | None = None
 
     def game(self, seed: int) -> Game:
-        """The games that it plays, in the world that is drawn by a seed."""
+        """The game of this robot in the world of a seed."""
         world = draw_world(seed, **self.world)
         settings = {"language": self.language, **self.strategy, **self.knows}
         game = simulated_game(world, **settings)
@@ -44,13 +44,13 @@ class RobotProfile:
 
 
 def _flatten_view(game: Game) -> Game:
-    """The game when it is no longer seen where things are."""
+    """The game after a look that does not show where things are."""
     world = world_of(game.start)
     return continue_game(game, [glance_event(world.flip_depth(), world)])
 
 
 def _relay_table(game: Game) -> Game:
-    """The game when all that is in view is taken away, and all else is put there."""
+    """The game after all things in view were exchanged for the others."""
     world = before = world_of(game.start)
     for number in range(1, len(world.things) + 1):
         place = None if number in before else next(iter(world.free_places()))

@@ -47,10 +47,10 @@ TALK = (
     "Leftmost",
     "Rightmost",
 )
-"""Phrases that any thing may be called by, as the talk is."""
+"""Phrases by which any thing may be called, depending on the dialogue."""
 
 PAIRS = 8
-"""About how many pairs of things one talks, at most."""
+"""The largest number of pairs of things that are talked about."""
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ def acts(words: Vocabulary) -> tuple[str, ...]:
 
 
 def sayings(words: Vocabulary, act: str, world: World) -> tuple[Saying, ...]:
-    """What may be said by way of a move: its wordings, about all that there is.
+    """All that may be said as a move: its wordings, about everything there is.
 
     >>> from kille.lab.worlds.vocabulary import vocabulary
     >>> from kille.lab.worlds.worlds import Thing
@@ -174,7 +174,7 @@ def sayings(words: Vocabulary, act: str, world: World) -> tuple[Saying, ...]:
 
 
 def without_glance(world: World) -> World:
-    """A world as it is, however often it was looked at: what may be said of it."""
+    """A world whose looks are not counted, of which the same may be said."""
     return replace(world, glance=0)
 
 
@@ -195,7 +195,7 @@ def _slots(wording: str) -> frozenset[str]:
 def _matters_of(
     words: Vocabulary, slots: frozenset[str], world: World
 ) -> Iterable[Claim | Matter]:
-    """What a wording with these slots may be about, if the slots are known."""
+    """All contents that fill the slots of a wording, if the slots are known."""
     claiming = next((slot for slot in slots if _affirmed_slot(slot) in SLOTS), "")
     if claiming:
         kind = SLOTS[_affirmed_slot(claiming)]
@@ -279,7 +279,7 @@ def _relations(
 def true_claims(
     words: Vocabulary, world: World, x: int, phrase: Phrase = THIS
 ) -> Iterator[Claim]:
-    """What is true of a thing, of which one speaks by this phrase.
+    """The claims that are true of a thing, with this phrase for it.
 
     Where things are is not known of a flat picture, but talked of all the same.
     """

@@ -35,7 +35,7 @@ __getattr__ = former_names(
 
 
 def game_after_school(game: Game, language: str = "en", times: int = 1) -> Game:
-    """The game with a robot that was told so often what it sees, and where things are.
+    """A game whose robot was told so often what it sees, and where things are.
 
     After school the table was cleared and laid again, and all that anybody has said of
     the things that are now in view is which way one of them faces.
@@ -59,7 +59,7 @@ def game_after_school(game: Game, language: str = "en", times: int = 1) -> Game:
 
 
 def lessons(language: str, world: World) -> Iterator[str | Record]:
-    """What each thing in view is, pointed at, and then where they are, once a word."""
+    """Lessons what each thing in view is, and then where they are, once a word."""
     words = vocabulary(language)
     for x in world.in_view:
         yield glance_event(world.point_at(x), world)
@@ -77,7 +77,7 @@ def lessons(language: str, world: World) -> Iterator[str | Record]:
 
 
 def continue_game(game: Game, given: Iterable[str | Record]) -> Game:
-    """The game as it goes on after all this: texts, and what was seen."""
+    """The game as it goes on after these texts and looks."""
     now = game.begin()
     for one in given:
         heard = game.hear(one) if isinstance(one, str) and game.hear else one

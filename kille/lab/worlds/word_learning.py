@@ -1,4 +1,4 @@
-"""Words that learn: what a word is true of, as a value that lessons make another of.
+"""Words that learn: what a word is true of, as a value that is replaced by lessons.
 
 A word judges what is seen by how near it is to what it was said, or denied, to be true
 of. With p the sum of a kernel over the lessons that say so, and n over those that deny
@@ -35,7 +35,7 @@ from kille.lab.worlds.worlds import COLOURS, World
 from ttr import Record
 
 Observation = tuple[Vector, ...]
-"""What is seen, aspect by aspect."""
+"""The features that are seen, aspect by aspect."""
 
 ASPECTS = {
     "noun": ("features",),
@@ -45,23 +45,23 @@ ASPECTS = {
 """What words of a kind may speak of."""
 
 BY_CHANCE = (0.32, 0.4)
-"""How alike in direction and in distance any two lessons of places are."""
+"""The expected similarity of two random places in direction and in distance."""
 
 EXPECTED = 2
-"""So many pairs of lessons speak for the direction before there are any."""
+"""The number of imaginary pairs of lessons that agree in the direction."""
 
 FARTHER = 0.6
-"""By which logarithm one thing may be farther away than another, and still as far."""
+"""The width of the kernel of distances, in natural logarithms."""
 
 UNKNOWN = (0.0, 1.0)
 BACKGROUND = 0.25
-"""How much speaks against every word, wherever nothing else does."""
+"""The weight against every word where there are no lessons."""
 
 WIDTH = 0.3
-"""How far apart two things may be, and still be alike."""
+"""The width of the kernel of features."""
 
 LEAST = 0.02
-"""How much an aspect always counts."""
+"""The least weight of an aspect."""
 
 
 class WordLesson(NamedTuple):
@@ -78,7 +78,7 @@ class WordLesson(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class LearnedWord:
-    """What a word is true of, as far as its lessons go; called to judge its predicate.
+    """What a word is true of by its lessons; it is called to judge its predicate.
 
     `prior` is what is known of it without any lesson, `count` how many it has had.
 
@@ -132,7 +132,7 @@ class LearnedWord:
         return replace(self, lessons=(*self.lessons, lesson), count=count)
 
     def without_lesson(self, key: str) -> LearnedWord:
-        """The word as if it had never had this lesson."""
+        """The word as if it had never been given this lesson."""
         left = tuple(lesson for lesson in self.lessons if lesson.key != key)
         return replace(self, lessons=left)
 
@@ -142,14 +142,14 @@ class LearnedWord:
         return any(lesson.holds for lesson in (*self.prior, *self.lessons))
 
     def nearest(self, of: Observation) -> WordLesson | None:
-        """Of the lessons that say that it holds, the one most like what is seen."""
+        """The positive lesson that is most similar to what is seen."""
         holding = [lesson for lesson in self.lessons if lesson.holds]
         return max(
             holding, key=lambda it: self._overall_similarity(it.of, of), default=None
         )
 
     def cues(self, of: Observation) -> Sequence[tuple[str, float]]:
-        """What speaks for it, and how much of all that does: the most first."""
+        """The cues that speak for the word with their shares, the largest first."""
         speaks = {
             name: share * self._degree(aspect, of)
             for aspect, (name, share) in enumerate(
@@ -161,7 +161,7 @@ class LearnedWord:
         return sorted(shares, key=lambda it: -it[1])
 
     def weights(self) -> Sequence[float]:
-        """How much of it each aspect counts."""
+        """The weights of the aspects."""
         return self._weights
 
     @cached_property
@@ -192,7 +192,7 @@ class LearnedWord:
         return max(0.0, (mean - BY_CHANCE[aspect]) / (1.0 - BY_CHANCE[aspect]))
 
     def _agreement(self, aspect: int) -> float:
-        """How well an aspect tells what the word is true of from what it is not."""
+        """How well an aspect separates positive lessons from negative ones."""
         same, apart = [], []
         for one, other in combinations(self.lessons, 2):
             if one.holds and other.holds:
@@ -206,7 +206,7 @@ class LearnedWord:
         return says / (says + denies + BACKGROUND)
 
     def support(self, aspect: int, of: Observation, holds: bool) -> float:
-        """How much the lessons that say that it holds, or does not, speak of this."""
+        """The support of positive, or of negative, lessons for this, in an aspect."""
         seen = of[aspect]
         lessons = (it for it in (*self.prior, *self.lessons) if it.holds is holds)
         return math.fsum(self.similarity(it.of[aspect], seen, aspect) for it in lessons)
@@ -218,14 +218,14 @@ class LearnedWord:
         )
 
     def similarity(self, one: Vector, other: Vector, aspect: int) -> float:
-        """How alike two things are in an aspect: the kernel, 1 for the same."""
+        """The similarity of two things in an aspect: the kernel, 1 for the same."""
         if self.sign.kind != "relation":
             return _gaussian(one, other)
         return (_cosine, _as_far)[aspect](one, other)
 
 
 def observe(kind: str, *args: str) -> Observation | None:
-    """What is seen of what a word is said of; None if it is not in view."""
+    """The features of what a word is said of; None if it is not in view."""
     *things, look = args[:3] if kind == "relation" else args
     world = World.from_name(look)
     numbers = [number_of(x) for x in things]
@@ -241,13 +241,13 @@ def observe(kind: str, *args: str) -> Observation | None:
 
 
 def _cosine(a: Vector, b: Vector) -> float:
-    """How alike two directions are: the cosine of the angle between them, if any."""
+    """The similarity of two directions: the cosine of their angle, at least 0."""
     dot = math.fsum(p * q for p, q in zip(a, b, strict=True))
     return max(0.0, dot) / ((math.hypot(*a) * math.hypot(*b)) or 1.0)
 
 
 def _as_far(a: Vector, b: Vector) -> float:
-    """How alike two distances are."""
+    """The similarity of two distances."""
     farther = math.log(a[0] / b[0])
     return math.exp(-((farther / FARTHER) ** 2))
 

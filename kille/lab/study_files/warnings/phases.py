@@ -33,7 +33,7 @@ def phase_warnings(study: Study, opened: Mapping[str, Scene]) -> Iterator[Proble
 
 
 def _nothing_asked(study: Study) -> Iterator[Problem]:
-    """That nothing is asked to which an answer is right or wrong."""
+    """Warn that no question is asked that has a right answer."""
     asked = any(phase.do in _ASKING for phase in study.phases)
     kinds = {tutor.kind for tutor in study.tutors.values()}
     if kinds & {"own", "keyboard"} or (asked and kinds & {*SPEAKING}):
@@ -111,7 +111,7 @@ def _taught_before(study: Study) -> Iterator[Problem]:
 
 
 def _missing_turns(study: Study, opened: Mapping[str, Scene]) -> Iterator[Problem]:
-    """That dialogues end before all is done."""
+    """Warn that dialogues end before all is done."""
     needed = max(
         (turns_before(study, scene)[-1] for scene in opened.values()), default=0
     )

@@ -34,7 +34,7 @@ def tutor_warnings(study: Study, opened: Mapping[str, Scene]) -> Iterator[Proble
 def _unused_settings(
     tutor: Named, study: Study, opened: Mapping[str, Scene]
 ) -> Iterator[Problem]:
-    """What is set and never comes to bear."""
+    """Settings that make no difference."""
     does = {phase.do for phase in study.phases}
     if "feedback" in tutor.settings and not does & {"practise", "talk"}:
         told = "feedback makes no difference: no phase is practise or talk"
