@@ -17,7 +17,7 @@ import numpy as np
 from kille.lab.protocols.scoring import Score, drawn, folded, hits, taught
 from kille.lab.protocols.spatial import Methods, degrees_of
 from kille.lab.results import Cell, Figure, Progress, Result, Table
-from kille.lab.scenes.published_judgements import Study
+from kille.lab.scenes.published_judgements import JudgementStudy
 from kille.perception.relations.angle import AngleRule
 from kille.scene import Configuration
 
@@ -29,7 +29,7 @@ TOLD = "angle, told"
 
 
 def judgements(
-    study: Study, methods: Methods, *, seed: int, progress: Progress
+    study: JudgementStudy, methods: Methods, *, seed: int, progress: Progress
 ) -> Result:
     """Learners against people: by the number of lessons, by word, and by method."""
     methods = {**methods, TOLD: partial(AngleRule, study.about)}
@@ -72,7 +72,7 @@ def _ranks(
 
 
 def _draws(
-    study: Study, make: Callable[[], Any], size: int, seed: int
+    study: JudgementStudy, make: Callable[[], Any], size: int, seed: int
 ) -> list[dict[str, Score]]:
     """The scores after so many lessons of each word, for each draw."""
     return [
@@ -113,7 +113,7 @@ def _by_size(
     )
 
 
-def _by_word(study: Study, rights: Mapping[str, Mapping[str, Score]]) -> Table:
+def _by_word(study: JudgementStudy, rights: Mapping[str, Mapping[str, Score]]) -> Table:
     columns = ["word", "judged"]
     for name in rights:
         columns += [f"{name}: Spearman", f"{name}: accuracy", f"{name}: kappa"]
@@ -138,7 +138,7 @@ def _by_word(study: Study, rights: Mapping[str, Mapping[str, Score]]) -> Table:
     )
 
 
-def _chosen(study: Study, methods: Methods, seed: int) -> list[Table]:
+def _chosen(study: JudgementStudy, methods: Methods, seed: int) -> list[Table]:
     """How often the learner chooses what people chose as the best for a word."""
     if not study.choices:
         return []
@@ -156,7 +156,7 @@ def _chosen(study: Study, methods: Methods, seed: int) -> list[Table]:
 
 
 def _choice_row(
-    word: str, study: Study, right: Mapping[str, Mapping[int, float]]
+    word: str, study: JudgementStudy, right: Mapping[str, Mapping[int, float]]
 ) -> tuple[Cell, ...]:
     which = [i for i, it in enumerate(study.choices) if word in (it.word, "all")]
     even = np.mean([1 / len(study.choices[i].targets) for i in which])
@@ -193,7 +193,7 @@ def _curve(
     )
 
 
-def _map(study: Study, name: str, make: Callable[[], Any]) -> Figure:
+def _map(study: JudgementStudy, name: str, make: Callable[[], Any]) -> Figure:
     """The words around a landmark after all lessons, on the plane that was judged."""
     learner = taught(make, study.words)
     upright = not any(it.x.offset[1] for it in study.every())

@@ -29,7 +29,7 @@ from kille.lab.results import (
     Table,
     silent,
 )
-from kille.lab.scenes.labelled import Scenes, Split
+from kille.lab.scenes.labelled import LabelledScenes, Split
 from kille.lab.scenes.labelled import taught_things as known_in
 from kille.lab.theories.candidates import Methods
 
@@ -40,7 +40,7 @@ Answers = Mapping[tuple[Split, str], Sequence[Answer]]
 
 
 def across(
-    scenes: Scenes,
+    scenes: LabelledScenes,
     chosen: Sequence[Split],
     methods: Methods,
     *,
@@ -76,7 +76,7 @@ def across(
     )
 
 
-def _see(scenes: Scenes, chosen: Sequence[Split], progress: Progress) -> None:
+def _see(scenes: LabelledScenes, chosen: Sequence[Split], progress: Progress) -> None:
     """See every scene that is taught or asked."""
     needed = dict.fromkeys(it for split in chosen for it in (*split.teach, split.ask))
     steps = Steps(progress, len(needed), 0, _SEEING)
@@ -86,7 +86,10 @@ def _see(scenes: Scenes, chosen: Sequence[Split], progress: Progress) -> None:
 
 
 def _answers(
-    scenes: Scenes, chosen: Sequence[Split], methods: Methods, progress: Progress
+    scenes: LabelledScenes,
+    chosen: Sequence[Split],
+    methods: Methods,
+    progress: Progress,
 ) -> Answers:
     count = sum(len(scenes.lessons(split.ask)) for split in chosen) * len(methods)
     steps = Steps(progress, count, _SEEING, 1)

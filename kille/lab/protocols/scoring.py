@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from kille.lab.measures.statistics import kappa, spearman
 from kille.lab.protocols.spatial import degrees_of
-from kille.lab.scenes.published_judgements import Choice, Judged, Study
+from kille.lab.scenes.published_judgements import Choice, Judged, JudgementStudy
 from kille.scene import Configuration
 
 _FOLDS = 5
@@ -86,7 +86,10 @@ def _score(people: Vector, learner: Vector) -> Score:
 
 
 def drawn(
-    study: Study, make: Callable[[], Any], size: int, chance: np.random.Generator
+    study: JudgementStudy,
+    make: Callable[[], Any],
+    size: int,
+    chance: np.random.Generator,
 ) -> dict[str, Score]:
     """Each word's score after so many lessons of each, drawn by chance."""
     lessons, asked = {}, {}
@@ -99,7 +102,7 @@ def drawn(
     return {word: _score(*_asked(learner, word, asked[word])) for word in asked}
 
 
-def _folds(study: Study, seed: int) -> Iterator[tuple[set[str], set[str]]]:
+def _folds(study: JudgementStudy, seed: int) -> Iterator[tuple[set[str], set[str]]]:
     """Scenes to teach and to ask; where there is one scene only, places."""
     groups = sorted({_group(it) for it in study.every()})
     order = np.random.default_rng(seed).permutation(len(groups))
@@ -112,14 +115,16 @@ def _group(it: Judged) -> str:
     return it.scene or str(it.x.offset)
 
 
-def _split(study: Study, groups: set[str]) -> dict[str, list[Judged]]:
+def _split(study: JudgementStudy, groups: set[str]) -> dict[str, list[Judged]]:
     return {
         word: [it for it in them if _group(it) in groups]
         for word, them in study.words.items()
     }
 
 
-def folded(study: Study, make: Callable[[], Any], seed: int) -> dict[str, Score]:
+def folded(
+    study: JudgementStudy, make: Callable[[], Any], seed: int
+) -> dict[str, Score]:
     """Each word's score when all but a fifth of the scenes are taught."""
     said: dict[str, list[tuple[Vector, Vector]]] = {word: [] for word in study.words}
     for teach, ask in _folds(study, seed):
@@ -136,7 +141,7 @@ def _pooled(folds: Sequence[tuple[Vector, Vector]]) -> Score:
     return replace(score, within=float(np.mean(known)) if known else float("nan"))
 
 
-def hits(study: Study, make: Callable[[], Any], seed: int) -> dict[int, float]:
+def hits(study: JudgementStudy, make: Callable[[], Any], seed: int) -> dict[int, float]:
     """For each choice in a scene that was not taught: 1 if it is as people's.
 
     Ties of n targets count 1/n where the right one is among them.

@@ -11,7 +11,7 @@ from typing import Any
 
 from kille.lab.errors import StudyError
 from kille.lab.scenes.galleries import Gallery, open_gallery
-from kille.lab.scenes.labelled import Scenes, open_scenes
+from kille.lab.scenes.labelled import LabelledScenes, open_scenes
 from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE
 from kille.lab.scenes.theatre import Capture, Picture, Theatre
@@ -44,7 +44,7 @@ def _open_gallery(folder: Path) -> Gallery:
 
 
 @lru_cache(8)
-def _open_scenes(folder: Path) -> Scenes:
+def _open_scenes(folder: Path) -> LabelledScenes:
     return open_scenes(folder, folder.name)
 
 
@@ -54,11 +54,13 @@ def _outlined_names(shot: Shot) -> tuple[str, ...]:
     return tuple(sorted(shot.read().outlines))
 
 
-Shown = tuple[str, object]
+WordView = tuple[str, object]
 """A word and a view."""
 
 
-def _scene_of(taught: Sequence[Shown], kept: Sequence[Shown], name: str) -> Captured:
+def _scene_of(
+    taught: Sequence[WordView], kept: Sequence[WordView], name: str
+) -> Captured:
     things = tuple(Thing(word, "") for word, _ in (*taught, *kept))
     start = World(things)
     occasions = [
@@ -77,8 +79,8 @@ def open_pictures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Capt
     `ExperimentError` where there are none.
     """
     gallery = _open_gallery(folder)
-    taught: list[Shown] = []
-    kept: list[Shown] = []
+    taught: list[WordView] = []
+    kept: list[WordView] = []
     for word in set_["kinds"] or gallery.categories:
         if word not in gallery.categories:
             why = suggest_name(word, gallery.categories)
@@ -109,7 +111,7 @@ def open_captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Capt
         known = ", ".join(scenes.shots)
         raise StudyError([f"{folder} has no scene {missing[0]}: it has {known}"])
 
-    def shown(names: Sequence[str]) -> Iterator[Shown]:
+    def shown(names: Sequence[str]) -> Iterator[WordView]:
         for scene in names:
             shots = scenes.shots[scene]
             count = min(set_["each"], len(shots))

@@ -16,7 +16,7 @@ from kille.sensors.captures import Shot, description_of, is_sequence, read_seque
 
 
 @dataclass(frozen=True, eq=False)
-class Scenes:
+class LabelledScenes:
     """Labelled scenes by name; what is seen in one is computed once."""
 
     name: str
@@ -55,7 +55,7 @@ def is_scenes(folder: Path) -> bool:
     return any(_is_labelled(it) for it in folder.iterdir() if it.is_dir())
 
 
-def open_scenes(folder: Path, name: str) -> Scenes:
+def open_scenes(folder: Path, name: str) -> LabelledScenes:
     """The labelled scenes in this folder; SensorError if one is broken."""
     inner = sorted(it for it in folder.iterdir() if it.is_dir())
     described = {it.name: description_of(it) for it in inner if _is_labelled(it)}
@@ -64,7 +64,7 @@ def open_scenes(folder: Path, name: str) -> Scenes:
         for scene, description in described.items()
         if description is not None
     }
-    return Scenes(name, shots, {})
+    return LabelledScenes(name, shots, {})
 
 
 def _is_labelled(folder: Path) -> bool:
@@ -76,7 +76,9 @@ def _is_labelled(folder: Path) -> bool:
     )
 
 
-def splits(scenes: Scenes, teach: Sequence[str], ask: Sequence[str]) -> list[Split]:
+def splits(
+    scenes: LabelledScenes, teach: Sequence[str], ask: Sequence[str]
+) -> list[Split]:
     """The requested splits; by default each scene is asked, and the others taught.
 
     ExperimentError for a scene that is not there, and where no thing of an asked scene
@@ -100,7 +102,7 @@ def splits(scenes: Scenes, teach: Sequence[str], ask: Sequence[str]) -> list[Spl
     return sensible
 
 
-def taught_things(scenes: Scenes, split: Split) -> set[str]:
+def taught_things(scenes: LabelledScenes, split: Split) -> set[str]:
     """The things that are both taught and asked for."""
     taught = {thing for scene in split.teach for thing in scenes.things(scene)}
     return taught & scenes.things(split.ask)

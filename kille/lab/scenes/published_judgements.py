@@ -46,7 +46,7 @@ class Choice:
 
 
 @dataclass(frozen=True, eq=False)
-class Study:
+class JudgementStudy:
     """What people said; `about` names what the words are about, as a rule would."""
 
     name: str
@@ -87,7 +87,7 @@ _ABOUT = {
 }
 
 
-def read(folder: Path) -> Study:
+def read(folder: Path) -> JudgementStudy:
     """The study in a folder; ExperimentError if there is none that is known."""
     for files, reader in _READERS.items():
         if all((folder / it).is_file() for it in files):
@@ -98,9 +98,9 @@ def read(folder: Path) -> Study:
     )
 
 
-def _read_study(folder: Path, files: Sequence[str], reader: Any) -> Study:
+def _read_study(folder: Path, files: Sequence[str], reader: Any) -> JudgementStudy:
     try:
-        study: Study = reader(folder)
+        study: JudgementStudy = reader(folder)
     except (LookupError, ValueError, TypeError, ArithmeticError, csv.Error) as error:
         raise ExperimentError(
             f"{folder}: {' or '.join(files)} is not as expected "
@@ -114,7 +114,7 @@ def _read_study(folder: Path, files: Sequence[str], reader: Any) -> Study:
 # --- Logan and Sadler 1996 -----------------------------------------------------------
 
 
-def _grid(folder: Path) -> Study:
+def _grid(folder: Path) -> JudgementStudy:
     """Ratings from 1 to 9 of ten words on an upright grid around a landmark."""
     words: dict[str, list[Judged]] = defaultdict(list)
     for row in _rows(folder / "logan_sadler.csv"):
@@ -122,13 +122,13 @@ def _grid(folder: Path) -> Study:
         x = Configuration((right, 0.0, up), target_size=_CELL, landmark_size=_CELL)
         degree = (float(row["rating_1_9"]) - 1) / 8
         words[row["preposition"]].append(Judged(x, degree))
-    return Study("Logan and Sadler 1996", dict(words), _ABOUT)
+    return JudgementStudy("Logan and Sadler 1996", dict(words), _ABOUT)
 
 
 # --- rooms ---------------------------------------------------------------------------
 
 
-def _rooms(folder: Path) -> Study:
+def _rooms(folder: Path) -> JudgementStudy:
     """Statements said to be true or false of things in rooms.
 
     Those of sides are left out where the viewer is not known and where they are by the
@@ -142,7 +142,7 @@ def _rooms(folder: Path) -> Study:
             judged = Judged(x, float(row["holds"]), row["scene"])
             words[row["preposition"]].append(judged)
     enough = {word: them for word, them in words.items() if len(them) >= 40}
-    return Study("statements about rooms", enough, _ABOUT)
+    return JudgementStudy("statements about rooms", enough, _ABOUT)
 
 
 def _in_room(row: Mapping[str, str], scene: Mapping[str, Any]) -> Configuration | None:
@@ -193,7 +193,7 @@ def _ray(scene: Mapping[str, Any], landmark: Bounds, turned: Any) -> Direction |
 # --- things in use -------------------------------------------------------------------
 
 
-def _functional(folder: Path) -> Study:
+def _functional(folder: Path) -> JudgementStudy:
     """Words ticked for pairs of things, and the best of some things for a word.
 
     The degree of a word is the share of people who ticked it. There are no places, so
@@ -218,7 +218,7 @@ def _functional(folder: Path) -> Study:
         if word != "none"
     }
     choices = _choices(folder / "comparative_judgments.csv", pairs)
-    return Study("things in use 2019", words, _ABOUT, choices)
+    return JudgementStudy("things in use 2019", words, _ABOUT, choices)
 
 
 def _pair_configuration(row: Mapping[str, str]) -> Configuration:

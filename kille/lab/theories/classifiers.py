@@ -16,9 +16,9 @@ from typing import Any
 from kille.dialogue.meanings import KINDS
 from kille.grounding.knowledge import Learners
 from kille.lab.study import Theory
-from kille.lab.theories.candidates import candidates
+from kille.lab.theories.candidates import Make, candidates
 from kille.lab.theories.guest_learners import GuestObjects, GuestRelations
-from kille.lab.theories.pupils import Make, Pupil
+from kille.lab.theories.pupils import Pupil
 from kille.lab.theories.simulated_words import GuestWord, MakeWord, PrototypeWord
 from kille.lab.worlds.word_learning import LearnedWord
 from kille.perception.evidence import weighing

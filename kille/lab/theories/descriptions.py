@@ -20,13 +20,13 @@ from ttr import Record, record
 from ttr.types import TypeNode
 from ttr.updates import rules_of
 
-Shown = TypeNode | Record | str | Mapping[str, str] | Mapping[str, TypeNode]
+Part = TypeNode | Record | str | Mapping[str, str] | Mapping[str, TypeNode]
 
 _EXAMPLES = {"noun": ("nouns", "cup"), "adjective": ("adjectives", "red")}
 _PLACE = ("relations", "left")
 
 
-def describe(theory: Theory) -> Mapping[str, Shown]:
+def describe(theory: Theory) -> Mapping[str, Part]:
     """A theory by its parts: its strategy, its learners, the meaning of a word of each
     kind, what its types are called, its information states, its rules, its language.
 

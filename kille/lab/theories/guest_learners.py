@@ -11,7 +11,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.lab.theories.pupils import Heard, Make, Pupil
+from kille.lab.theories.candidates import Make
+from kille.lab.theories.pupils import Heard, Pupil
 from kille.perception.evidence import Evidence
 from kille.perception.index import View
 from kille.perception.learners import Key
@@ -26,7 +27,7 @@ _CUE = "learner"
 """What speaks for a word where a guest judges."""
 
 
-Shown = dict[Key, Heard[Percept]]
+ShownLessons = dict[Key, Heard[Percept]]
 """What a robot was shown, by the keys of its lessons."""
 
 
@@ -37,7 +38,9 @@ class GuestObjects(ObjectMemory):
     another day; the pupil hears of each again what was `shown` of it.
     """
 
-    def __init__(self, make: Make, shown: Shown, views: Iterable[View] = ()) -> None:
+    def __init__(
+        self, make: Make, shown: ShownLessons, views: Iterable[View] = ()
+    ) -> None:
         super().__init__(views)
         self._pupil: Pupil[Percept] = Pupil(make)
         self._shown = shown

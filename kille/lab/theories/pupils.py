@@ -8,15 +8,13 @@ forget is for it to be as if it had never learned.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Generic, NamedTuple, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import Generic, NamedTuple, TypeVar
 
+from kille.lab.theories.candidates import Make
 from kille.perception.learners import Key
 
 X = TypeVar("X")
-
-Make = Callable[[], Any]
-"""Gives a learner that has learned nothing."""
 
 
 class Heard(NamedTuple, Generic[X]):

@@ -23,10 +23,10 @@ from kille.lab.own_code import (
 from kille.lab.tutors.tutor import Tutor
 from ttr.safety.consent import Consent
 
-Make = Callable[..., Tutor]
+MakeTutor = Callable[..., Tutor]
 
 
-def load_maker(name: str, folder: Path, consent: Consent | None = None) -> Make:
+def load_maker(name: str, folder: Path, consent: Consent | None = None) -> MakeTutor:
     """What makes a tutor: `FILE.py:NAME`, from a folder, or `MODULE:NAME`.
 
     The caller chose this name; for one that was found in a file, `consent` says which
@@ -43,7 +43,7 @@ def load_maker(name: str, folder: Path, consent: Consent | None = None) -> Make:
         raise StudyError([f"{error}{'' if is_told else line}"]) from error
     if not callable(made):
         raise StudyError([f"{what} of {where} makes no tutor: name a class"])
-    make: Make = made
+    make: MakeTutor = made
     return make
 
 

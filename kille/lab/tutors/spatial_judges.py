@@ -4,8 +4,9 @@ A `Person` says "near" or "close" at some places and elsewhere one of four direc
 the likelier the better it fits: by the square of the cosine, as in the paper's
 discussion of spatial templates. In the landmark's own frame of reference left, right,
 front and behind are those of the landmark. They are our assumptions, not measured on
-people. Who is `Rated` speaks as people have rated words on a grid: the likelier, by the
-square of the rating. A `Speaker` is a tutor who speaks of places as one of them does.
+people. `RatedWords` are those of people who have rated words on a grid: a word is the
+likelier, by the square of its rating. A `Speaker` is a tutor who speaks of places as
+one of them does.
 
 Source: Logan and Sadler 1996, A computational analysis of the apprehension of spatial
 relations.
@@ -81,7 +82,7 @@ class Person:
         chances = self.chances(place, front)
         return str(chance.choice(list(chances), p=list(chances.values())))
 
-    def shifted(self, by: float) -> Person:
+    def shift(self, by: float) -> Person:
         """A person who speaks of closeness more often, by so much in log-odds."""
         return Person(_shift_share(self.inside, by), _shift_share(self.outside, by))
 
@@ -93,12 +94,12 @@ def _shift_share(share: float, by: float) -> float:
 
 def draw_person(habit: float, chance: np.random.Generator) -> Person:
     """A person whose habit differs from the usual by this deviation of log-odds."""
-    return Person().shifted(habit * chance.normal())
+    return Person().shift(habit * chance.normal())
 
 
 def draw_speaker(inside: float, outside: float, habit: float, chance: Random) -> Person:
     """A person who speaks of closeness so often, with a deviation of log-odds."""
-    return Person(inside, outside).shifted(habit * chance.gauss(0, 1))
+    return Person(inside, outside).shift(habit * chance.gauss(0, 1))
 
 
 def likeliest_word(degrees: Mapping[str, float]) -> str:
@@ -144,7 +145,7 @@ class Placing(Protocol):
 
 
 @dataclass(frozen=True)
-class Rated:
+class RatedWords:
     """A person who says words as people have rated them for places on a grid."""
 
     words: Mapping[str, Sequence[tuple[Place, float]]]
@@ -173,14 +174,14 @@ def _in_landmark_frame(place: Place, front: float | None) -> Place:
 
 
 @lru_cache(8)
-def read_ratings(folder: Path) -> Rated:
+def read_ratings(folder: Path) -> RatedWords:
     """The ratings in a folder of judgements on an upright plane."""
     words: dict[str, list[tuple[Place, float]]] = {}
     for word, judged in read(folder).words.items():
         if word in _CALLED:
             places = [((it.x.offset[0], it.x.offset[2]), it.degree) for it in judged]
             words[_CALLED[word]] = places
-    return Rated(words)
+    return RatedWords(words)
 
 
 # --- tutors -------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import pytest
 
 from kille.lab.protocols.judgements import judgements
 from kille.lab.results import ExperimentError, silent
-from kille.lab.scenes.published_judgements import Judged, Study, read
+from kille.lab.scenes.published_judgements import Judged, JudgementStudy, read
 from kille.perception.relations import AngleRule, PaperRelations, RelationMemory
 from kille.scene import Configuration
 
@@ -24,7 +24,7 @@ def few(monkeypatch: pytest.MonkeyPatch) -> None:
 METHODS = {"default": RelationMemory, "kille": PaperRelations, "angle": AngleRule}
 
 
-def invented(places: int = 40) -> Study:
+def invented(places: int = 40) -> JudgementStudy:
     """Two words that people hold to fit by the cosine."""
     chance, words = np.random.default_rng(0), {}
     for word, sign in (("left", -1), ("right", 1)):
@@ -34,7 +34,7 @@ def invented(places: int = 40) -> Study:
             degree = max(0.0, sign * right / np.hypot(right, away))
             them.append(Judged(Configuration((right, away, 0.0)), degree, str(scene)))
         words[word] = them
-    return Study("invented", words, {"left": "left", "right": "right"})
+    return JudgementStudy("invented", words, {"left": "left", "right": "right"})
 
 
 def test_learners_are_held_against_people() -> None:
@@ -52,7 +52,7 @@ def test_learners_are_held_against_people() -> None:
 def test_a_word_of_few_scenes_is_in_few_folds() -> None:
     study = invented()
     rare = {**study.words, "rare": study.words["left"][:3]}
-    few = Study("invented", rare, {**study.about, "rare": "left"})
+    few = JudgementStudy("invented", rare, {**study.about, "rare": "left"})
     result = judgements(few, METHODS, seed=1, progress=silent)
     within = result.facts["spearman within folds"]["default"]
     assert set(within) == set(rare)

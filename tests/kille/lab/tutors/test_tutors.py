@@ -16,7 +16,7 @@ from kille.lab.study import Named, Phase, Run, Study, Theory
 from kille.lab.tutors.spatial_judges import (
     HEADINGS,
     Person,
-    Rated,
+    RatedWords,
     Speaker,
     read_ratings,
 )
@@ -245,7 +245,7 @@ def test_a_share_of_his_words_is_in_the_landmarks_frame():
 
 @given(places)
 def test_ratings_are_chances(place):
-    grid = Rated({"left": [((-0.1, 0.0), 1.0)], "right": [((-0.1, 0.0), 0.5)]})
+    grid = RatedWords({"left": [((-0.1, 0.0), 1.0)], "right": [((-0.1, 0.0), 0.5)]})
     chances = grid.chances(place)
     assert math.isclose(sum(chances.values()), 1.0)
     assert chances["left"] > chances["right"]
