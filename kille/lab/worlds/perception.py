@@ -94,7 +94,7 @@ def _has_stayed(number: int, world: World, before: World) -> bool:
 
 @lru_cache(65536)
 def traits(world: World, number: int) -> Vector:
-    """The features of a thing: those of its kind, with noise of its own and the look."""
+    """The features of a thing: those of its kind, with its own noise and the look's."""
     kind = world.thing(number).kind
     typical = _uniform(f"kind {world.traits} {kind}", TRAITS)
     return _blur(typical, world, number)
