@@ -94,7 +94,7 @@ def _step(steps: Steps, name: str, views: int) -> None:
 def _seen(seed: int) -> list[Percept]:
     """Each of the ten things, seen once: features and traits are taken only here."""
     table = OnTable(seed)
-    looks = [table.look_at(name, scans=1) for name in NAMES]
+    looks = [table.look_at(name, scans=1) for name in TOY_NAMES]
     for percept in looks:
         _ = percept.traits
     return looks

@@ -162,5 +162,5 @@ def _of_each_kind(
     return [
         lesson
         for table in tables
-        for lesson in show_each(table, NAMES, steps, doing, scans=_FEW)
+        for lesson in show_each(table, TOY_NAMES, steps, doing, scans=_FEW)
     ]

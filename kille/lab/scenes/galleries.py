@@ -16,7 +16,7 @@ from kille.lab.scenes.stills import Lesson, look_at_picture
 from kille.scene import Percept
 from kille.sensors.captures import description_of
 from kille.sensors.pictures import is_picture, read_colour
-from kille.sensors.recordings.names import natural_order
+from kille.sensors.recordings.name_suggestions import natural_order
 from kille.sensors.sensor import SensorError
 
 LOOKING = 0.3

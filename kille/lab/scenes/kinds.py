@@ -213,14 +213,14 @@ def _how_to_keep(named: Named) -> str:
 def _rendering_problems(named: Named) -> Iterator[Problem]:
     """The things and faults of a scene that cannot be rendered."""
     from kille.sensors.synthetic import open_synthetic
-    from kille.sensors.synthetic.catalogue import NAMES
+    from kille.sensors.synthetic.catalogue import TOY_NAMES
 
     set_ = fill_settings(named.settings, SETTINGS["rendered"])
     things = [("kinds", name) for name in set_["kinds"]]
     things += [(key, set_[key]) for key in ("target", "landmark")]
     for key, name in things:
-        if name not in NAMES:
-            told = f"there is no {name} to be rendered: {suggest_name(name, NAMES)}"
+        if name not in TOY_NAMES:
+            told = f"there is no {name} to be rendered: {suggest_name(name, TOY_NAMES)}"
             yield Problem((key,), told)
     try:
         open_synthetic(f"synthetic:empty?faults={quote(set_['faults'])}").close()

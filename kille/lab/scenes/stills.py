@@ -13,7 +13,7 @@ import numpy as np
 
 from kille.perception.look import look
 from kille.scene import Frame, Look, Percept
-from kille.sensors.pictures import fitted, read_colour
+from kille.sensors.pictures import read_colour, shrink_to_fit
 
 Lesson = tuple[Percept, str]
 """A thing, and the right word for it: to be taught, or to be asked for."""
@@ -38,7 +38,7 @@ class Still:
 
 def look_at_picture(path: Path) -> Look:
     """A look at a picture; all of it is one thing where nothing is made out."""
-    colour = fitted(read_colour(path), _LARGEST)
+    colour = shrink_to_fit(read_colour(path), _LARGEST)
     still = Still(Frame(colour, None, None, 0.0, {}))
     seen = look(still, scans=1)
     if seen.percepts:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from kille.dialogue.meanings import predicate_at, value_at
+from kille.dialogue.meanings import predicate_at, record_type, value_at
 from kille.lab.worlds.games import learned_words
 from ttr import Record, RecordType
 from ttr.judging import Judgement

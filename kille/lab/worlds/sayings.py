@@ -14,7 +14,7 @@ from itertools import islice, permutations
 from string import Formatter
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import DialogueTypes, denied, merge_of
+from kille.dialogue.meanings import DialogueTypes, denial, merge_of
 from kille.dialogue.reference import meant_by
 from kille.dialogue.wording import tell
 from kille.lab.worlds.vocabulary import Vocabulary

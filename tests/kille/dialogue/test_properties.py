@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kille.dialogue.meanings import named
+from kille.dialogue.meanings import record_type
 from kille.lab.tutors.exploring import NONSENSE, exploring_tutor
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING

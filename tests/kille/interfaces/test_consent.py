@@ -238,7 +238,7 @@ def test_what_lies_in_the_working_directory_is_not_run(home: Path) -> None:
         text = "from pathlib import Path\nPath(__file__).with_name('ran').touch()\n"
         (home / f"{module}.py").write_text(text)
     own = Theory("own", meanings={"It": "[x : Ind, look : Look]"})
-    assert describe(own)["meanings"]["It"] is not named("It")  # type: ignore[index]
+    assert describe(own)["meanings"]["It"] is not record_type("It")  # type: ignore[index]
     assert ran(home) == []
 
 

@@ -6,7 +6,14 @@ import pytest
 
 from kille.dialogue.language import LANGUAGES, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import denied, kind_in, noun, placed, predicate_at, set_at
+from kille.dialogue.meanings import (
+    denial,
+    kind_in,
+    meaning_at,
+    noun,
+    predicate_at,
+    set_at,
+)
 from kille.lab.study import Theory
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.tutors.exploring import exploring_tutor, happenings, is_true
@@ -60,7 +67,7 @@ def test_he_knows_what_is_true():
 
     assert is_true(ENGLISH, world, naming("cup", "o1"))
     assert not is_true(ENGLISH, world, naming("cup", "o2"))
-    assert is_true(ENGLISH, world, denied(naming("cup", "o2")))
+    assert is_true(ENGLISH, world, denial(naming("cup", "o2")))
     assert not is_true(ENGLISH, world.move(1, None), naming("cup", "o1"))
 
 

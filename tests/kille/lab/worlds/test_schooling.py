@@ -2,7 +2,7 @@
 
 import pytest
 
-from kille.dialogue.meanings import named
+from kille.dialogue.meanings import record_type
 from kille.lab.worlds.games import learned_words, simulated_game
 from kille.lab.worlds.schooling import game_after_school, game_next_day
 from kille.lab.worlds.worlds import draw_world

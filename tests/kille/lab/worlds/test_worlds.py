@@ -75,9 +75,9 @@ def test_places_have_a_direction_unless_they_are_the_same(world, front):
 @given(worlds())
 def test_what_is_seen_is_of_its_type(world):
     model = model_of(world)
-    assert model.judge(view(world), named("View")).holds
-    assert model.judge(look_event(world, world), named("Seen")).holds
-    assert model.judge(glance_event(world, world), named("Glance")).holds
+    assert model.judge(view(world), record_type("View")).holds
+    assert model.judge(look_event(world, world), record_type("Seen")).holds
+    assert model.judge(glance_event(world, world), record_type("Glance")).holds
 
 
 @given(worlds())
