@@ -20,6 +20,7 @@ FORMER_MODULES = {
     "kille.experiments.metrics": "kille.lab.measures.statistics",
     "kille.experiments.report": "kille.lab.reports.result_pages",
     "kille.experiments.results": "kille.lab.results",
+    "kille.lab.protocols.parted": "kille.lab.protocols.picture_splits",
     "kille.simulation": "kille.lab.worlds",
     "kille.simulation.perceiving": "kille.lab.worlds.perception",
     "kille.simulation.playing": "kille.lab.worlds.games",

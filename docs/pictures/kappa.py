@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from kille.lab.measures.statistics import bootstrap
-from kille.lab.protocols.causes import CAUSES, played
+from kille.lab.protocols.causes import CAUSES, play_protocol
 from kille.perception.relations import PaperRelations, RelationMemory
 
 HERE = Path(__file__).parent
@@ -29,7 +29,7 @@ def main() -> None:
     ):
         runs = [
             [
-                played(make, cause, np.random.default_rng([SEED, run])).robot
+                play_protocol(make, cause, np.random.default_rng([SEED, run])).robot
                 for run in range(RUNS)
             ]
             for cause in CAUSES

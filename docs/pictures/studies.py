@@ -12,13 +12,12 @@ from itertools import chain
 from pathlib import Path
 
 from kille.lab import log
-from kille.lab.measures import Dialogue, kappas, scored, vocabulary
+from kille.lab.measures import ScoredDialogue, kappas, score_dialogue, vocabulary
 from kille.lab.measures.measures import ACCURACY
 from kille.lab.reports.drawing import drawing
-from kille.lab.reports.findings import Theories, estimated, grouped
+from kille.lab.reports.findings import Theories, estimate_measure, group_by_theory
 from kille.lab.reports.repeated_tests import in_phase
-from kille.lab.reports.row_figures import as_drawn
-from kille.lab.results import Figure
+from kille.lab.results import Figure, interval_series
 
 HERE = Path(__file__).parent
 
@@ -52,9 +51,9 @@ def main() -> None:
         "what_is_a_cup": what_is_a_cup,
     }
     for name, figure in drawn.items():
-        dialogues = [scored(*it) for it in log.read(folder / name)]
+        dialogues = [score_dialogue(*it) for it in log.read(folder / name)]
         names = list(log.study(folder / name).theories)
-        picture = drawing(figure(grouped(names, dialogues)))
+        picture = drawing(figure(group_by_theory(names, dialogues)))
         picture.savefig(HERE / f"{name}.png", dpi=110, facecolor="white")
 
 
@@ -62,14 +61,18 @@ def why_was_kappa_low(theories: Theories) -> Figure:
     """Kappa of robot and tutor under each cause."""
     kappa, *_ = kappas(vocabulary(chain.from_iterable(theories.values())))
     series = {
-        name: as_drawn([estimated(kappa, of_cause(them, it)) for it in CAUSES.values()])
+        name: interval_series(
+            [estimate_measure(kappa, of_cause(them, it)) for it in CAUSES.values()]
+        )
         for name, them in theories.items()
     }
     data = {"labels": list(CAUSES), "series": series, "zero": 0.0}
     return Figure("intervals", "", {**data, "xlabel": "κ of robot and tutor"})
 
 
-def of_cause(dialogues: Iterable[Dialogue], cause: tuple[str, str]) -> list[Dialogue]:
+def of_cause(
+    dialogues: Iterable[ScoredDialogue], cause: tuple[str, str]
+) -> list[ScoredDialogue]:
     """The dialogues with a tutor in front of a scene."""
     return [it for it in dialogues if (it.run.tutor, it.run.scene) == cause]
 
@@ -79,9 +82,9 @@ def does_correction_pay(theories: Theories) -> Figure:
     asked = in_phase(theories, ACCURACY, "test 3")
     tutors = list(dict.fromkeys(it.run.tutor for them in asked.values() for it in them))
     series = {
-        name: as_drawn(
+        name: interval_series(
             [
-                estimated(ACCURACY, [it for it in them if it.run.tutor == tutor])
+                estimate_measure(ACCURACY, [it for it in them if it.run.tutor == tutor])
                 for tutor in tutors
             ]
         )
@@ -95,9 +98,9 @@ def what_is_a_cup(theories: Theories) -> Figure:
     """How many other pictures are named rightly, by the number of lessons."""
     asked = in_phase(theories, ACCURACY, "others")
     series = {
-        name: as_drawn(
+        name: interval_series(
             [
-                estimated(ACCURACY, [it for it in them if it.run.scene == scene])
+                estimate_measure(ACCURACY, [it for it in them if it.run.scene == scene])
                 for scene in LESSONS
             ],
             "mean",

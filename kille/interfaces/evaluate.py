@@ -22,10 +22,10 @@ from kille.lab.protocols.plans import (
     OBJECTS,
     RELATIONS,
     Plan,
-    chosen,
+    choose_plans,
     object_plans,
     relation_plans,
-    run,
+    run_plan,
 )
 from kille.lab.reports.drawing import MISSING, can_draw
 from kille.lab.reports.result_pages import page
@@ -147,10 +147,10 @@ def _plan(request: Request) -> tuple[Methods, list[Plan]]:
     if request.what == "objects":
         methods = candidates(request.who, known.OBJECTS)
         plans = object_plans(request.data, request.teach, request.ask)
-        return methods, chosen(plans, request.protocol, OBJECTS)
+        return methods, choose_plans(plans, request.protocol, OBJECTS)
     methods = candidates(request.who, known.RELATIONS)
     plans = relation_plans(request.data)
-    return methods, chosen(plans, request.protocol, RELATIONS)
+    return methods, choose_plans(plans, request.protocol, RELATIONS)
 
 
 def _check_report(request: Request) -> None:
@@ -197,7 +197,7 @@ def _measure(
         def progress(share: float, doing: str) -> None:
             bar.update(task, completed=share, description=doing)
 
-        return run(plan, methods, seed=seed, progress=progress, failed=failed)
+        return run_plan(plan, methods, seed=seed, progress=progress, failed=failed)
 
 
 def _write(

@@ -11,12 +11,10 @@ from rich.console import Console
 from rich.table import Table as Grid
 from rich.text import Text
 
-from kille.lab.reports.result_pages import shown
-from kille.lab.results import Cell, Estimate, Table
+from kille.lab.results import Cell, Table, format_cell
 from ttr.escapes import terminal_line
 
 _GAP = 2  # columns between those of a table
-_NUMBERS = int | float | Estimate
 
 
 def print_table(out: Console, table: Table) -> None:
@@ -31,7 +29,7 @@ def print_table(out: Console, table: Table) -> None:
 
 
 def _format_cell(cell: Cell) -> str:
-    return terminal_line(shown(cell))
+    return terminal_line(format_cell(cell))
 
 
 def _fit_table(table: Table, width: int) -> Sequence[Table]:
@@ -61,13 +59,7 @@ def _parts(table: Table, width: int) -> list[Table]:
 def _count_naming_columns(table: Table) -> int:
     """How many columns name the row: those before the first of numbers."""
     columns = range(len(table.columns))
-    return max(next((it for it in columns if _is_of_numbers(table, it)), 1), 1)
-
-
-def _is_of_numbers(table: Table, place: int) -> bool:
-    return all(
-        row[place] is None or isinstance(row[place], _NUMBERS) for row in table.rows
-    )
+    return max(next(filter(table.has_numbers, columns), 1), 1)
 
 
 def _some(table: Table, places: Sequence[int]) -> Table:
@@ -141,7 +133,7 @@ def _grid(table: Table, width: int) -> Grid:
     for place, (head, room) in enumerate(zip(table.columns, widths, strict=True)):
         grid.add_column(
             Text("\n".join(_break_head(head, room))),
-            justify="right" if _is_of_numbers(table, place) else "left",
+            justify="right" if table.has_numbers(place) else "left",
             vertical="top",
             overflow="fold",
         )

@@ -1,4 +1,4 @@
-"""Telling progress: a protocol counts its steps, and says what it does."""
+"""Progress of a protocol, which counts its steps and says what it does."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from kille.lab.results import Progress
 
 
 class Steps:
-    """So many steps of a part [start, end] of the whole, each told when it is done.
+    """The steps of a part [start, end] of the whole, each reported when it is done.
 
     >>> told = []
     >>> steps = Steps(lambda share, doing: told.append((share, doing)), 2)
@@ -24,7 +24,7 @@ class Steps:
         self._done = 0
 
     def __call__(self, doing: str) -> None:
-        """One step more is done."""
+        """Report that one more step is done."""
         self._done = min(self._done + 1, self._count)
         share = self._start + (self._end - self._start) * self._done / self._count
         self._progress(share, doing)

@@ -1,12 +1,13 @@
-"""What a protocol hands back: tables, figures as plain numbers, and facts.
+"""What protocols and studies find out: tables, figures as plain numbers, and facts.
 
-Nothing here draws or prints; a terminal, a page of HTML and a machine each read the
+Nothing here draws or prints: a terminal, a page of HTML and a machine each show the
 same result in their own way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple, TypeAlias
 
@@ -18,18 +19,25 @@ __all__ = [
     "Progress",
     "Result",
     "Table",
+    "format_cell",
     "silent",
 ]
 
 
 class Estimate(NamedTuple):
-    """A number, the band in which it may well lie, and how many decimals are told."""
+    """A number, its 95 % confidence interval, and with how many decimals it is shown.
+
+    The ends of an interval that is not known are NaN.
+    """
 
     value: float
     low: float
     high: float
     decimals: int = 3
 
+
+UNKNOWN = Estimate(math.nan, math.nan, math.nan)
+"""The estimate of what there is nothing of."""
 
 Cell: TypeAlias = str | float | int | Estimate | None
 
@@ -45,19 +53,19 @@ Kind: TypeAlias = Literal[
 ]
 
 Progress: TypeAlias = Callable[[float, str], None]
-"""Is told the share in [0, 1] that is done, and what is being done now."""
+"""Hears which share in [0, 1] is done, and what is being done now."""
 
 
 class ExperimentError(Exception):
-    """Data or methods that nothing can be measured with: one line says why."""
+    """Nothing can be measured with this data or these methods: one line says why."""
 
 
 @dataclass(frozen=True)
 class Table:
     """Rows of numbers and words under the names of their columns.
 
-    None is what could not be told; the note is a sentence that goes under the table.
-    `links` say where a cell leads to on a page, by its row and column.
+    None is a value that is not known; the note is a sentence to show below the table.
+    `links` says where a cell leads to on a page, by its row and column.
     """
 
     title: str
@@ -66,25 +74,31 @@ class Table:
     note: str = ""
     links: Mapping[tuple[int, int], str] = field(default_factory=dict)
 
+    def has_numbers(self, column: int) -> bool:
+        """Are all cells of a column numbers, or unknown?"""
+        return all(
+            isinstance(row[column], int | float | Estimate | None) for row in self.rows
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class Figure:
     """What a figure shows, as plain numbers and lists; `data` by kind:
 
     - confusion: labels, counts (rows: the right word; columns: the answer); columns
-      names the answers where they are more than the labels
+      are the answers where these are more than the labels
     - curves: x, series {name: {mean, low, high}}, xlabel, ylabel; log names the axes
       that are logarithmic, as in ["x", "y"]
     - bars: labels, values, low and high (may be missing), ylabel
     - map: words, right, away, degrees {word: rows of degrees}; points may be missing
     - pictures: pictures (rows of RGB pixels), captions, good (may be missing)
-    - points: series {name: {x, y}}, xlabel, ylabel; with bands x_low, x_high, y_low,
-      y_high, and with labels, if they are there
+    - points: series {name: {x, y}}, xlabel, ylabel; with intervals x_low, x_high,
+      y_low, y_high, and with labels, if they are there
     - intervals: labels, series {name: {values, low, high}}, xlabel; zero is a line
       where it is given
     - reliability: series {name: {x, y, low, high, counts}}, xlabel, ylabel
 
-    The note is a sentence that goes under the figure.
+    The note is a sentence to show below the figure.
     """
 
     kind: Kind
@@ -95,7 +109,7 @@ class Figure:
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """All that was found out; `facts` is what a machine is told besides.
+    """All that was found out; `facts` are for machines only.
 
     The text says in a paragraph what there is to see.
     """
@@ -109,3 +123,47 @@ class Result:
 
 def silent(share: float, doing: str) -> None:
     """Progress that nobody watches."""
+
+
+def format_cell(cell: Cell) -> str:
+    """Format a cell for people; a dash for a value that is not known.
+
+    >>> format_cell(0.9254), format_cell(12), format_cell(None), format_cell(math.nan)
+    ('0.925', '12', '–', '–')
+    >>> format_cell(Estimate(0.5, -0.0001, 0.75))
+    '0.500 [0.000, 0.750]'
+    """
+    match cell:
+        case None:
+            return "–"
+        case float():
+            return f"{cell:.3f}" if math.isfinite(cell) else "–"
+        case Estimate():
+            return _format_estimate(cell)
+    return str(cell)
+
+
+def _format_estimate(it: Estimate) -> str:
+    if not math.isfinite(it.value):
+        return "–"
+    value, low, high = (
+        f"{round(x, it.decimals) + 0.0:.{it.decimals}f}"  # no zero is below zero
+        for x in (it.value, it.low, it.high)
+    )
+    has_interval = math.isfinite(it.low) and math.isfinite(it.high)
+    return f"{value} [{low}, {high}]" if has_interval else value
+
+
+def interval_series(
+    estimates: Sequence[Estimate], name: str = "values"
+) -> dict[str, list[float]]:
+    """Estimates as figures draw them: values, under this name, and their intervals.
+
+    >>> interval_series([Estimate(0.5, 0.25, 0.75)], "mean")
+    {'mean': [0.5], 'low': [0.25], 'high': [0.75]}
+    """
+    return {
+        name: [it.value for it in estimates],
+        "low": [it.low for it in estimates],
+        "high": [it.high for it in estimates],
+    }

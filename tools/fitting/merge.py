@@ -36,7 +36,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.lab.protocols.regions import Score, captures, score
+from kille.lab.protocols.regions import SegmentationScore, captures, score
 from kille.perception.segment import merging_by
 from kille.perception.surfaces import merging
 from kille.perception.surfaces.merging import (
@@ -231,7 +231,7 @@ def add_second(data: Path, first: Merger) -> None:
     way = merging_by(rounds)
     for folder in (data / name for name in _REAL if (data / name).is_dir()):
         shown = (it.shot.read() for it in captures(folder))
-        found = sum((score(way(it).regions, it) for it in shown), Score())
+        found = sum((score(way(it).regions, it) for it in shown), SegmentationScore())
         print(f"{folder.name}: {_score_text(found)}")
 
 
@@ -244,7 +244,7 @@ def _examples(frames: Iterable[Frame], rounds: Rounds = ()) -> list[Examples]:
     return [it for it in found if it is not None]
 
 
-def _score_text(them: Score) -> str:
+def _score_text(them: SegmentationScore) -> str:
     centimetres = 100 * np.array(them.errors)
     return (
         f"P {them.precision:.2f} R {them.recall:.2f} F {them.f:.3f} "

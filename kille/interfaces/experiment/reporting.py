@@ -39,7 +39,7 @@ def compare(
     """Print how two folders of results differ; write a page if one is named."""
     try:
         if page is None:
-            print_results(reports.compared(one, other, consent))
+            print_results(reports.compare_results(one, other, consent))
             return FINE
         found = reports.compare(one, other, page, command=command, consent=consent)
         print_results(found.results)

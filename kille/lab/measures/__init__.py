@@ -13,11 +13,12 @@ from kille.lab.measures.comparison import (
 )
 from kille.lab.measures.measures import Measure, estimate, value
 from kille.lab.measures.power import least_difference, power_of, runs_needed
-from kille.lab.measures.scored_dialogues import Dialogue, scored
+from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
+from ttr.aliases import former_names
 
 __all__ = [
-    "Dialogue",
     "Measure",
+    "ScoredDialogue",
     "contrasts",
     "differences",
     "estimate",
@@ -31,7 +32,11 @@ __all__ = [
     "pairs_needed",
     "power_of",
     "runs_needed",
-    "scored",
+    "score_dialogue",
     "value",
     "vocabulary",
 ]
+
+__getattr__ = former_names(
+    __name__, {"Dialogue": "ScoredDialogue", "scored": "score_dialogue"}
+)

@@ -1,4 +1,4 @@
-"""Cohen's kappa over dialogues: of robot, tutor and another judge with each other."""
+"""Cohen's kappa over dialogues, of the robot, the tutor and another judge."""
 
 from __future__ import annotations
 
@@ -8,15 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from kille.lab.measures.measures import Measure, Vector
-from kille.lab.measures.scored_dialogues import Dialogue, Scored
+from kille.lab.measures.scored_dialogues import ScoredAnswer, ScoredDialogue
+from kille.lab.measures.statistics import kappa_of_counts
 
 Vocabulary = Mapping[str, Sequence[str]]
 """All that was said or held to be right, by kind of word."""
 
-_Says = Callable[[Scored], str | None]
+_Judge = Callable[[ScoredAnswer], str | None]
+"""What somebody says of the question that an answer is to; None if nothing."""
 
 
-def vocabulary(dialogues: Iterable[Dialogue]) -> Vocabulary:
+def vocabulary(dialogues: Iterable[ScoredDialogue]) -> Vocabulary:
     """All words of the answers, by kind, in order."""
     found: dict[str, set[str]] = {}
     for dialogue in dialogues:
@@ -35,29 +37,34 @@ def kappas(words: Vocabulary) -> tuple[Measure, Measure, Measure]:
     both of two who do not agree with each other.
     Source: Cohen 1960; Barlow, Lai and Azen 1991 on kappa in strata.
     """
-    robot, judge = _Kappa(words, _said, _right), _Kappa(words, _said, _judged)
-    people = _Kappa(words, _right, _judged)
+
+    def measure(
+        name: str, meaning: str, one: _Judge, other: _Judge, better: int = 1
+    ) -> Measure:
+        kappa = _Kappa(words, one, other)
+        meaning = f"{meaning}, beyond what chance would give (Cohen 1960)"
+        return Measure(name, meaning, kappa.tally, kappa.of, better)
+
     return (
-        _measure("κ robot–tutor", "agreement of robot and tutor", robot),
-        _measure("κ robot–judge", "agreement of the robot and another judge", judge),
-        _measure("κ tutor–judge", "agreement of two people, the ceiling", people, 0),
+        measure("κ robot–tutor", "agreement of robot and tutor", _robot, _tutor),
+        measure(
+            "κ robot–judge", "agreement of the robot and another judge", _robot, _judge
+        ),
+        measure(
+            "κ tutor–judge", "agreement of two people, the ceiling", _tutor, _judge, 0
+        ),
     )
 
 
-def _measure(name: str, meaning: str, kappa: _Kappa, better: int = 1) -> Measure:
-    meaning = f"{meaning}, beyond what chance would give (Cohen 1960)"
-    return Measure(name, meaning, kappa.tally, kappa.of, better)
-
-
-def _said(answer: Scored) -> str | None:
+def _robot(answer: ScoredAnswer) -> str | None:
     return answer.said
 
 
-def _right(answer: Scored) -> str | None:
+def _tutor(answer: ScoredAnswer) -> str | None:
     return answer.right
 
 
-def _judged(answer: Scored) -> str | None:
+def _judge(answer: ScoredAnswer) -> str | None:
     return answer.judge or None
 
 
@@ -66,33 +73,30 @@ class _Kappa:
     """A tally holds, kind by kind, how often the two agree, and each one's words."""
 
     words: Vocabulary
-    one: _Says
-    other: _Says
+    one: _Judge
+    other: _Judge
 
-    def tally(self, dialogue: Dialogue) -> Vector:
+    def tally(self, dialogue: ScoredDialogue) -> Vector:
         """How often they agree in a dialogue, and how often each says each word."""
         said: dict[str, list[tuple[str, str]]] = {kind: [] for kind in self.words}
         for it in dialogue.answers:
             first, second = self.one(it), self.other(it)
             if it.is_word and first is not None and second is not None:
                 said[it.kind].append((first, second))
-        found: list[float] = []
+        counts: list[float] = []
         for kind, words in self.words.items():
             pairs = said[kind]
-            found.append(sum(a == b for a, b in pairs))
-            found += _counts([a for a, _ in pairs], words)
-            found += _counts([b for _, b in pairs], words)
-        return np.array(found, np.float64)
+            counts.append(sum(a == b for a, b in pairs))
+            counts += _count_each(words, [a for a, _ in pairs])
+            counts += _count_each(words, [b for _, b in pairs])
+        return np.array(counts, np.float64)
 
     def of(self, sums: Vector) -> Vector:
         """Kappa of summed tallies; 1 where both always say the same."""
         parts = list(self._parts(sums))
         if not parts:
             return np.full(sums.shape[:-1], np.nan)
-        agreed, by_chance, count = (sum(them) for them in zip(*parts, strict=True))
-        over = np.where(count - by_chance > 1e-9, count - by_chance, np.nan)
-        always = (count > 0) & (agreed >= count)
-        return np.where(always, 1.0, (agreed - by_chance) / over)
+        return kappa_of_counts(*(sum(them) for them in zip(*parts, strict=True)))
 
     def _parts(self, sums: Vector) -> Iterator[tuple[Vector, Vector, Vector]]:
         """For each kind how often they agree, how often by chance, of how many."""
@@ -107,5 +111,5 @@ class _Kappa:
             start = second + len(words)
 
 
-def _counts(said: Sequence[str], words: Sequence[str]) -> list[float]:
+def _count_each(words: Sequence[str], said: Sequence[str]) -> list[float]:
     return [float(said.count(word)) for word in words]

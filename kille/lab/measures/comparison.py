@@ -1,7 +1,7 @@
-"""Whether two theories differ, by the dialogues that they had in the same places.
+"""Do two theories differ, by the dialogues that they had on the same occasions?
 
-Two dialogues are a pair if tutor, scene and seed are the same. The main test is by
-permutation: if the theories do not differ, the two of a pair may as well be exchanged.
+Two dialogues are a pair if tutor, scene and seed are the same. The main test is a
+permutation test: if the theories do not differ, the two of a pair are exchangeable.
 """
 
 from __future__ import annotations
@@ -12,22 +12,28 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.lab.measures.measures import Measure, Vector, banded, drawn, tallies
-from kille.lab.measures.scored_dialogues import Dialogue, Scored
+from kille.lab.measures.measures import (
+    Measure,
+    Vector,
+    percentile_estimate,
+    resample_counts,
+    tallies,
+)
+from kille.lab.measures.scored_dialogues import ScoredAnswer, ScoredDialogue
 from kille.lab.results import Estimate
 
 _EXACT = 15
-"""So many pairs are exchanged in all ways; more of them by chance."""
+"""Up to this many pairs are exchanged in all ways, more in ways drawn at random."""
 
 _SHUFFLES = 9_999
 _AT_ONCE = 1_000
 _TINY = 1e-12  # sums in another order differ by this little
 
-Pair = tuple[Dialogue, Dialogue]
+Pair = tuple[ScoredDialogue, ScoredDialogue]
 
 
 class Difference(NamedTuple):
-    """How much more `other` has than `one`: with band, p, and number of pairs.
+    """How much more `other` has than `one`, with p and the number of pairs.
 
     `spread` is the standard deviation of the differences within the pairs, `apart`
     those differences themselves.
@@ -41,7 +47,7 @@ class Difference(NamedTuple):
 
 
 class McNemar(NamedTuple):
-    """Answers that just one of two theories has right, and how likely that is so."""
+    """How many answers only one of two theories has right, and McNemar's p."""
 
     one: int
     other: int
@@ -49,7 +55,7 @@ class McNemar(NamedTuple):
 
 
 class Contrast(NamedTuple):
-    """Two theories and how they differ in each measure, and question by question."""
+    """Two theories, and how they differ in each measure and question by question."""
 
     one: str
     other: str
@@ -57,8 +63,10 @@ class Contrast(NamedTuple):
     answers: McNemar
 
 
-def in_pairs(one: Sequence[Dialogue], other: Sequence[Dialogue]) -> list[Pair]:
-    """The dialogues that two theories had with the same tutor, scene and seed."""
+def in_pairs(
+    one: Sequence[ScoredDialogue], other: Sequence[ScoredDialogue]
+) -> list[Pair]:
+    """Pair the dialogues that two theories had with the same tutor, scene and seed."""
     others = {it.pair: it for it in other}
     found = [(it, others[it.pair]) for it in one if it.pair in others]
     return sorted(found, key=lambda it: it[0].pair)
@@ -69,12 +77,12 @@ def differences(
 ) -> dict[str, Difference]:
     """How much more of each measure the second of each pair has than the first.
 
-    The band draws pairs anew (95 %, percentiles); p is that of `exchanged`. Pairs are
-    drawn and exchanged alike for all measures; those count in which there is something
-    to be measured in both dialogues. A measure that is the same in each pair, as by
-    design, is left out.
+    The 95 % confidence interval is that of resampled pairs (percentiles), p that of
+    `permutation_p`. Pairs are resampled and exchanged alike for all measures; those
+    count in which the measure is known for both dialogues. A measure that is the same
+    in each pair, as by design, is left out.
     """
-    draws = drawn(len(pairs), chance)
+    draws = resample_counts(len(pairs), chance)
     stays = exchanges(len(pairs), chance)
     found = {}
     for measure in measures:
@@ -86,7 +94,7 @@ def differences(
         first, second = first[told], second[told]
         found[measure.name] = Difference(
             _difference(measure, first, second, draws[:, told]),
-            exchanged(measure, first, second, stays[:, told]),
+            permutation_p(measure, first, second, stays[:, told]),
             len(first),
             *_apart(measure, first, second),
         )
@@ -98,7 +106,7 @@ def _difference(
 ) -> Estimate:
     value = float(measure.of(second.sum(axis=0)) - measure.of(first.sum(axis=0)))
     others = measure.of(draws @ second) - measure.of(draws @ first)
-    return banded(value, others, len(first), measure.decimals)
+    return percentile_estimate(value, others, len(first), measure.decimals)
 
 
 def _apart(measure: Measure, first: Vector, second: Vector) -> tuple[float, Vector]:
@@ -108,7 +116,7 @@ def _apart(measure: Measure, first: Vector, second: Vector) -> tuple[float, Vect
 
 
 def exchanges(pairs: int, chance: np.random.Generator) -> NDArray[np.bool_]:
-    """Which pairs stay as they are, one way to exchange the others a row.
+    """Ways to exchange the two of some pairs: for each, a row of which pairs stay.
 
     The first row exchanges none. For few pairs the rows are all ways that there are.
     """
@@ -120,15 +128,15 @@ def exchanges(pairs: int, chance: np.random.Generator) -> NDArray[np.bool_]:
     return stays
 
 
-def exchanged(
+def permutation_p(
     measure: Measure, first: Vector, second: Vector, stays: NDArray[np.bool_]
 ) -> float:
     """How likely a difference as large as this is, if the theories do not differ.
 
-    Then the two of a pair may as well be exchanged. p is the share of the ways to do so
-    in which the difference is as large, the way it is among them: of all ways for few
-    pairs, else of 9,999 by chance. For means of equally many answers it is the test
-    that flips the signs of the paired differences. NaN where there is nothing to tell.
+    Then the two of a pair are exchangeable. p is the share of the ways to exchange them
+    in which the difference is as large, the observed one included: of all ways for few
+    pairs, else of 9,999 drawn at random. For means of equally many answers it is the
+    test that flips the signs of the paired differences. NaN where nothing is known.
     Source: Fisher 1935, The design of experiments, section 21; Phipson and Smyth 2010,
     Permutation p-values should never be zero.
     """
@@ -171,29 +179,27 @@ def pairs_needed(tests: int, alpha: float) -> int | None:
 
 
 def mcnemar(one: int, other: int) -> float:
-    """How likely it is that of those that differ so many fall to either side.
+    """The p of McNemar's exact test, of how many only one and only the other has right.
 
-    Both sides of the binomial with p = 1/2, exactly: min(1, 2 P(X ≤ min(b, c))).
+    Both sides of the binomial with p = 1/2: min(1, 2 P(X ≤ min(b, c))).
     Source: McNemar 1947, Note on the sampling error of the difference between
     correlated proportions or percentages.
 
     >>> round(mcnemar(2, 10), 4)
     0.0386
     """
+    from scipy.stats import binomtest
+
     count = one + other
-    ways, term = 0, 1
-    for k in range(min(one, other) + 1):
-        ways += term
-        term = term * (count - k) // (k + 1)
-    return min(1.0, 2 * ways / (1 << count))
+    return float(binomtest(one, count).pvalue) if count else 1.0
 
 
 def mcnemar_of(pairs: Sequence[Pair]) -> McNemar:
     """McNemar's test on the questions for words that both theories were asked.
 
-    They are the same if they are the n-th of a phase and have the same right answer. It
-    holds answers for independent, which those of one dialogue are not: p is too small
-    rather than too large.
+    Two questions are the same if both are the n-th of a phase and have the same right
+    answer. The test takes answers to be independent, which those of one dialogue are
+    not: p is too small rather than too large.
     """
     one = other = 0
     for first, second in pairs:
@@ -205,7 +211,7 @@ def mcnemar_of(pairs: Sequence[Pair]) -> McNemar:
     return McNemar(one, other, mcnemar(one, other))
 
 
-def _question(answer: Scored) -> tuple[str, int, str, str]:
+def _question(answer: ScoredAnswer) -> tuple[str, int, str, str]:
     return answer.phase, answer.nth, answer.kind, answer.right
 
 
@@ -230,12 +236,12 @@ def holm(ps: Sequence[float]) -> list[float]:
 
 
 def contrasts(
-    theories: Mapping[str, Sequence[Dialogue]],
+    theories: Mapping[str, Sequence[ScoredDialogue]],
     which: Iterable[tuple[str, str]],
     measures: Sequence[Measure],
     chance: np.random.Generator,
 ) -> list[Contrast]:
-    """Theories compared two by two; those without a pair of dialogues are left out."""
+    """Compare theories two by two; those without a pair of dialogues are left out."""
     found = []
     for one, other in which:
         pairs = in_pairs(theories[one], theories[other])

@@ -1,9 +1,9 @@
-"""What is measured of dialogues: each measure is a function of sums over dialogues.
+"""Measures of dialogues: each is a function of sums over dialogues.
 
-Of each dialogue some numbers are counted, its tally; tallies are added, and the measure
-is worked out from the sum. To draw dialogues anew, or to exchange two of them, is then
-only to add other tallies, so that bands and tests are those of dialogues: answers of
-one dialogue depend on each other and are never held for independent.
+Some numbers are counted in each dialogue, its tally; tallies are added, and a measure
+is computed from their sum. To resample dialogues, or to exchange two of them, is then
+only to add other tallies. So confidence intervals and tests are those of dialogues:
+answers of one dialogue depend on each other, and are never taken to be independent.
 """
 
 from __future__ import annotations
@@ -14,53 +14,56 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.lab.measures.scored_dialogues import REFERENCE, Dialogue, Scored
-from kille.lab.results import Estimate
+from kille.lab.measures.scored_dialogues import REFERENCE, ScoredAnswer, ScoredDialogue
+from kille.lab.results import UNKNOWN, Estimate
 
 Vector = NDArray[np.float64]
 
 ROUNDS = 2000
-"""How often dialogues are drawn anew for a band."""
+"""How often dialogues are resampled for a confidence interval."""
 
 FEWEST = 5
-"""Fewer dialogues do not tell how far others may lie apart: they have no band.
+"""Fewer dialogues have no confidence interval: they say too little of how others vary.
 
-Those count in which there is something to be measured.
+Those count in which the measure is known.
 """
 
 
 @dataclass(frozen=True)
 class Measure:
-    """A measure: its name, what it tells, its tally, and its value of summed tallies.
+    """A measure: its name and meaning, its tally, and its value of summed tallies.
 
     `better` is 1 where more is better, -1 where less is, 0 where it depends. `of` gives
-    the value for the last axis, NaN where there is nothing to be told of. It is told
-    with so many `decimals`.
+    the value for the last axis, NaN where it is not known. It is shown with so many
+    `decimals`.
     """
 
     name: str
     meaning: str
-    tally: Callable[[Dialogue], Vector]
+    tally: Callable[[ScoredDialogue], Vector]
     of: Callable[[Vector], Vector]
     better: int = 1
     decimals: int = 3
 
 
-def tallies(measure: Measure, dialogues: Iterable[Dialogue]) -> Vector:
-    """The tallies of the dialogues, one a row."""
+def tallies(measure: Measure, dialogues: Iterable[ScoredDialogue]) -> Vector:
+    """The tallies of the dialogues, one in each row."""
     return np.array([measure.tally(it) for it in dialogues], np.float64)
 
 
-def value(measure: Measure, dialogues: Sequence[Dialogue]) -> float:
+def value(measure: Measure, dialogues: Sequence[ScoredDialogue]) -> float:
     """The measure over the dialogues together; NaN of none."""
     if not dialogues:
         return float("nan")
     return float(measure.of(tallies(measure, dialogues).sum(axis=0)))
 
 
-def drawn(count: int, chance: np.random.Generator, rounds: int = ROUNDS) -> Vector:
-    """How often each of so many dialogues comes up when they are drawn anew, by round.
+def resample_counts(
+    count: int, chance: np.random.Generator, rounds: int = ROUNDS
+) -> Vector:
+    """How often each of `count` dialogues is drawn in each round of a bootstrap.
 
+    Shape (rounds, count). Times the tallies, it is their sums round by round.
     Source: Efron 1979, Bootstrap methods: another look at the jackknife; Davison and
     Hinkley 1997, section 3.8, who draw whole clusters.
     """
@@ -68,32 +71,34 @@ def drawn(count: int, chance: np.random.Generator, rounds: int = ROUNDS) -> Vect
     return chance.multinomial(count, equal, size=rounds).astype(np.float64)
 
 
-def measured(measure: Measure, rows: Vector, draws: Vector) -> Estimate:
-    """The measure of tallies, with the 95 % band of those drawn (percentiles)."""
-    whole, telling = measure.of(rows.sum(axis=0)), np.isfinite(measure.of(rows)).sum()
+def estimate_tallies(measure: Measure, rows: Vector, draws: Vector) -> Estimate:
+    """The measure of tallies, with the 95 % confidence interval of those drawn."""
+    whole, known = measure.of(rows.sum(axis=0)), np.isfinite(measure.of(rows)).sum()
     others = measure.of(draws @ rows)
-    return banded(float(whole), others, int(telling), measure.decimals)
+    return percentile_estimate(float(whole), others, int(known), measure.decimals)
 
 
 def estimate(
     measure: Measure,
-    dialogues: Sequence[Dialogue],
+    dialogues: Sequence[ScoredDialogue],
     chance: np.random.Generator,
     rounds: int = ROUNDS,
 ) -> Estimate:
-    """The measure over the dialogues with its 95 % band, of dialogues drawn anew."""
+    """The measure over the dialogues, with the 95 % interval of resampled dialogues."""
     if not dialogues:
-        return Estimate(float("nan"), float("nan"), float("nan"))
-    draws = drawn(len(dialogues), chance, rounds)
-    return measured(measure, tallies(measure, dialogues), draws)
+        return UNKNOWN
+    draws = resample_counts(len(dialogues), chance, rounds)
+    return estimate_tallies(measure, tallies(measure, dialogues), draws)
 
 
-def banded(value: float, others: Vector, count: int, decimals: int = 3) -> Estimate:
-    """A number of so many dialogues, with the 95 % band of others (percentiles)."""
-    told = others[np.isfinite(others)]
-    if not len(told) or count < FEWEST:
+def percentile_estimate(
+    value: float, others: Vector, count: int, decimals: int = 3
+) -> Estimate:
+    """The value of `count` dialogues, with the 95 % interval of resampled values."""
+    known = others[np.isfinite(others)]
+    if not len(known) or count < FEWEST:
         return Estimate(value, float("nan"), float("nan"), decimals)
-    low, high = np.percentile(told, [2.5, 97.5])
+    low, high = np.percentile(known, [2.5, 97.5])
     return Estimate(value, float(low), float(high), decimals)
 
 
@@ -101,27 +106,33 @@ def banded(value: float, others: Vector, count: int, decimals: int = 3) -> Estim
 
 
 def ratio(sums: Vector) -> Vector:
-    """The first number through the second."""
+    """The first number divided by the second; NaN where that is 0."""
     over = np.where(sums[..., 1] > 0, sums[..., 1], np.nan)
     found: Vector = sums[..., 0] / over
     return found
 
 
-def _mean_of(of: Callable[[Scored], float | None]) -> Callable[[Dialogue], Vector]:
-    """The tally of a mean over those answers for which there is a number."""
+def _mean_of(
+    of: Callable[[ScoredAnswer], float | None],
+) -> Callable[[ScoredDialogue], Vector]:
+    """The tally of a mean over those answers that have such a number."""
 
-    def tally(dialogue: Dialogue) -> Vector:
+    def tally(dialogue: ScoredDialogue) -> Vector:
         found = [it for it in map(of, dialogue.answers) if it is not None]
         return np.array([sum(found), len(found)], np.float64)
 
     return tally
 
 
-def _per_dialogue(of: Callable[[Dialogue], float]) -> Callable[[Dialogue], Vector]:
+def _per_dialogue(
+    of: Callable[[ScoredDialogue], float],
+) -> Callable[[ScoredDialogue], Vector]:
     return lambda dialogue: np.array([of(dialogue), 1.0])
 
 
-def _word(of: Callable[[Scored], float | None]) -> Callable[[Dialogue], Vector]:
+def _word(
+    of: Callable[[ScoredAnswer], float | None],
+) -> Callable[[ScoredDialogue], Vector]:
     return _mean_of(lambda answer: of(answer) if answer.is_word else None)
 
 

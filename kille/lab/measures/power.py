@@ -1,4 +1,4 @@
-"""How many dialogues it takes to see a difference, given how much they vary."""
+"""Power: how many dialogues are needed to see a difference between theories."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 ALPHA = 0.05
-"""How often a difference may be told of that is none."""
+"""How often a difference may be reported where there is none."""
 
 POWER = 0.8
-"""How often a difference that there is should be seen."""
+"""How often an existing difference should be seen."""
 
 _FLIPS = 999
 _TINY = 1e-12
@@ -21,7 +21,7 @@ _TINY = 1e-12
 def runs_needed(
     spread: float, d: float, power: float = POWER, alpha: float = ALPHA
 ) -> int | None:
-    """How many pairs of dialogues it takes to see a difference of d with this power.
+    """How many pairs of dialogues are needed to see a difference of d with this power.
 
     n = (z_{1-α/2} + z_power)² σ² / d² + z²_{1-α/2} / 2, σ the standard deviation of the
     differences within pairs. None where that is not known or d is 0.
@@ -62,16 +62,16 @@ def power_of(
 ) -> float:
     """How often so many pairs show a difference of d, found by simulation.
 
-    Differences are drawn from those seen, moved to the mean d, and tested by flipping
-    their signs, as theories are compared. NaN for fewer than two differences.
+    Differences are drawn from those observed, shifted to the mean d, and tested by
+    flipping their signs, as theories are compared. NaN for fewer than two differences.
     """
-    seen = np.asarray(apart, np.float64)
-    if len(seen) < 2:
+    observed = np.asarray(apart, np.float64)
+    if len(observed) < 2:
         return float("nan")
-    drawn = chance.choice(seen - seen.mean() + d, size=(rounds, runs))
+    samples = chance.choice(observed - observed.mean() + d, size=(rounds, runs))
     signs = chance.choice([-1.0, 1.0], size=(runs, _FLIPS))
-    flipped = np.abs(drawn @ signs)
-    large = (flipped >= np.abs(drawn.sum(axis=1))[:, None] - _TINY).sum(axis=1)
+    flipped = np.abs(samples @ signs)
+    large = (flipped >= np.abs(samples.sum(axis=1))[:, None] - _TINY).sum(axis=1)
     return float(((large + 1) / (_FLIPS + 1) <= alpha).mean())
 
 

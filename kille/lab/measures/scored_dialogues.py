@@ -1,6 +1,6 @@
-"""Dialogues as they are measured: their answers scored, their effort by phase.
+"""Dialogues as they are measured: their answers scored, their effort phase by phase.
 
-Degrees of all words are taken in once, so that many dialogues fit in memory.
+The degrees of all words become two scores, so that many dialogues fit in memory.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ REFERENCE = "reference"
 _Key = TypeVar("_Key", bound=Hashable)
 
 
-class Scored(NamedTuple):
-    """An answer and what it is worth; `nth` counts the answers of its phase.
+class ScoredAnswer(NamedTuple):
+    """An answer and its scores; `nth` counts the answers of its phase.
 
     `brier` and `margin` are None where no degrees were given.
     """
@@ -41,19 +41,19 @@ class Scored(NamedTuple):
 
     @property
     def is_right(self) -> bool:
-        """Whether it is what the tutor holds to be so."""
+        """Is it what the tutor holds to be right?"""
         return self.said == self.right
 
     @property
     def is_word(self) -> bool:
-        """Whether a word was asked for, not a thing."""
+        """Was a word asked for, not a thing?"""
         return self.kind != REFERENCE
 
 
 class Effort(NamedTuple):
     """What a phase took: turns, the tutor's words and corrections, robot's questions.
 
-    A turn in which something was shown and nothing said is no turn of talk.
+    Turns in which something was shown and nothing said do not count.
     """
 
     phase: str
@@ -64,11 +64,11 @@ class Effort(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Dialogue:
+class ScoredDialogue:
     """A dialogue as it is measured."""
 
     run: Run
-    answers: tuple[Scored, ...]
+    answers: tuple[ScoredAnswer, ...]
     efforts: tuple[Effort, ...]
     lessons: int
     seconds: float
@@ -76,15 +76,16 @@ class Dialogue:
 
     @property
     def pair(self) -> tuple[str, str, int]:
-        """What it has in common with the dialogues of other theories."""
+        """The tutor, scene and seed, shared with dialogues of other theories."""
         return self.run.pair
 
 
-def scored(run: Run, played: Played, seconds: float) -> Dialogue:
-    """The dialogue as it is measured.
+def score_dialogue(run: Run, played: Played, seconds: float) -> ScoredDialogue:
+    """Score the answers of a dialogue, and count its effort phase by phase.
 
     >>> answer = Answer(2, "test", "noun", "cup", "cup", "assert", 0.8, {"cup": 0.8})
-    >>> dialogue = scored(Run("a", "Ann", "table", 1), Played((), (answer,)), 0.1)
+    >>> played = Played((), (answer,))
+    >>> dialogue = score_dialogue(Run("a", "Ann", "table", 1), played, 0.1)
     >>> round(dialogue.answers[0].brier, 2)
     0.08
     """
@@ -92,8 +93,8 @@ def scored(run: Run, played: Played, seconds: float) -> Dialogue:
     answers = []
     for answer in played.answers:
         nth = count[answer.phase] = count.get(answer.phase, 0) + 1
-        answers.append(_scored(nth, answer))
-    return Dialogue(
+        answers.append(_score_answer(nth, answer))
+    return ScoredDialogue(
         run,
         tuple(answers),
         _efforts(played),
@@ -103,9 +104,9 @@ def scored(run: Run, played: Played, seconds: float) -> Dialogue:
     )
 
 
-def _scored(nth: int, answer: Answer) -> Scored:
+def _score_answer(nth: int, answer: Answer) -> ScoredAnswer:
     known = bool(answer.degrees)
-    return Scored(
+    return ScoredAnswer(
         nth=nth,
         turn=answer.turn,
         phase=answer.phase,
@@ -116,14 +117,17 @@ def _scored(nth: int, answer: Answer) -> Scored:
         way=answer.way,
         accepted=answer.accepted,
         degree=answer.degree,
-        brier=brier([answer.right], [_shared(answer)]) if known else None,
+        brier=brier([answer.right], [_as_probabilities(answer)]) if known else None,
         margin=answer.margin if known else None,
         lessons=answer.lessons,
     )
 
 
-def _shared(answer: Answer) -> dict[str, float]:
-    """The degrees as chances: words that are judged apart may hold of one thing."""
+def _as_probabilities(answer: Answer) -> dict[str, float]:
+    """The degrees divided by their sum if that is above 1.
+
+    It can be: words that are judged independently may hold of the same thing.
+    """
     whole = max(1.0, sum(answer.degrees.values()))
     return {word: degree / whole for word, degree in answer.degrees.items()}
 
@@ -145,24 +149,27 @@ def _efforts(played: Played) -> tuple[Effort, ...]:
     return tuple(efforts)
 
 
-def of_theory(dialogues: Iterable[Dialogue], theory: str) -> list[Dialogue]:
-    """The dialogues of a theory, in their order."""
+def dialogues_of(
+    dialogues: Iterable[ScoredDialogue], theory: str
+) -> list[ScoredDialogue]:
+    """The dialogues of a theory, in the order given."""
     return [it for it in dialogues if it.run.theory == theory]
 
 
-def parted(
-    dialogues: Sequence[Dialogue], by: Callable[[Scored], _Key]
-) -> dict[_Key, list[Dialogue]]:
-    """The dialogues once for each key of an answer, with just the answers that have it.
+def split_dialogues(
+    dialogues: Sequence[ScoredDialogue], by: Callable[[ScoredAnswer], _Key]
+) -> dict[_Key, list[ScoredDialogue]]:
+    """Split the answers of dialogues by a key of each answer.
 
-    All of them are there for every key, so that they remain comparable in pairs.
+    For every key there are all dialogues, so that they remain comparable in pairs, each
+    with just the answers that have this key.
     """
     keys = dict.fromkeys(by(answer) for it in dialogues for answer in it.answers)
-    found: dict[_Key, list[Dialogue]] = {key: [] for key in keys}
+    parts: dict[_Key, list[ScoredDialogue]] = {key: [] for key in keys}
     for dialogue in dialogues:
-        answers: dict[_Key, list[Scored]] = {}
+        answers: dict[_Key, list[ScoredAnswer]] = {}
         for answer in dialogue.answers:
             answers.setdefault(by(answer), []).append(answer)
-        for key, them in found.items():
-            them.append(replace(dialogue, answers=tuple(answers.get(key, ()))))
-    return found
+        for key, part in parts.items():
+            part.append(replace(dialogue, answers=tuple(answers.get(key, ()))))
+    return parts

@@ -1,8 +1,8 @@
-"""Measures of how well answers agree with what is right, and with each other.
+"""Statistics of answers: how well they agree with what is right, and with each other.
 
-SciPy and scikit-learn compute what they have; they take a second to load, and so are
-loaded by what needs them. Ours are what they do not have: a Brier score with *none of
-these*, a reliability with counts, a confusion that refuses words without a row.
+What SciPy and scikit-learn have is left to them; they take a second to load, and so are
+loaded by what needs them. Here is what they lack: a Brier score with *none of these*, a
+reliability with counts, a confusion that refuses words without a row.
 """
 
 from __future__ import annotations
@@ -13,8 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kille.lab.results import Estimate
+from ttr.aliases import former_names
+
 __all__ = [
-    "Band",
+    "Interval",
     "accuracy",
     "auroc",
     "bootstrap",
@@ -29,8 +32,10 @@ __all__ = [
     "wilson",
 ]
 
-Band = tuple[float, float]
-"""The lower and the upper end of what a number may well be."""
+__getattr__ = former_names(__name__, {"Band": "Interval"})
+
+Interval = tuple[float, float]
+"""The lower and the upper end of a confidence interval."""
 
 Degrees = Mapping[str, float]
 
@@ -70,9 +75,23 @@ def kappa_of_margins(observed: float, expected: float) -> float:
     >>> round(kappa_of_margins(17 / 32, 0.176), 2)
     0.43
     """
-    if observed >= 1:
-        return 1.0
-    return (observed - expected) / (1 - expected)
+    return float(kappa_of_counts(*np.array([[observed], [expected], [1.0]]))[0])
+
+
+def kappa_of_counts(
+    agreed: NDArray[np.float64],
+    by_chance: NDArray[np.float64],
+    count: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Cohen's kappa of each of several groups of items.
+
+    Of `count` items the judges agree on `agreed`, and would by chance on `by_chance`.
+    1 where they agree on all; NaN of no items.
+    """
+    over = np.where(count - by_chance > 1e-9, count - by_chance, np.nan)
+    always = (count > 0) & (agreed >= count)
+    found: NDArray[np.float64] = np.where(always, 1.0, (agreed - by_chance) / over)
+    return found
 
 
 def confusion(
@@ -150,10 +169,10 @@ def spearman(one: ArrayLike, other: ArrayLike) -> float:
     return round(float(spearmanr(first, second).statistic), 12)
 
 
-def wilson(successes: int, count: int) -> Band:
-    """The 95 % band of a share: where it may well lie, after so many trials.
+def wilson(successes: int, count: int) -> Interval:
+    """The 95 % confidence interval of a share.
 
-    It stays in [0, 1] and says something even after 10 of 10.
+    It stays in [0, 1], and is not empty even after 10 successes of 10.
     Source: Wilson 1927, Probable inference, the law of succession.
 
     >>> low, high = wilson(10, 10)
@@ -164,8 +183,8 @@ def wilson(successes: int, count: int) -> Band:
 
     if not count:
         return 0.0, 1.0
-    band = binomtest(successes, count).proportion_ci(method="wilson")
-    return float(band.low), float(band.high)
+    found = binomtest(successes, count).proportion_ci(method="wilson")
+    return float(found.low), float(found.high)
 
 
 def bootstrap(
@@ -174,8 +193,8 @@ def bootstrap(
     *,
     of: Callable[..., Any] = np.mean,
     rounds: int = 1000,
-) -> Band:
-    """The 95 % band of a statistic of the values, by drawing them again and again.
+) -> Interval:
+    """The 95 % confidence interval of a statistic of the values, by resampling them.
 
     Source: Efron 1979, Bootstrap methods: another look at the jackknife (percentiles).
 
@@ -188,17 +207,27 @@ def bootstrap(
     if len(values) < 2:
         only = float(of(values)) if len(values) else float("nan")
         return only, only
-    drawn = stats.bootstrap(
+    found = stats.bootstrap(
         (values,), of, n_resamples=rounds, method="percentile", random_state=chance
-    )
-    return float(drawn.confidence_interval.low), float(drawn.confidence_interval.high)
+    ).confidence_interval
+    return float(found.low), float(found.high)
+
+
+def mean_and_range(values: ArrayLike) -> Estimate:
+    """The mean of the values, with the range of the middle 80 % of them.
+
+    >>> mean_and_range([0.0, 0.5, 1.0])[:3]
+    (0.5, 0.1, 0.9)
+    """
+    low, high = np.quantile(_numbers(values), [0.1, 0.9]).tolist()
+    return Estimate(float(np.mean(_numbers(values))), low, high)
 
 
 def brier(right: Sequence[str], degrees: Sequence[Degrees]) -> float:
     """The mean squared distance of the degrees from 1 for the right word, 0 for others.
 
-    0 is best and 2 is worst; what the degrees lack to 1 is held for "none of these",
-    and is wrong where the right word is one of them.
+    0 is best and 2 is worst. What the degrees lack to 1 counts as the degree of *none
+    of these*, and so as an error.
     Source: Brier 1950, Verification of forecasts expressed in terms of probability.
 
     >>> brier(["cup"], [{"cup": 1.0}]), brier(["cup"], [{"car": 1.0}])
@@ -217,7 +246,7 @@ def _distance(word: str, degrees: Degrees) -> float:
 def reliability(
     degrees: ArrayLike, right: ArrayLike, bins: int = 10
 ) -> list[tuple[float, float, int]]:
-    """Whether degrees mean what they say: (mean degree, share right, count) a bin.
+    """Do degrees mean what they say? (mean degree, share right, count) of each bin.
 
     Source: Murphy and Winkler 1977, Reliability of subjective probability forecasts.
 
@@ -225,13 +254,21 @@ def reliability(
     [(0.1, 0.0, 1), (0.91, 0.5, 2)]
     """
     said, held = _numbers(degrees), _numbers(right)
-    places = np.clip((said * bins).astype(int), 0, bins - 1)
-    found = [places == place for place in range(bins)]
+    of_each = reliability_bin(said, bins)
+    members = [of_each == number for number in range(bins)]
     return [
         (round(_mean(said[it]), 12), _mean(held[it]), int(it.sum()))
-        for it in found
+        for it in members
         if it.any()
     ]
+
+
+def reliability_bin(degrees: ArrayLike, bins: int = 10) -> NDArray[np.int64]:
+    """The number of the bin of equal width that each degree falls in, from 0."""
+    found: NDArray[np.int64] = np.clip(
+        (np.asarray(degrees) * bins).astype(np.int64), 0, bins - 1
+    )
+    return found
 
 
 def _mean(values: Iterable[float] | NDArray[np.float64]) -> float:

@@ -91,7 +91,7 @@ CAUSES = (
 
 
 @dataclass(frozen=True)
-class Measured:
+class RunScores:
     """What one run measured: kappas, and the share of the robot's answers accepted."""
 
     people: float
@@ -100,50 +100,50 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class Scene:
+class Placement:
     """One placement: the place as it is, and as the robot sees it."""
 
     true: Place
     seen: Configuration
 
 
-def played(
+def play_protocol(
     make: Callable[[], Learner[Configuration]],
     cause: Cause,
     chance: np.random.Generator,
-) -> Measured:
+) -> RunScores:
     """One run of the protocol: 48 lessons and 32 questions."""
     tutor, other = draw_person(cause.habit, chance), draw_person(cause.habit, chance)
     learner = make()
-    for key, scene in enumerate(scenes(cause, ROUNDS, chance, 0.0)):
-        word = _said(tutor, scene.true, cause.tutor, chance)
+    for key, scene in enumerate(placements(cause, ROUNDS, chance, 0.0)):
+        word = _word_said(tutor, scene.true, cause.tutor, chance)
         learner.learn_one(scene.seen, word, key=key)
     way = chance.uniform(-pi, pi)
-    asked = list(scenes(cause, _TESTS, chance, cause.shift, way))
-    answers = [likeliest_word(learner.predict_proba_one(it.seen)) for it in asked]
+    asked = list(placements(cause, _TESTS, chance, cause.shift, way))
+    answers = [answer(learner.predict_proba_one(it.seen)) for it in asked]
     judged = [
-        [_said(judge, it.true, cause.judges, chance) for it in asked]
+        [_word_said(judge, it.true, cause.judges, chance) for it in asked]
         for judge in (tutor, other)
     ]
     accepted = [
-        _chance(judge, it.true, cause.judges, word) >= ACCEPTED
+        _word_chance(judge, it.true, cause.judges, word) >= ACCEPTED
         for judge in (tutor, other)
         for it, word in zip(asked, answers, strict=True)
     ]
-    return Measured(
+    return RunScores(
         people=kappa(judged[0], judged[1]),
         robot=kappa([*judged[0], *judged[1]], answers * 2),
         accepted=float(np.mean(accepted)),
     )
 
 
-def scenes(
+def placements(
     cause: Cause,
     rounds: int,
     chance: np.random.Generator,
     shift: float,
     way: float = 0.0,
-) -> Iterator[Scene]:
+) -> Iterator[Placement]:
     """Each place so often, when the landmark has moved by `shift` metres that `way`."""
     for _ in range(rounds):
         for place in _places():
@@ -152,7 +152,7 @@ def scenes(
             seen += shift * np.array([cos(way), sin(way)])
             if chance.random() < cause.misplaced:
                 seen = chance.uniform(-TABLE, TABLE, 2)
-            yield Scene((float(right), float(away)), configured(*seen))
+            yield Placement((float(right), float(away)), configuration_at(*seen))
 
 
 def _places() -> Iterator[Place]:
@@ -163,7 +163,7 @@ def _places() -> Iterator[Place]:
             yield distance * cos(bearing), distance * sin(bearing)
 
 
-def configured(right: float, away: float) -> Configuration:
+def configuration_at(right: float, away: float) -> Configuration:
     """The book at a place, as the robot sees it from where the viewer is."""
     return Configuration(
         offset=(float(right), float(away), 0.0),
@@ -173,12 +173,14 @@ def configured(right: float, away: float) -> Configuration:
     )
 
 
-def _said(person: Person, place: Place, own: float, chance: np.random.Generator) -> str:
+def _word_said(
+    person: Person, place: Place, own: float, chance: np.random.Generator
+) -> str:
     front = _FRONT if chance.random() < own else None
     return person.says(place, chance, front)
 
 
-def _chance(person: Person, place: Place, own: float, word: str) -> float:
+def _word_chance(person: Person, place: Place, own: float, word: str) -> float:
     """How likely the person says the word there, in whichever frame."""
     viewed, headed = person.chances(place), person.chances(place, _FRONT)
     return (1 - own) * viewed.get(word, 0.0) + own * headed.get(word, 0.0)

@@ -63,15 +63,15 @@ def growth(
     sizes: Sequence[int] = SIZES,
 ) -> Result:
     """Time of a question and of a lesson, and memory, against the number of views."""
-    seen = _seen(seed)
+    seen = _look_at_things(seed)
     steps = Steps(progress, len(methods) * len(sizes))
     kept = _stored_size(seen)
     memory = ResidentMemory()
     courses = {}
     for name, make in methods.items():
         memory.begin()
-        step = partial(_step, steps, name)
-        courses[name] = _course(make(), seen, seed, sizes, memory, step)
+        step = partial(_report_step, steps, name)
+        courses[name] = _measure_growth(make(), seen, seed, sizes, memory, step)
     return Result(
         f"Time and memory up to {max(sizes):,} views",
         (_table(courses, sizes, kept),),
@@ -87,11 +87,11 @@ def growth(
     )
 
 
-def _step(steps: Steps, name: str, views: int) -> None:
+def _report_step(steps: Steps, name: str, views: int) -> None:
     steps(f"{name}, {views:,} views")
 
 
-def _seen(seed: int) -> list[Percept]:
+def _look_at_things(seed: int) -> list[Percept]:
     """Each of the ten things, seen once: features and traits are taken only here."""
     table = OnTable(seed)
     looks = [table.look_at(name, scans=1) for name in TOY_NAMES]
@@ -104,13 +104,13 @@ def _features(percept: Percept) -> int:
     return len(percept.scans[0].descriptors)
 
 
-def _varied(percept: Percept, chance: np.random.Generator) -> Percept:
+def _vary(percept: Percept, chance: np.random.Generator) -> Percept:
     scan = percept.scans[0]
     count = len(scan.descriptors)
     half = np.sort(chance.permutation(count)[: count // 2 + 1])
     noise = chance.normal(0, _NOISE, (len(half), 128))
     traits = {
-        name: (vector + _jitter(vector, chance)).astype(np.float32)
+        name: (vector + _noise(vector, chance)).astype(np.float32)
         for name, vector in percept.traits.items()
     }
     again = Features(
@@ -121,14 +121,14 @@ def _varied(percept: Percept, chance: np.random.Generator) -> Percept:
     return replace(percept, scans=(again,), measure=lambda: traits, frame=None)
 
 
-def _jitter(
+def _noise(
     vector: NDArray[np.float32], chance: np.random.Generator
 ) -> NDArray[np.float64]:
     spread = _TRAIT_NOISE * float(np.linalg.norm(vector)) / len(vector) ** 0.5
     return chance.normal(0, spread, vector.shape)
 
 
-def _course(
+def _measure_growth(
     learner: Any,
     seen: Sequence[Percept],
     seed: int,
@@ -145,9 +145,9 @@ def _course(
             lessons = []
             for number in range(learned, size):
                 place = number % len(seen)
-                x, word = _varied(seen[place], chance), TOY_NAMES[place]
+                x, word = _vary(seen[place], chance), NAMES[place]
                 teach = partial(learner.learn_one, x, word, key=number)
-                lessons.append(_seconds(teach))
+                lessons.append(_time_call(teach))
             learned = size
             course.append(_point(learner, seen, chance, lessons, memory, size))
         step(size)
@@ -162,8 +162,8 @@ def _point(
     memory: ResidentMemory,
     size: int,
 ) -> _Point:
-    asked = [_varied(percept, chance) for percept in seen[: _QUESTIONS + 1]]
-    first, *others = [_seconds(partial(learner.predict_proba_one, x)) for x in asked]
+    asked = [_vary(percept, chance) for percept in seen[: _QUESTIONS + 1]]
+    first, *others = [_time_call(partial(learner.predict_proba_one, x)) for x in asked]
     return _Point(
         size,
         float(np.median(others)),
@@ -174,7 +174,7 @@ def _point(
     )
 
 
-def _seconds(act: Callable[[], object]) -> float:
+def _time_call(act: Callable[[], object]) -> float:
     start = time.perf_counter()
     act()
     return time.perf_counter() - start
@@ -190,14 +190,14 @@ def _stored_size(seen: Sequence[Percept]) -> float:
             sizes = [path.stat().st_size]
             for number in range(_KEPT):
                 once = seen[number % len(seen)]
-                x = replace(_varied(once, chance), frame=once.frame)
+                x = replace(_vary(once, chance), frame=once.frame)
                 turn = Turn(dialogue, number + 1, "tutor", "This is it.", "", _TIME)
-                memory.learn_object(turn, "thing", "thing", _sighting(x))
+                memory.learn_object(turn, "thing", "thing", _sighting_of(x))
         sizes.append(path.stat().st_size)
     return (sizes[1] - sizes[0]) / _KEPT
 
 
-def _sighting(x: Percept) -> Sighting:
+def _sighting_of(x: Percept) -> Sighting:
     scans = tuple(Scan(it.descriptors, it.points) for it in x.scans)
     picture = None if x.frame is None else evidence_of(x.frame, x.region)
     return Sighting("synthetic", 0.0, scans, x.region.place, x.traits, picture)
@@ -254,14 +254,14 @@ def _rows(
 
 
 def _milliseconds(seconds: float) -> float:
-    return _rounded(1000 * seconds)
+    return _round_number(1000 * seconds)
 
 
 def _megabytes(size: float) -> float:
-    return _rounded(size / _MEGA)
+    return _round_number(size / _MEGA)
 
 
-def _rounded(number: float) -> float:
+def _round_number(number: float) -> float:
     """Whole from 10 on, else with two digits."""
     return round(number) if number >= 10 else float(f"{number:.2g}")
 

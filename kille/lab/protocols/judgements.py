@@ -14,10 +14,17 @@ from typing import Any
 
 import numpy as np
 
-from kille.lab.protocols.scoring import Score, drawn, folded, hits, taught
+from kille.lab.measures.statistics import mean_and_range
+from kille.lab.protocols.scoring import (
+    Agreement,
+    agreement_after,
+    cross_validate,
+    score_choices,
+    teach_judgements,
+)
 from kille.lab.protocols.spatial import Methods, degrees_of
-from kille.lab.results import Cell, Figure, Progress, Result, Table
-from kille.lab.scenes.published_judgements import JudgementStudy
+from kille.lab.results import Cell, Figure, Progress, Result, Table, interval_series
+from kille.lab.scenes.published_judgements import Study
 from kille.perception.relations.angle import AngleRule
 from kille.scene import Configuration
 
@@ -35,18 +42,18 @@ def judgements(
     methods = {**methods, TOLD: partial(AngleRule, study.about)}
     lengths = [len(them) for them in study.words.values()]
     sizes = [it for it in SIZES if it <= np.median(lengths) / 2]
-    curves: dict[str, list[list[dict[str, Score]]]] = {}
+    curves: dict[str, list[list[dict[str, Agreement]]]] = {}
     for step, (name, make) in enumerate(methods.items()):
         progress(0.8 * step / len(methods), name)
-        curves[name] = [_draws(study, make, size, seed) for size in sizes]
+        curves[name] = [_draw_scores(study, make, size, seed) for size in sizes]
     progress(0.8, "all lessons")
-    rights = {name: folded(study, make, seed) for name, make in methods.items()}
+    rights = {name: cross_validate(study, make, seed) for name, make in methods.items()}
     return Result(
         title=f"Spatial words as people judged them: {study.name}",
         tables=(
             _by_size(curves, sizes),
             _by_word(study, rights),
-            *_chosen(study, methods, seed),
+            *_choice_tables(study, methods, seed),
         ),
         figures=(
             _curve(curves, sizes, "spearman", "rank correlation with people"),
@@ -63,7 +70,7 @@ def judgements(
 
 
 def _ranks(
-    rights: Mapping[str, Mapping[str, Score]], which: str
+    rights: Mapping[str, Mapping[str, Agreement]], which: str
 ) -> dict[str, dict[str, float]]:
     return {
         name: {word: round(getattr(it, which), 4) for word, it in scores.items()}
@@ -71,12 +78,12 @@ def _ranks(
     }
 
 
-def _draws(
-    study: JudgementStudy, make: Callable[[], Any], size: int, seed: int
-) -> list[dict[str, Score]]:
+def _draw_scores(
+    study: Study, make: Callable[[], Any], size: int, seed: int
+) -> list[dict[str, Agreement]]:
     """The scores after so many lessons of each word, for each draw."""
     return [
-        drawn(study, make, size, np.random.default_rng([seed, size, draw]))
+        agreement_after(study, make, size, np.random.default_rng([seed, size, draw]))
         for draw in range(_DRAWS)
     ]
 
@@ -84,7 +91,7 @@ def _draws(
 # --- tables and figures --------------------------------------------------------------
 
 
-def _means(draws: Sequence[Mapping[str, Score]], which: str) -> list[float]:
+def _means(draws: Sequence[Mapping[str, Agreement]], which: str) -> list[float]:
     """The mean over the words in each draw."""
     return [
         float(np.nanmean([getattr(it, which) for it in draw.values()]))
@@ -93,17 +100,18 @@ def _means(draws: Sequence[Mapping[str, Score]], which: str) -> list[float]:
 
 
 def _by_size(
-    curves: Mapping[str, Sequence[Sequence[Mapping[str, Score]]]], sizes: Sequence[int]
+    curves: Mapping[str, Sequence[Sequence[Mapping[str, Agreement]]]],
+    sizes: Sequence[int],
 ) -> Table:
     rows: list[tuple[Cell, ...]] = []
     for name, by_size in curves.items():
         for size, draws in zip(sizes, by_size, strict=True):
-            cells = [
-                float(np.mean(_means(draws, it)))
+            rank, *others = (
+                mean_and_range(_means(draws, it))
                 for it in ("spearman", "accuracy", "kappa")
-            ]
-            low, high = np.quantile(_means(draws, "spearman"), [0.1, 0.9])
-            rows.append((name, size, cells[0], float(low), float(high), *cells[1:]))
+            )
+            shown = (*rank[:3], *(it.value for it in others))
+            rows.append((name, size, *shown))
     return Table(
         title="By the number of lessons of each word",
         columns=("method", "lessons", "Spearman", "low", "high", "accuracy", "kappa"),
@@ -113,7 +121,7 @@ def _by_size(
     )
 
 
-def _by_word(study: JudgementStudy, rights: Mapping[str, Mapping[str, Score]]) -> Table:
+def _by_word(study: Study, rights: Mapping[str, Mapping[str, Agreement]]) -> Table:
     columns = ["word", "judged"]
     for name in rights:
         columns += [f"{name}: Spearman", f"{name}: accuracy", f"{name}: kappa"]
@@ -138,11 +146,11 @@ def _by_word(study: JudgementStudy, rights: Mapping[str, Mapping[str, Score]]) -
     )
 
 
-def _chosen(study: JudgementStudy, methods: Methods, seed: int) -> list[Table]:
+def _choice_tables(study: Study, methods: Methods, seed: int) -> list[Table]:
     """How often the learner chooses what people chose as the best for a word."""
     if not study.choices:
         return []
-    right = {name: hits(study, make, seed) for name, make in methods.items()}
+    right = {name: score_choices(study, make, seed) for name, make in methods.items()}
     words = sorted({it.word for it in study.choices})
     rows = [_choice_row(word, study, right) for word in [*words, "all"]]
     return [
@@ -167,20 +175,15 @@ def _choice_row(
 
 
 def _curve(
-    curves: Mapping[str, Sequence[Sequence[Mapping[str, Score]]]],
+    curves: Mapping[str, Sequence[Sequence[Mapping[str, Agreement]]]],
     sizes: Sequence[int],
     which: str,
     label: str,
 ) -> Figure:
     series = {}
     for name, by_size in curves.items():
-        means = [_means(draws, which) for draws in by_size]
-        bands = [np.quantile(it, [0.1, 0.9]).tolist() for it in means]
-        series[name] = {
-            "mean": [float(np.mean(it)) for it in means],
-            "low": [low for low, _ in bands],
-            "high": [high for _, high in bands],
-        }
+        estimates = [mean_and_range(_means(draws, which)) for draws in by_size]
+        series[name] = interval_series(estimates, "mean")
     return Figure(
         kind="curves",
         title=f"By the number of lessons: {label}",
@@ -195,7 +198,7 @@ def _curve(
 
 def _map(study: JudgementStudy, name: str, make: Callable[[], Any]) -> Figure:
     """The words around a landmark after all lessons, on the plane that was judged."""
-    learner = taught(make, study.words)
+    learner = teach_judgements(make, study.words)
     upright = not any(it.x.offset[1] for it in study.every())
     spots = np.linspace(-_SPAN, _SPAN, 21).tolist()
     degrees = [

@@ -20,19 +20,19 @@ class ResidentMemory:
     def begin(self) -> None:
         """Another method begins."""
         gc.collect()
-        self._before = resident() or 0
+        self._before = resident_memory() or 0
         self._free = self._most = max(self._most, self._before)
 
     def grown(self) -> float | None:
         """The bytes that it takes more now; None if they cannot be told."""
-        now = resident()
+        now = resident_memory()
         if now is None or now <= self._free:
             return None
         self._most = max(self._most, now)
         return float(now - self._before)
 
 
-def resident() -> int | None:
+def resident_memory() -> int | None:
     """The bytes of memory the program takes; None where the system does not tell."""
     statm = Path("/proc/self/statm")
     if not statm.exists():

@@ -21,11 +21,11 @@ import numpy as np
 from kille.lab.measures.statistics import brier, distinctness
 from kille.lab.progress import Steps
 from kille.lab.protocols.teaching import (
-    Answer,
-    asked,
-    confusion_figure,
+    ObjectAnswer,
+    answers_figure,
+    ask,
+    format_mistakes,
     mean_degrees,
-    mistaken,
     right_cells,
     share_right,
 )
@@ -53,18 +53,18 @@ _PAPERS = (
 
 
 @dataclass(frozen=True)
-class _Course:
+class _MethodAnswers:
     """What one method answered: by round, and turned after the last."""
 
-    rounds: Sequence[Sequence[Answer]]
-    turned: Sequence[Answer]
+    rounds: Sequence[Sequence[ObjectAnswer]]
+    turned: Sequence[ObjectAnswer]
 
     @property
-    def every(self) -> list[Answer]:
+    def every(self) -> list[ObjectAnswer]:
         return [answer for answers in self.rounds for answer in answers]
 
     @property
-    def means(self) -> list[Answer]:
+    def means(self) -> list[ObjectAnswer]:
         """For each thing the means over the rounds."""
         return [mean_degrees(them) for them in zip(*self.rounds, strict=True)]
 
@@ -88,16 +88,16 @@ def paper(
     turned = show_each(table, things, steps, "questions, turned", turn=TURNED)
     steps = Steps(progress, len(methods) * (rounds + 1) * len(things), LOOKING, 1)
     courses = {
-        name: _course(make, lessons, questions, turned, partial(steps, name))
+        name: _run_rounds(make, lessons, questions, turned, partial(steps, name))
         for name, make in methods.items()
     }
-    told = f"{_number(len(things))} things, {_many(rounds, 'round')}"
+    told = f"{_count_in_words(len(things))} things, {_count_of(rounds, 'round')}"
     return Result(
         f"{told} of lessons and questions",
         (
             _scores(courses),
             _by_round(courses),
-            _ranking(courses, things),
+            _rank_table(courses, things),
             _mistakes(courses),
         ),
         _figures(courses, questions[0]),
@@ -109,23 +109,23 @@ def paper(
     )
 
 
-def _course(
+def _run_rounds(
     make: Make,
     lessons: Sequence[Sequence[Lesson]],
     questions: Sequence[Sequence[Lesson]],
     turned: Sequence[Lesson],
     step: Callable[[], None],
-) -> _Course:
+) -> _MethodAnswers:
     learner = make()
     rounds = []
     for some, asking in zip(lessons, questions, strict=True):
         for percept, word in some:
             learner.learn_one(percept, word)
-        rounds.append(asked(learner, asking, step))
-    return _Course(rounds, asked(learner, turned, step))
+        rounds.append(ask(learner, asking, step))
+    return _MethodAnswers(rounds, ask(learner, turned, step))
 
 
-def _scores(courses: Mapping[str, _Course]) -> Table:
+def _scores(courses: Mapping[str, _MethodAnswers]) -> Table:
     return Table(
         "Which thing is it?",
         (
@@ -145,7 +145,7 @@ def _scores(courses: Mapping[str, _Course]) -> Table:
     )
 
 
-def _score(course: _Course) -> tuple[Cell, ...]:
+def _score(course: _MethodAnswers) -> tuple[Cell, ...]:
     margins = [it.margin for it in course.means]
     return (
         right_cells(course.means)[0],
@@ -158,7 +158,7 @@ def _score(course: _Course) -> tuple[Cell, ...]:
     )
 
 
-def _by_round(courses: Mapping[str, _Course]) -> Table:
+def _by_round(courses: Mapping[str, _MethodAnswers]) -> Table:
     rows = tuple(
         (name, *(right_cells(answers)[0] for answers in course.rounds))
         for name, course in courses.items()
@@ -168,7 +168,7 @@ def _by_round(courses: Mapping[str, _Course]) -> Table:
     return Table("Right by round", ("method", *heads), rows)
 
 
-def _ranking(courses: Mapping[str, _Course], things: Sequence[str]) -> Table:
+def _rank_table(courses: Mapping[str, _MethodAnswers], things: Sequence[str]) -> Table:
     columns = {
         name: [
             f"{word} {margin:.2f}"
@@ -194,11 +194,11 @@ def _ranking(courses: Mapping[str, _Course], things: Sequence[str]) -> Table:
     )
 
 
-def _mistakes(courses: Mapping[str, _Course]) -> Table:
+def _mistakes(courses: Mapping[str, _MethodAnswers]) -> Table:
     rows = []
     for name, course in courses.items():
         kinds = (course.means, course.every, course.turned)
-        rows.append((name, *(mistaken(them) for them in kinds)))
+        rows.append((name, *(format_mistakes(them) for them in kinds)))
     return Table(
         "What was taken for what",
         ("method", "over the rounds", "in single questions", "turned"),
@@ -207,18 +207,18 @@ def _mistakes(courses: Mapping[str, _Course]) -> Table:
 
 
 def _figures(
-    courses: Mapping[str, _Course], questions: Sequence[Lesson]
+    courses: Mapping[str, _MethodAnswers], questions: Sequence[Lesson]
 ) -> tuple[Figure, ...]:
     """The answers and the margins of each method, and what was seen in a round."""
     confusions = (
-        confusion_figure(f"Answers of {name}, all rounds", course.every)
+        answers_figure(f"Answers of {name}, all rounds", course.every)
         for name, course in courses.items()
     )
     margins = (_margins(name, course) for name, course in courses.items())
     return *confusions, *margins, _pictures(questions, courses)
 
 
-def _margins(name: str, course: _Course) -> Figure:
+def _margins(name: str, course: _MethodAnswers) -> Figure:
     ranked = sorted(course.means, key=lambda it: -it.margin)
     by_word = {
         mean.word: [them[i].margin for them in course.rounds]
@@ -237,7 +237,9 @@ def _margins(name: str, course: _Course) -> Figure:
     )
 
 
-def _pictures(questions: Sequence[Lesson], courses: Mapping[str, _Course]) -> Figure:
+def _pictures(
+    questions: Sequence[Lesson], courses: Mapping[str, _MethodAnswers]
+) -> Figure:
     """The things as they were asked for in the first round, and what was answered."""
     first = {name: course.rounds[0] for name, course in courses.items()}
     shown = [
@@ -259,7 +261,7 @@ def _pictures(questions: Sequence[Lesson], courses: Mapping[str, _Course]) -> Fi
     )
 
 
-def _facts(course: _Course) -> dict[str, object]:
+def _facts(course: _MethodAnswers) -> dict[str, object]:
     return {
         "right": sum(it.right for it in course.means),
         "right_turned": sum(it.right for it in course.turned),
@@ -269,9 +271,9 @@ def _facts(course: _Course) -> dict[str, object]:
     }
 
 
-def _number(count: int) -> str:
+def _count_in_words(count: int) -> str:
     return "Ten" if count == 10 else str(count)
 
 
-def _many(count: int, noun: str) -> str:
+def _count_of(count: int, noun: str) -> str:
     return f"{count} {noun}{'s' * (count != 1)}"

@@ -82,29 +82,29 @@ def faults(phase: Phase, study: Study) -> Iterator[Problem]:
     """What is wrong with a phase in this study: its tutors and scenes do not fit."""
     key = ("what",) if "what" in phase.settings else ("do",)
     for scene in study.scenes.values():
-        yield from (Problem(key, it) for it in _unfit(phase, scene))
-    yield from (Problem(("to",), it) for it in _of_change(phase, study))
+        yield from ((key, it) for it in _scene_faults(phase, scene))
+    yield from ((("to",), it) for it in _successor_faults(phase, study))
     if phase.settings.get("turns") and "rounds" in phase.settings:
         told = "rounds and turns both say how much comes: write one of them"
         yield Problem(("turns",), told)
 
 
-def _unfit(phase: Phase, scene: Named) -> Iterator[str]:
+def _scene_faults(phase: Phase, scene: Named) -> Iterator[str]:
     """Why a phase cannot be done with a scene."""
     lacking = _LACKING.get(scene.kind, ())
     for what in (phase.do, phase.settings.get("what", "")):
         if what in lacking:
             yield f"{what} cannot be done with {scene.name}, which is {scene.kind}"
     asks = phase.do in ("ask", "practise")
-    if asks and phase.settings.get("what") == "relations" and _is_single(scene):
+    if asks and phase.settings.get("what") == "relations" and _has_one_kind(scene):
         told = f"there is one kind of thing in {scene.name}, and the robot does not say"
         yield f"{told} how it stands to its like: name two kinds"
-    if phase.do == "find" and (more := _more_to_see(phase, scene)):
+    if phase.do == "find" and (more := _settings_for_finding(phase, scene)):
         told = f"one thing at a time is in view in {scene.name}, and is found"
         yield f"{told} whatever is asked for: write {more}"
 
 
-def _of_change(phase: Phase, study: Study) -> Iterator[str]:
+def _successor_faults(phase: Phase, study: Study) -> Iterator[str]:
     """Why nobody else could go on."""
     if phase.do not in CHANGING:
         return
@@ -115,7 +115,7 @@ def _of_change(phase: Phase, study: Study) -> Iterator[str]:
         yield "there is no other tutor: write one more, or to = NAME"
 
 
-def _is_single(scene: Named) -> bool:
+def _has_one_kind(scene: Named) -> bool:
     """Whether a table has things of one kind only: a cup stands beside no cup.
 
     "The cup is to the left of the cup" says nothing, so that it is never said.
@@ -124,18 +124,18 @@ def _is_single(scene: Named) -> bool:
     return scene.kind == "drawn" and kinds is not None and len(kinds) < 2
 
 
-def _more_to_see(phase: Phase, scene: Named) -> str:
+def _settings_for_finding(phase: Phase, scene: Named) -> str:
     """What to write where things are shown one by one; nothing where they are not."""
     if scene.kind != "drawn":
         is_one = scene.kind in ("around", "statements")
         return 'kind = "drawn" and in_view = 4' if is_one else ""
     of = "new" if phase.settings.get("of") == "new" else "each"
-    if _count(scene, of) == 1:
+    if _count_things(scene, of) == 1:
         return f"{of} = 4 and in_view = 4"
     return "in_view = 4" if scene.settings.get("in_view", 1) == 1 else ""
 
 
-def _count(scene: Named, of: str) -> int:
+def _count_things(scene: Named, of: str) -> int:
     """How many things there are of `each` kind together, or of the `new` ones."""
     set_ = fill_settings(scene.settings, scenes.SETTINGS[scene.kind])
     return len(set_["kinds"]) * int(set_[of])
@@ -187,11 +187,11 @@ def _occasions(
     if phase.do in (*RESTING, *CHANGING):
         yield None, set_
         return
-    for occasion in _shown(phase, set_, run, scene):
+    for occasion in _occasions_of(phase, set_, run, scene):
         yield occasion, set_
 
 
-def _shown(
+def _occasions_of(
     phase: Phase, set_: dict[str, object], run: Run, scene: Scene
 ) -> Sequence[Occasion]:
     """The occasions of a phase: the same for every theory and every tutor."""

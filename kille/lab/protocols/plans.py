@@ -13,7 +13,7 @@ from kille.lab.results import ExperimentError, Progress, Result
 from kille.lab.theories.candidates import Make, MethodFailedError, Methods
 
 
-class Run(Shape):
+class RunProtocol(Shape):
     """A protocol whose data is settled: it measures these methods."""
 
     def __call__(self, methods: Methods, *, seed: int, progress: Progress) -> Result:
@@ -29,7 +29,7 @@ class Plan:
     """
 
     name: str
-    run: Run
+    run: RunProtocol
     usual: bool = True
     compares: tuple[str, ...] = ()
 
@@ -67,19 +67,19 @@ def object_plans(
     Without data it is the simulated table with the paper's ten things. ExperimentError
     and SensorError for data that nothing can be measured with.
     """
-    kind = None if data is None else _object_kind(data)
-    if (teach or ask) and kind is not _scenes:
+    kind = None if data is None else _plans_for_data(data)
+    if (teach or ask) and kind is not _scene_plans:
         raise ExperimentError(
             "scenes to teach or to ask are named for a folder of labelled scenes only"
         )
     if data is None or kind is None:
-        return _table()
-    if kind is _scenes:
-        return _scenes(data, teach, ask)
+        return _table_plans()
+    if kind is _scene_plans:
+        return _scene_plans(data, teach, ask)
     return kind(data)
 
 
-def chosen(
+def choose_plans(
     plans: Sequence[Plan], name: str | None, known: Mapping[str, str]
 ) -> list[Plan]:
     """The plan of this name, or the usual ones; ExperimentError if there is none.
@@ -102,7 +102,7 @@ def chosen(
     raise ExperimentError(f"there is no protocol {name}: {hint}")
 
 
-def run(
+def run_plan(
     plan: Plan,
     methods: Methods,
     *,
@@ -127,12 +127,12 @@ def run(
 # --- what data is --------------------------------------------------------------------
 
 
-def _object_kind(data: str) -> Callable[..., tuple[Plan, ...]]:
-    folder = _folder(data)
-    if kind := _kind_of(folder):
+def _plans_for_data(data: str) -> Callable[..., tuple[Plan, ...]]:
+    folder = _existing_folder(data)
+    if kind := _plans_for(folder):
         return kind
     inner = [it for it in sorted(folder.iterdir()) if it.is_dir()]
-    if known := [it.name for it in inner if _kind_of(it)]:
+    if known := [it.name for it in inner if _plans_for(it)]:
         named = ", ".join(f"{data.rstrip('/')}/{name}" for name in known)
         raise ExperimentError(f"{data} holds several collections, name one: {named}")
     if not any(folder.iterdir()):
@@ -140,22 +140,22 @@ def _object_kind(data: str) -> Callable[..., tuple[Plan, ...]]:
     raise ExperimentError(f"{data}: nothing here is known; expected {_KNOWN}")
 
 
-def _kind_of(folder: Path) -> Callable[..., tuple[Plan, ...]] | None:
+def _plans_for(folder: Path) -> Callable[..., tuple[Plan, ...]] | None:
     """What makes plans for what is in the folder, if it is known."""
     from kille.lab.scenes.galleries import is_gallery
     from kille.lab.scenes.labelled import is_scenes
     from kille.sensors.captures import description_of
 
     if is_scenes(folder):
-        return _scenes
+        return _scene_plans
     if description_of(folder) is not None:
-        return _captures
+        return _capture_plans
     if any(folder.glob("*.obj")) or any(folder.glob("*/*.obj")):
-        return _meshes
-    return _pictures if is_gallery(folder) else None
+        return _mesh_plans
+    return _picture_plans if is_gallery(folder) else None
 
 
-def _folder(data: str) -> Path:
+def _existing_folder(data: str) -> Path:
     folder = Path(data).expanduser()
     if folder.is_dir():
         return folder
@@ -167,18 +167,18 @@ def _folder(data: str) -> Path:
     raise ExperimentError(f"there is no {data}{hint}")
 
 
-def _table() -> tuple[Plan, ...]:
+def _table_plans() -> tuple[Plan, ...]:
     from kille.lab.protocols import objects, variations
 
     return (
         Plan("paper", objects.paper),
         Plan("rotation", variations.rotation),
         Plan("specimens", variations.specimens),
-        *_growth(),
+        *_growth_plans(),
     )
 
 
-def _meshes(data: str) -> tuple[Plan, ...]:
+def _mesh_plans(data: str) -> tuple[Plan, ...]:
     from kille.lab.protocols import objects, variations
     from kille.sensors.synthetic import obj_files
 
@@ -188,24 +188,26 @@ def _meshes(data: str) -> tuple[Plan, ...]:
     return (
         Plan("paper", partial(objects.paper, things=things, meshes=data)),
         Plan("rotation", partial(variations.rotation, things=things, meshes=data)),
-        *_growth(),
+        *_growth_plans(),
     )
 
 
-def _pictures(data: str) -> tuple[Plan, ...]:
-    from kille.lab.protocols import parted, shots
+def _picture_plans(data: str) -> tuple[Plan, ...]:
+    from kille.lab.protocols import picture_splits, shots
     from kille.lab.scenes.galleries import open_gallery
 
     gallery = open_gallery(Path(data).expanduser(), data)
     return (
-        Plan("even-odd", partial(parted.every_other, gallery)),
-        Plan("halves", partial(parted.halves, gallery)),
+        Plan("even-odd", partial(picture_splits.every_other, gallery)),
+        Plan("halves", partial(picture_splits.halves, gallery)),
         Plan("shots", partial(shots.shots, gallery), usual=gallery.least > 1),
-        *_growth(),
+        *_growth_plans(),
     )
 
 
-def _scenes(data: str, teach: Sequence[str], ask: Sequence[str]) -> tuple[Plan, ...]:
+def _scene_plans(
+    data: str, teach: Sequence[str], ask: Sequence[str]
+) -> tuple[Plan, ...]:
     from kille.lab.protocols import scenes
     from kille.lab.scenes import labelled
 
@@ -213,16 +215,16 @@ def _scenes(data: str, teach: Sequence[str], ask: Sequence[str]) -> tuple[Plan, 
     split = labelled.splits(found, teach, ask)
     return (
         Plan("scenes", partial(scenes.across, found, split)),
-        *_regions(data),
-        *_growth(),
+        *_region_plans(data),
+        *_growth_plans(),
     )
 
 
-def _captures(data: str) -> tuple[Plan, ...]:
-    return (*_regions(data), *_growth())
+def _capture_plans(data: str) -> tuple[Plan, ...]:
+    return (*_region_plans(data), *_growth_plans())
 
 
-def _regions(data: str) -> tuple[Plan, ...]:
+def _region_plans(data: str) -> tuple[Plan, ...]:
     from kille.lab.protocols.regions import captures, regions
     from kille.perception.segment import SEGMENTATIONS
 
@@ -235,7 +237,7 @@ def _regions(data: str) -> tuple[Plan, ...]:
     return (Plan("regions", measured, compares=tuple(SEGMENTATIONS)),)
 
 
-def _growth() -> tuple[Plan, ...]:
+def _growth_plans() -> tuple[Plan, ...]:
     from kille.lab.protocols.growth import growth
 
     return (Plan("growth", growth, usual=False),)
@@ -254,5 +256,5 @@ def relation_plans(data: str | None) -> tuple[Plan, ...]:
 
     if data is None:
         return (Plan("paper", spatial.paper),)
-    study = published_judgements.read(_folder(data))
+    study = published_judgements.read(_existing_folder(data))
     return (Plan("judgements", partial(judgements.judgements, study)),)

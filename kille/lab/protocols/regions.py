@@ -50,7 +50,7 @@ _INKS = np.array(
 
 
 @dataclass(frozen=True, eq=False)
-class Capture:
+class LabelledCapture:
     """A labelled frame on disk, and the kind of scene it is of."""
 
     kind: str
@@ -58,7 +58,7 @@ class Capture:
 
 
 @dataclass(frozen=True)
-class Score:
+class SegmentationScore:
     """What was found in one frame, or in several of them together.
 
     found: things with a region; given: regions; there: things; likely: regions of which
@@ -76,8 +76,8 @@ class Score:
     overlaps: tuple[float, ...] = ()
     errors: tuple[float, ...] = ()
 
-    def __add__(self, other: Score) -> Score:
-        return Score(
+    def __add__(self, other: SegmentationScore) -> SegmentationScore:
+        return SegmentationScore(
             self.found + other.found,
             self.given + other.given,
             self.there + other.there,
@@ -109,17 +109,17 @@ class Score:
         return _ratio(2 * self.found, self.likely + self.there)
 
 
-def score(regions: Sequence[Region], frame: Frame) -> Score:
+def score(regions: Sequence[Region], frame: Frame) -> SegmentationScore:
     """How well these regions are the labelled things of their frame.
 
     A thing's middle is the median of the points that were read within its outline.
     """
     outlines = list(frame.outlines.values())
     overlaps, labelled = _overlaps(regions, outlines)
-    pairs = [(i, j) for i, j in _matched(overlaps) if overlaps[i, j] >= _HALF]
+    pairs = [(i, j) for i, j in _match_regions(overlaps) if overlaps[i, j] >= _HALF]
     finders = {i for i, _ in pairs}
     enough = {i for i, share in enumerate(labelled) if share >= _LABELLED}
-    return Score(
+    return SegmentationScore(
         found=len(pairs),
         given=len(regions),
         there=len(outlines),
@@ -130,12 +130,13 @@ def score(regions: Sequence[Region], frame: Frame) -> Score:
         errors=tuple(
             error
             for i, j in pairs
-            if (error := _apart(regions[i], region_of(frame, outlines[j]))) is not None
+            if (error := _distance_between(regions[i], region_of(frame, outlines[j])))
+            is not None
         ),
     )
 
 
-def captures(folder: Path) -> tuple[Capture, ...]:
+def captures(folder: Path) -> tuple[LabelledCapture, ...]:
     """The labelled captures in a folder, or in its folders, in order.
 
     Their kind is what the description says, else the name of their folder.
@@ -152,16 +153,16 @@ def captures(folder: Path) -> tuple[Capture, ...]:
 
 
 def regions(
-    scenes: Sequence[Capture],
+    scenes: Sequence[LabelledCapture],
     ways: Mapping[str, Segmentation] = SEGMENTATIONS,
     *,
     progress: Progress = silent,
 ) -> Result:
     """How many things each way to segment finds, by kind of scene, and how exactly."""
     steps = Steps(progress, len(scenes))
-    scores: dict[str, dict[str, Score]] = {name: {} for name in ways}
+    scores: dict[str, dict[str, SegmentationScore]] = {name: {} for name in ways}
     times: dict[str, list[float]] = {name: [] for name in ways}
-    shown = _spread(len(scenes))
+    shown = _evenly_spread(len(scenes))
     pictures, captions, good = [], [], []
     for number, capture in enumerate(scenes):
         frame = capture.shot.read()
@@ -171,13 +172,15 @@ def regions(
             times[name].append(time.process_time() - start)
             one = score(found, frame)
             of_kind = scores[name]
-            of_kind[capture.kind] = of_kind.get(capture.kind, Score()) + one
+            of_kind[capture.kind] = of_kind.get(capture.kind, SegmentationScore()) + one
             if number in shown:
                 pictures.append(_picture(frame, found).tolist())
                 captions.append(f"{capture.shot.name}, {name}: {one.found}/{one.there}")
                 good.append(one.exact == 1)
         steps(f"looking at {capture.shot.name}")
-    totals = {name: sum(them.values(), Score()) for name, them in scores.items()}
+    totals = {
+        name: sum(them.values(), SegmentationScore()) for name, them in scores.items()
+    }
     return Result(
         "Are the things in view found?",
         (_by_kind(scores, totals), _exactness(totals, times)),
@@ -197,14 +200,14 @@ def regions(
     )
 
 
-def _captures(folder: Path) -> list[Capture]:
+def _captures(folder: Path) -> list[LabelledCapture]:
     description = description_of(folder)
     if description is None:
         return []
     read = read_sequence if is_sequence(description) else read_scenes
     kinds = parse_json(read_text(description, TABLE)).get("scenes", {})
     return [
-        Capture(str(kinds.get(shot.name, {}).get("kind", folder.name)), shot)
+        LabelledCapture(str(kinds.get(shot.name, {}).get("kind", folder.name)), shot)
         for shot in read(description)
         if shot.labels is not None and shot.things
     ]
@@ -224,7 +227,7 @@ def _overlaps(
     return both / np.maximum(sizes + true_sizes - both, 1), labelled
 
 
-def _matched(overlaps: NDArray[np.float64]) -> list[tuple[int, int]]:
+def _match_regions(overlaps: NDArray[np.float64]) -> list[tuple[int, int]]:
     """Regions and things, each at most once, with the largest sum of overlaps."""
     from scipy.optimize import linear_sum_assignment
 
@@ -232,14 +235,15 @@ def _matched(overlaps: NDArray[np.float64]) -> list[tuple[int, int]]:
     return list(zip(rows.tolist(), columns.tolist(), strict=True))
 
 
-def _apart(one: Region, other: Region) -> float | None:
+def _distance_between(one: Region, other: Region) -> float | None:
     if one.place is None or other.place is None:
         return None
     return float(np.linalg.norm(np.subtract(one.place, other.place)))
 
 
 def _by_kind(
-    scores: Mapping[str, Mapping[str, Score]], totals: Mapping[str, Score]
+    scores: Mapping[str, Mapping[str, SegmentationScore]],
+    totals: Mapping[str, SegmentationScore],
 ) -> Table:
     rows = [
         (kind, name, them.frames, them.there, *_rates(them))
@@ -259,7 +263,7 @@ def _by_kind(
     )
 
 
-def _rates(them: Score) -> tuple[Cell, ...]:
+def _rates(them: SegmentationScore) -> tuple[Cell, ...]:
     return (
         them.precision,
         them.recall,
@@ -270,7 +274,7 @@ def _rates(them: Score) -> tuple[Cell, ...]:
 
 
 def _exactness(
-    totals: Mapping[str, Score], times: Mapping[str, Sequence[float]]
+    totals: Mapping[str, SegmentationScore], times: Mapping[str, Sequence[float]]
 ) -> Table:
     return Table(
         "How exactly, and how quickly?",
@@ -290,7 +294,7 @@ def _exactness(
     )
 
 
-def _facts(them: Score) -> Mapping[str, float | int | None]:
+def _facts(them: SegmentationScore) -> Mapping[str, float | int | None]:
     off = 100 * np.array(them.errors)
     return {
         "frames": them.frames,
@@ -317,7 +321,7 @@ def _ratio(part: int, of: int) -> float:
     return part / of if of else 1.0
 
 
-def _spread(count: int) -> set[int]:
+def _evenly_spread(count: int) -> set[int]:
     """A few numbers below the count, evenly spread."""
     return {int(it) for it in np.linspace(0, max(count - 1, 0), _SHOWN)}
 

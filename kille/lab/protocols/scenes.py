@@ -13,13 +13,13 @@ from functools import partial
 from kille.lab.measures.statistics import auroc
 from kille.lab.progress import Steps
 from kille.lab.protocols.teaching import (
-    Answer,
-    asked,
-    confusion_figure,
+    ObjectAnswer,
+    answers_figure,
+    ask,
     mean_degrees,
     right_cells,
     share_right,
-    taught,
+    teach,
 )
 from kille.lab.results import (
     Cell,
@@ -35,7 +35,7 @@ from kille.lab.theories.candidates import Methods
 
 _SEEING = 0.5  # the share of the time that goes into seeing
 
-Answers = Mapping[tuple[Split, str], Sequence[Answer]]
+Answers = Mapping[tuple[Split, str], Sequence[ObjectAnswer]]
 """What each method answered, by the split and the method's name."""
 
 
@@ -48,7 +48,7 @@ def across(
     progress: Progress = silent,
 ) -> Result:
     """What is told apart of the taught things, and whether strangers are noticed."""
-    _see(scenes, chosen, progress)
+    _look_at_scenes(scenes, chosen, progress)
     answers = _answers(scenes, chosen, methods, progress)
     known = {split: known_in(scenes, split) for split in chosen}
     return Result(
@@ -76,7 +76,9 @@ def across(
     )
 
 
-def _see(scenes: LabelledScenes, chosen: Sequence[Split], progress: Progress) -> None:
+def _look_at_scenes(
+    scenes: Scenes, chosen: Sequence[Split], progress: Progress
+) -> None:
     """See every scene that is taught or asked."""
     needed = dict.fromkeys(it for split in chosen for it in (*split.teach, split.ask))
     steps = Steps(progress, len(needed), 0, _SEEING)
@@ -94,8 +96,8 @@ def _answers(
     count = sum(len(scenes.lessons(split.ask)) for split in chosen) * len(methods)
     steps = Steps(progress, count, _SEEING, 1)
     return {
-        (split, name): asked(
-            taught(make, (it for scene in split.teach for it in scenes.lessons(scene))),
+        (split, name): ask(
+            teach(make, (it for scene in split.teach for it in scenes.lessons(scene))),
             scenes.lessons(split.ask),
             partial(steps, f"{name}, {split}"),
         )
@@ -126,19 +128,19 @@ def _known_again(answers: Answers, known: Mapping[Split, set[str]]) -> Table:
     )
 
 
-def _by_thing(answers: Sequence[Answer]) -> list[Answer]:
+def _by_thing(answers: Sequence[ObjectAnswer]) -> list[ObjectAnswer]:
     words = dict.fromkeys(answer.word for answer in answers)
     return [mean_degrees([it for it in answers if it.word == word]) for word in words]
 
 
-def _auroc(answers: Sequence[Answer], known: set[str]) -> float:
+def _auroc(answers: Sequence[ObjectAnswer], known: set[str]) -> float:
     return auroc(
         [it.best for it in answers if it.word in known],
         [it.best for it in answers if it.word not in known],
     )
 
 
-def _scores(answers: Sequence[Answer], known: set[str]) -> tuple[Cell, ...]:
+def _scores(answers: Sequence[ObjectAnswer], known: set[str]) -> tuple[Cell, ...]:
     things = _by_thing(answers)
     right, share, _ = right_cells([it for it in answers if it.word in known])
     return (
@@ -150,7 +152,7 @@ def _scores(answers: Sequence[Answer], known: set[str]) -> tuple[Cell, ...]:
     )
 
 
-def _facts(answers: Sequence[Answer], known: set[str]) -> dict[str, object]:
+def _facts(answers: Sequence[ObjectAnswer], known: set[str]) -> dict[str, object]:
     things = _by_thing(answers)
     return {
         "taught": sorted(known),
@@ -190,25 +192,25 @@ def _open_set(split: Split, answers: Answers, known: set[str]) -> Table:
 
 
 def _figures(
-    split: Split, name: str, answers: Sequence[Answer], known: set[str]
+    split: Split, name: str, answers: Sequence[ObjectAnswer], known: set[str]
 ) -> list[Figure]:
     groups = {
         "taught": [it.best for it in answers if it.word in known],
         "strangers": [it.best for it in answers if it.word not in known],
     }
     points = {
-        group: {"x": sorted(them), "y": _rising(them)}
+        group: {"x": sorted(them), "y": _cumulative_shares(them)}
         for group, them in groups.items()
         if them
     }
     labels = {"xlabel": "best degree", "ylabel": "share at most so high"}
     return [
-        confusion_figure(f"{name}, {split}", answers),
+        answers_figure(f"{name}, {split}", answers),
         Figure(
             "points", f"Best degrees of {name}, {split}", {"series": points, **labels}
         ),
     ]
 
 
-def _rising(values: Sequence[float]) -> list[float]:
+def _cumulative_shares(values: Sequence[float]) -> list[float]:
     return [(place + 1) / len(values) for place in range(len(values))]

@@ -21,7 +21,7 @@ Vector = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Score:
+class Agreement:
     """Agreement with people: of ranks, of yes and no, and of these beyond chance.
 
     within: the mean agreement of ranks in each fold. Put together, folds cost a learner
@@ -35,7 +35,9 @@ class Score:
     within: float = float("nan")
 
 
-def taught(make: Callable[[], Any], lessons: Mapping[str, Sequence[Judged]]) -> Any:
+def teach_judgements(
+    make: Callable[[], Any], lessons: Mapping[str, Sequence[Judged]]
+) -> Any:
     """A learner that was told these judgements, if it takes any, or lessons of them."""
     learner = make()
     judge = getattr(learner, "judge_one", None)
@@ -48,7 +50,7 @@ def taught(make: Callable[[], Any], lessons: Mapping[str, Sequence[Judged]]) -> 
     return learner
 
 
-def _asked(learner: Any, word: str, them: Sequence[Judged]) -> tuple[Vector, Vector]:
+def _ask_word(learner: Any, word: str, them: Sequence[Judged]) -> tuple[Vector, Vector]:
     """What people said, and the learner."""
     said = [_degree(learner, word, it.x) for it in them]
     return np.array([it.degree for it in them]), np.array(said)
@@ -63,34 +65,31 @@ def _degree(learner: Any, word: str, x: Configuration) -> float:
     found = degrees.get(word, 0.0)
     if hasattr(learner, "degrees"):
         return found
-    return _rescaled(found, 1 / max(2, len(degrees)))
+    return _rescale(found, 1 / max(2, len(degrees)))
 
 
-def _rescaled(share: float, even: float) -> float:
+def _rescale(share: float, even: float) -> float:
     """.5 for an even share, keeping 0, 1 and the order."""
     if share <= even:
         return 0.5 * share / even
     return 0.5 + 0.5 * (share - even) / (1 - even)
 
 
-def _score(people: Vector, learner: Vector) -> Score:
+def _agreement(people: Vector, learner: Vector) -> Agreement:
     """Agreement; what people were evenly divided on counts for the ranks only."""
     told = people != 0.5
     ours, theirs = learner[told] > 0.5, people[told] > 0.5
     rank = spearman(people, learner)
-    return Score(
+    return Agreement(
         0.0 if np.isnan(rank) and np.ptp(people) > 0 else rank,
         float((ours == theirs).mean()) if len(ours) else float("nan"),
         kappa([str(it) for it in theirs], [str(it) for it in ours]),
     )
 
 
-def drawn(
-    study: JudgementStudy,
-    make: Callable[[], Any],
-    size: int,
-    chance: np.random.Generator,
-) -> dict[str, Score]:
+def agreement_after(
+    study: Study, make: Callable[[], Any], size: int, chance: np.random.Generator
+) -> dict[str, Agreement]:
     """Each word's score after so many lessons of each, drawn by chance."""
     lessons, asked = {}, {}
     for word, them in study.words.items():
@@ -98,8 +97,8 @@ def drawn(
         count = min(size, len(them) // 2)
         lessons[word] = [them[i] for i in order[:count]]
         asked[word] = [them[i] for i in order[count : count + _ASKED]]
-    learner = taught(make, lessons)
-    return {word: _score(*_asked(learner, word, asked[word])) for word in asked}
+    learner = teach_judgements(make, lessons)
+    return {word: _agreement(*_ask_word(learner, word, asked[word])) for word in asked}
 
 
 def _folds(study: JudgementStudy, seed: int) -> Iterator[tuple[set[str], set[str]]]:
@@ -115,47 +114,47 @@ def _group(it: Judged) -> str:
     return it.scene or str(it.x.offset)
 
 
-def _split(study: JudgementStudy, groups: set[str]) -> dict[str, list[Judged]]:
+def _judgements_of(study: Study, groups: set[str]) -> dict[str, list[Judged]]:
     return {
         word: [it for it in them if _group(it) in groups]
         for word, them in study.words.items()
     }
 
 
-def folded(
-    study: JudgementStudy, make: Callable[[], Any], seed: int
-) -> dict[str, Score]:
+def cross_validate(
+    study: Study, make: Callable[[], Any], seed: int
+) -> dict[str, Agreement]:
     """Each word's score when all but a fifth of the scenes are taught."""
     said: dict[str, list[tuple[Vector, Vector]]] = {word: [] for word in study.words}
     for teach, ask in _folds(study, seed):
-        learner = taught(make, _split(study, teach))
-        for word, them in _split(study, ask).items():
-            said[word].append(_asked(learner, word, them))
-    return {word: _pooled(pairs) for word, pairs in said.items()}
+        learner = teach_judgements(make, _judgements_of(study, teach))
+        for word, them in _judgements_of(study, ask).items():
+            said[word].append(_ask_word(learner, word, them))
+    return {word: _pool_folds(pairs) for word, pairs in said.items()}
 
 
-def _pooled(folds: Sequence[tuple[Vector, Vector]]) -> Score:
-    score = _score(*(np.concatenate(side) for side in zip(*folds, strict=True)))
-    ranks = [_score(*fold).spearman for fold in folds if len(fold[0])]
+def _pool_folds(folds: Sequence[tuple[Vector, Vector]]) -> Agreement:
+    score = _agreement(*(np.concatenate(side) for side in zip(*folds, strict=True)))
+    ranks = [_agreement(*fold).spearman for fold in folds if len(fold[0])]
     known = [it for it in ranks if not np.isnan(it)]
     return replace(score, within=float(np.mean(known)) if known else float("nan"))
 
 
-def hits(study: JudgementStudy, make: Callable[[], Any], seed: int) -> dict[int, float]:
+def score_choices(study: Study, make: Callable[[], Any], seed: int) -> dict[int, float]:
     """For each choice in a scene that was not taught: 1 if it is as people's.
 
     Ties of n targets count 1/n where the right one is among them.
     """
     found = {}
     for teach, _ in _folds(study, seed):
-        learner = taught(make, _split(study, teach))
+        learner = teach_judgements(make, _judgements_of(study, teach))
         for i, choice in enumerate(study.choices):
             if choice.scene not in teach and i not in found:
-                found[i] = _hit(learner, choice)
+                found[i] = _score_choice(learner, choice)
     return found
 
 
-def _hit(learner: Any, choice: Choice) -> float:
+def _score_choice(learner: Any, choice: Choice) -> float:
     degrees = [degrees_of(learner, x).get(choice.word, 0.0) for x in choice.targets]
     best = [i for i, it in enumerate(degrees) if it == max(degrees)]
     return (choice.chosen in best) / len(best)

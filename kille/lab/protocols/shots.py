@@ -12,16 +12,18 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from kille.lab.measures.statistics import Band, auroc, bootstrap, brier
+from kille.lab.measures.statistics import auroc, bootstrap, brier
 from kille.lab.progress import Steps
-from kille.lab.protocols.teaching import Answer, asked, share_right, taught
+from kille.lab.protocols.teaching import ObjectAnswer, ask, share_right, teach
 from kille.lab.results import (
     Cell,
+    Estimate,
     ExperimentError,
     Figure,
     Progress,
     Result,
     Table,
+    interval_series,
     silent,
 )
 from kille.lab.scenes.galleries import LOOKING, Categories, Gallery
@@ -33,14 +35,14 @@ SHOTS = (1, 3, 5, 10)
 _CATEGORIES = 10
 _ASKED = 6
 
-Answers = Mapping[str, Mapping[int, Sequence[Sequence[Answer]]]]
+Answers = Mapping[str, Mapping[int, Sequence[Sequence[ObjectAnswer]]]]
 """What each method answered in each run, by the number of pictures taught."""
 
 _Run = tuple[int, int, list[Lesson], list[Lesson]]
 """The number of a run, that of pictures taught of each, lessons and questions."""
 
-Curve = Mapping[int, tuple[float, Band]]
-"""The mean share right and its band, by the number of pictures taught."""
+Curve = Mapping[int, Estimate]
+"""The mean share right, by the number of pictures taught."""
 
 
 def shots(
@@ -64,7 +66,7 @@ def shots(
     return Result(
         "Words from few pictures",
         (_shares(gallery, curves, numbers, count), _calibration(found, numbers[-1])),
-        (_learning(curves, numbers),),
+        (_learning_curve(curves, numbers),),
         {
             "runs": RUNS,
             "shots": numbers,
@@ -76,7 +78,9 @@ def shots(
     )
 
 
-def _by_run(answers: Mapping[int, Sequence[Sequence[Answer]]]) -> dict[str, object]:
+def _by_run(
+    answers: Mapping[int, Sequence[Sequence[ObjectAnswer]]],
+) -> dict[str, object]:
     """The share right in each run, by the number of pictures taught."""
     return {
         str(number): [share_right(run) for run in runs]
@@ -88,12 +92,12 @@ def _answers(
     runs: Iterable[_Run], numbers: Sequence[int], methods: Methods, progress: Progress
 ) -> Answers:
     steps = Steps(progress, RUNS * len(numbers) * len(methods), LOOKING, 1)
-    found: dict[str, dict[int, list[list[Answer]]]] = {
+    found: dict[str, dict[int, list[list[ObjectAnswer]]]] = {
         name: {number: [] for number in numbers} for name in methods
     }
     for run, number, lessons, questions in runs:
         for name, make in methods.items():
-            found[name][number].append(asked(taught(make, lessons), questions))
+            found[name][number].append(ask(teach(make, lessons), questions))
             steps(f"{name}, {number} of each, run {run + 1} of {RUNS}")
     return found
 
@@ -104,7 +108,7 @@ def _runs(
     """The lessons and questions of each run, for each number of pictures taught."""
     for run in range(RUNS):
         # Runs of different seeds have no draw in common.
-        drawn = _drawn(gallery, np.random.default_rng(RUNS * seed + run))
+        drawn = _draw_pictures(gallery, np.random.default_rng(RUNS * seed + run))
         questions = gallery.lessons({w: them[-count:] for w, them in drawn.items()})
         for number in numbers:
             lessons = gallery.lessons({w: them[:number] for w, them in drawn.items()})
@@ -122,27 +126,30 @@ def _shares(
     others = "other" if count == 1 else "others"
     return Table(
         f"Share right of {_categories(gallery)} categories, by pictures taught of each",
-        ("method", *(_heading(number) for number in numbers)),
+        ("method", *(_count_pictures(number) for number in numbers)),
         tuple(_curve_row(name, curve) for name, curve in curves.items()),
-        f"Mean of {RUNS} runs and its 95 % band (bootstrap); {count} {others} of each "
-        f"category asked. {gallery.note}".strip(),
+        f"Mean of {RUNS} runs and its 95 % confidence interval (bootstrap); {count} "
+        f"{others} of each category asked. {gallery.note}".strip(),
     )
 
 
-def _learning(curves: Mapping[str, Curve], numbers: Sequence[int]) -> Figure:
+def _learning_curve(curves: Mapping[str, Curve], numbers: Sequence[int]) -> Figure:
     return Figure(
         "curves",
         "Learning curve",
         {
             "x": numbers,
-            "series": {name: _series(it) for name, it in curves.items()},
+            "series": {
+                name: interval_series([*curve.values()], "mean")
+                for name, curve in curves.items()
+            },
             "xlabel": "pictures taught of each category",
             "ylabel": "share right",
         },
     )
 
 
-def _drawn(gallery: Gallery, chance: np.random.Generator) -> Categories:
+def _draw_pictures(gallery: Gallery, chance: np.random.Generator) -> Categories:
     words = sorted(gallery.categories)
     if len(words) > _CATEGORIES:
         words = sorted(chance.choice(words, _CATEGORIES, replace=False).tolist())
@@ -154,29 +161,21 @@ def _drawn(gallery: Gallery, chance: np.random.Generator) -> Categories:
 
 
 def _over_runs(
-    runs: Sequence[Sequence[Answer]], chance: np.random.Generator
-) -> tuple[float, Band]:
+    runs: Sequence[Sequence[ObjectAnswer]], chance: np.random.Generator
+) -> Estimate:
     shares = [share_right(run) for run in runs]
-    return float(np.mean(shares)), bootstrap(shares, chance)
+    return Estimate(float(np.mean(shares)), *bootstrap(shares, chance))
 
 
-def _heading(number: int) -> str:
+def _count_pictures(number: int) -> str:
     return f"{number} picture{'s' * (number > 1)}"
 
 
 def _curve_row(name: str, curve: Curve) -> tuple[Cell, ...]:
     return (
         name,
-        *(f"{mean:.3f} ({low:.2f}–{high:.2f})" for mean, (low, high) in curve.values()),
+        *(f"{it.value:.3f} ({it.low:.2f}–{it.high:.2f})" for it in curve.values()),
     )
-
-
-def _series(curve: Curve) -> dict[str, list[float]]:
-    return {
-        "mean": [mean for mean, _ in curve.values()],
-        "low": [low for _, (low, _) in curve.values()],
-        "high": [high for _, (_, high) in curve.values()],
-    }
 
 
 def _calibration(found: Answers, number: int) -> Table:
@@ -198,7 +197,7 @@ def _calibration(found: Answers, number: int) -> Table:
             )
         )
     return Table(
-        f"Can degrees be relied on, after {_heading(number)} of each?",
+        f"Can degrees be relied on, after {_count_pictures(number)} of each?",
         ("method", "degree of .5 or more", "right of these", "AUROC", "Brier"),
         tuple(rows),
         "AUROC: how likely a right answer has a higher degree than a wrong one.",

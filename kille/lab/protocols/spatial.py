@@ -15,19 +15,19 @@ from typing import Any
 
 import numpy as np
 
-from kille.lab.measures.statistics import kappa_of_margins
+from kille.lab.measures.statistics import kappa_of_margins, mean_and_range
 from kille.lab.protocols.causes import (
     CAUSES,
     ROUNDS,
     TABLE,
     Cause,
-    Measured,
-    configured,
-    played,
-    scenes,
+    RunScores,
+    configuration_at,
+    placements,
+    play_protocol,
 )
-from kille.lab.protocols.staged import staged
-from kille.lab.results import Cell, Figure, Progress, Result, Table
+from kille.lab.protocols.rendered_scenes import play_rendered_scenes
+from kille.lab.results import Cell, Figure, Progress, Result, Table, interval_series
 from kille.lab.tutors.spatial_judges import WORDS, Person
 from kille.perception.learners import Learner
 from kille.scene import Configuration
@@ -46,12 +46,12 @@ def paper(
     causes: Sequence[Cause] = CAUSES,
 ) -> Result:
     """The paper's spatial protocol under each of the causes, for each method."""
-    found: dict[tuple[str, str], list[Measured]] = {}
+    found: dict[tuple[str, str], list[RunScores]] = {}
     for step, cause in enumerate(causes):
         progress(0.9 * step / len(causes), cause.name)
         for name, make in methods.items():
             found[cause.name, name] = [
-                played(make, cause, np.random.default_rng([seed, run]))
+                play_protocol(make, cause, np.random.default_rng([seed, run]))
                 for run in range(runs)
             ]
     names = list(methods)
@@ -61,8 +61,10 @@ def paper(
         tables=(
             _agreement(found, first, names),
             _why(found, [it.name for it in causes], names),
-            published(),
-            staged(methods, seed=seed, progress=partial(_within, progress, 0.9)),
+            published_agreement(),
+            play_rendered_scenes(
+                methods, seed=seed, progress=partial(_report_within, progress, 0.9)
+            ),
         ),
         figures=(
             *(_bars(found, [it.name for it in causes], name) for name in names),
@@ -82,11 +84,11 @@ def paper(
     )
 
 
-def _within(progress: Progress, start: float, share: float, doing: str) -> None:
+def _report_within(progress: Progress, start: float, share: float, doing: str) -> None:
     progress(start + (1 - start) * share, doing)
 
 
-def published() -> Table:
+def published_agreement() -> Table:
     """The paper's own numbers: kappa rebuilt from agreement seen and by chance."""
     return Table(
         title="What the paper published",
@@ -110,7 +112,7 @@ def published() -> Table:
 
 
 def _agreement(
-    found: Mapping[tuple[str, str], Sequence[Measured]],
+    found: Mapping[tuple[str, str], Sequence[RunScores]],
     cause: str,
     names: Sequence[str],
 ) -> Table:
@@ -141,7 +143,7 @@ def _agreement(
 
 
 def _why(
-    found: Mapping[tuple[str, str], Sequence[Measured]],
+    found: Mapping[tuple[str, str], Sequence[RunScores]],
     causes: Sequence[str],
     names: Sequence[str],
 ) -> Table:
@@ -163,25 +165,24 @@ def _why(
     )
 
 
-def _mean(runs: Sequence[Measured], which: str) -> float:
+def _mean(runs: Sequence[RunScores], which: str) -> float:
     return float(np.mean([getattr(it, which) for it in runs]))
 
 
 def _bars(
-    found: Mapping[tuple[str, str], Sequence[Measured]],
+    found: Mapping[tuple[str, str], Sequence[RunScores]],
     causes: Sequence[str],
     name: str,
 ) -> Figure:
-    kappas = [[it.robot for it in found[cause, name]] for cause in causes]
-    bands = [np.quantile(it, [0.1, 0.9]).tolist() for it in kappas]
+    kappas = [
+        mean_and_range([it.robot for it in found[cause, name]]) for cause in causes
+    ]
     return Figure(
         kind="bars",
         title=f"Kappa of judges and robot by cause: {name}",
         data={
             "labels": list(causes),
-            "values": [float(np.mean(it)) for it in kappas],
-            "low": [low for low, _ in bands],
-            "high": [high for _, high in bands],
+            **interval_series(kappas),
             "ylabel": "kappa (bars: 80 % of the runs)",
         },
     )
@@ -191,11 +192,11 @@ def _map(name: str, make: Callable[[], Learner[Any]], seed: int) -> Figure:
     """The degree of each word around the landmark after 48 lessons."""
     chance = np.random.default_rng([seed, 0])
     learner, tutor = make(), Person()
-    for key, scene in enumerate(scenes(CAUSES[0], ROUNDS, chance, 0.0)):
+    for key, scene in enumerate(placements(CAUSES[0], ROUNDS, chance, 0.0)):
         learner.learn_one(scene.seen, tutor.says(scene.true, chance), key=key)
     spots = np.linspace(-TABLE, TABLE, 25).tolist()
     degrees = [
-        [degrees_of(learner, configured(right, away)) for right in spots]
+        [degrees_of(learner, configuration_at(right, away)) for right in spots]
         for away in spots
     ]
     return Figure(

@@ -1,4 +1,4 @@
-"""Teaching a learner and asking it: what the protocols for objects have in common."""
+"""Teaching a learner and asking it, for all protocols for objects."""
 
 from __future__ import annotations
 
@@ -8,18 +8,19 @@ from typing import Any
 
 import numpy as np
 
+from kille.lab.measures.confusion_figures import confusion_figure
 from kille.lab.measures.statistics import accuracy, margin, wilson
-from kille.lab.results import Figure
-from kille.lab.scenes.stills import Lesson
+from kille.lab.results import Estimate, Figure
+from kille.lab.scenes.lessons import Lesson
 from kille.lab.theories.candidates import Make
 
 NOTHING = "nothing known"
-"""How the answer is called of who knows no word for a thing."""
+"""The answer of a learner that knows no word for a thing."""
 
 
 @dataclass(frozen=True)
-class Answer:
-    """The degrees of the words for a thing, and the right word for it."""
+class ObjectAnswer:
+    """A learner's degrees of the words for a thing, and the right word for it."""
 
     word: str
     degrees: Mapping[str, float]
@@ -38,7 +39,7 @@ class Answer:
 
     @property
     def right(self) -> bool:
-        """Whether what is said is the right word."""
+        """Is what is said the right word?"""
         return self.said == self.word
 
     @property
@@ -47,84 +48,80 @@ class Answer:
         return margin(self.degrees, self.word)
 
 
-def taught(make: Make, lessons: Iterable[Lesson]) -> Any:
-    """A learner that was taught these in this order."""
+def teach(make: Make, lessons: Iterable[Lesson]) -> Any:
+    """A new learner that was taught these lessons in this order."""
     learner = make()
     for percept, word in lessons:
         learner.learn_one(percept, word)
     return learner
 
 
-def asked(
+def ask(
     learner: Any, questions: Sequence[Lesson], step: Callable[[], None] = lambda: None
-) -> list[Answer]:
-    """Its answers; `step` is called after each."""
+) -> list[ObjectAnswer]:
+    """The answers of a learner to these questions; `step` is called after each."""
     answers = []
     for percept, word in questions:
-        answers.append(Answer(word, learner.predict_proba_one(percept)))
+        answers.append(ObjectAnswer(word, learner.predict_proba_one(percept)))
         step()
     return answers
 
 
-def mean_degrees(answers: Sequence[Answer]) -> Answer:
-    """The answers to one question, asked several times, as one: their means."""
+def mean_degrees(answers: Sequence[ObjectAnswer]) -> ObjectAnswer:
+    """The answers to one question, asked several times, as one: their mean degrees."""
     words = sorted({word for answer in answers for word in answer.degrees})
     means = {
         word: float(np.mean([answer.degrees.get(word, 0.0) for answer in answers]))
         for word in words
     }
-    return Answer(answers[0].word, means)
+    return ObjectAnswer(answers[0].word, means)
 
 
-def share_right(answers: Sequence[Answer]) -> float:
+def share_right(answers: Sequence[ObjectAnswer]) -> float:
     """The share of the answers that are right."""
     return accuracy([it.word for it in answers], [it.said for it in answers])
 
 
-def right_cells(answers: Sequence[Answer]) -> tuple[str, float, str]:
-    """Three cells: how many of how many are right, their share, its band."""
+def estimate_right(answers: Sequence[ObjectAnswer]) -> Estimate:
+    """The share of the answers that are right, with its confidence interval."""
     right = sum(answer.right for answer in answers)
-    band = wilson(right, len(answers))
+    return Estimate(share_right(answers), *wilson(right, len(answers)))
+
+
+def right_cells(answers: Sequence[ObjectAnswer]) -> tuple[str, float, str]:
+    """Three cells: how many of how many are right, their share, its interval."""
+    share = estimate_right(answers)
     return (
-        f"{right} of {len(answers)}",
-        share_right(answers),
-        f"{percent(band[0])}–{percent(band[1])}",
+        f"{sum(answer.right for answer in answers)} of {len(answers)}",
+        share.value,
+        f"{_percent(share.low)}–{_percent(share.high)}",
     )
 
 
-def percent(share: float) -> str:
-    """A share as people write it.
+def _percent(share: float) -> str:
+    """Format a share as people write it.
 
-    >>> percent(0.834)
+    >>> _percent(0.834)
     '83 %'
     """
     return f"{share:.0%}".replace("%", " %")
 
 
-def confusion_figure(title: str, answers: Sequence[Answer]) -> Figure:
-    """Which words were answered for which; a column more if nothing was, now and then.
+def answers_figure(title: str, answers: Sequence[ObjectAnswer]) -> Figure:
+    """The confusions of these answers, in which *nothing known* comes last.
 
-    >>> answers = [Answer("cup", {"cup": 0.6}), Answer("car", {"cup": 0.5})]
-    >>> confusion_figure("two", answers).data["counts"]
+    >>> answers = [ObjectAnswer("cup", {"cup": 0.6}), ObjectAnswer("car", {"cup": 0.5})]
+    >>> answers_figure("two", answers).data["counts"]
     [[1, 0], [1, 0]]
     """
-    words = list(dict.fromkeys(answer.word for answer in answers))
-    said = {answer.said for answer in answers}
-    others = sorted(said - {*words, NOTHING})
-    columns = [*words, *others, *([NOTHING] if NOTHING in said else [])]
-    counts = [
-        [sum(it.word == word and it.said == one for it in answers) for one in columns]
-        for word in words
-    ]
-    return Figure(
-        "confusion", title, {"labels": words, "columns": columns, "counts": counts}
-    )
+    right, said = [it.word for it in answers], [it.said for it in answers]
+    return confusion_figure(title, list(dict.fromkeys(right)), right, said, NOTHING)
 
 
-def mistaken(answers: Sequence[Answer]) -> str:
-    """What was taken for what, each mistake once, with how often it was made.
+def format_mistakes(answers: Sequence[ObjectAnswer]) -> str:
+    """Format what was taken for what, each mistake once with how often it was made.
 
-    >>> mistaken([Answer("cap", {"cup": 0.6}), Answer("cap", {"cup": 0.5})])
+    >>> format_mistakes([ObjectAnswer("cap", {"cup": 0.6})] * 2)
     'cap → cup (2)'
     """
     mistakes = [f"{it.word} → {it.said}" for it in answers if not it.right]

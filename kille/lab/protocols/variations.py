@@ -9,20 +9,28 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from kille.lab.measures.statistics import wilson
 from kille.lab.progress import Steps
 from kille.lab.protocols.teaching import (
-    Answer,
-    asked,
-    confusion_figure,
-    mistaken,
+    ObjectAnswer,
+    answers_figure,
+    ask,
+    estimate_right,
+    format_mistakes,
     right_cells,
     share_right,
-    taught,
+    teach,
 )
-from kille.lab.results import Cell, Figure, Progress, Result, Table, silent
-from kille.lab.scenes.shown_things import LOOKING, OnTable, show_each
-from kille.lab.scenes.stills import Lesson
+from kille.lab.results import (
+    Cell,
+    Figure,
+    Progress,
+    Result,
+    Table,
+    interval_series,
+    silent,
+)
+from kille.lab.scenes.lessons import Lesson
+from kille.lab.scenes.shown_things import LOOKING, OnTable, each_shown
 from kille.lab.theories.candidates import Make, Methods
 from kille.sensors.synthetic.catalogue import TOY_NAMES
 
@@ -31,7 +39,7 @@ ANGLES = tuple(range(0, 181, 15))
 _FEW = 3  # scans of a look, where the paper's ten would take minutes
 _TAUGHT, _ASKED = (0, 1), (2, 3, 4, 5)  # specimens of each kind
 
-Answers = Mapping[str, Mapping[int, Sequence[Answer]]]
+Answers = Mapping[str, Mapping[int, Sequence[ObjectAnswer]]]
 """What each method answered, by the angle things were turned by."""
 
 
@@ -53,13 +61,13 @@ def rotation(
     }
     steps = Steps(progress, len(methods) * len(ANGLES) * len(things), LOOKING, 1)
     answers = {
-        name: _at_angles(make, lessons, questions, partial(steps, name))
+        name: _ask_at_angles(make, lessons, questions, partial(steps, name))
         for name, make in methods.items()
     }
     return Result(
         "Turned things",
-        (_turned(answers, len(things)),),
-        (_by_angle(answers),),
+        (_turned_table(answers, len(things)),),
+        (_angle_figure(answers),),
         {
             "angles": list(ANGLES),
             "methods": {
@@ -70,7 +78,7 @@ def rotation(
     )
 
 
-def _turned(answers: Answers, things: int) -> Table:
+def _turned_table(answers: Answers, things: int) -> Table:
     """The share right at every third angle."""
     told = ANGLES[::3]
     rows: tuple[tuple[Cell, ...], ...] = tuple(
@@ -85,38 +93,30 @@ def _turned(answers: Answers, things: int) -> Table:
     )
 
 
-def _by_angle(answers: Answers) -> Figure:
+def _angle_figure(answers: Answers) -> Figure:
     return Figure(
         "curves",
         "Share right of things that are turned",
         {
             "x": list(ANGLES),
-            "series": {name: _curve(them) for name, them in answers.items()},
+            "series": {
+                name: interval_series([*map(estimate_right, them.values())], "mean")
+                for name, them in answers.items()
+            },
             "xlabel": "turned by, degrees",
             "ylabel": "share right",
         },
     )
 
 
-def _at_angles(
+def _ask_at_angles(
     make: Make,
     lessons: Sequence[Lesson],
     questions: Mapping[int, Sequence[Lesson]],
     step: Callable[[], None],
-) -> dict[int, list[Answer]]:
-    learner = taught(make, lessons)
-    return {angle: asked(learner, them, step) for angle, them in questions.items()}
-
-
-def _curve(by_angle: Mapping[int, Sequence[Answer]]) -> dict[str, list[float]]:
-    bands = [
-        wilson(sum(it.right for it in them), len(them)) for them in by_angle.values()
-    ]
-    return {
-        "mean": [share_right(them) for them in by_angle.values()],
-        "low": [low for low, _ in bands],
-        "high": [high for _, high in bands],
-    }
+) -> dict[int, list[ObjectAnswer]]:
+    learner = teach(make, lessons)
+    return {angle: ask(learner, them, step) for angle, them in questions.items()}
 
 
 # --- other things of the same kind ---------------------------------------------------
@@ -130,11 +130,12 @@ def specimens(methods: Methods, *, seed: int, progress: Progress = silent) -> Re
     questions = _of_each_kind(_ASKED, seed, steps, "new things")
     steps = Steps(progress, len(methods) * len(questions), LOOKING, 1)
     answers = {
-        name: asked(taught(make, lessons), questions, partial(steps, name))
+        name: ask(teach(make, lessons), questions, partial(steps, name))
         for name, make in methods.items()
     }
     rows = [
-        (name, *right_cells(them), mistaken(them)) for name, them in answers.items()
+        (name, *right_cells(them), format_mistakes(them))
+        for name, them in answers.items()
     ]
     return Result(
         "New things of a known kind",
@@ -148,7 +149,7 @@ def specimens(methods: Methods, *, seed: int, progress: Progress = silent) -> Re
             ),
         ),
         tuple(
-            confusion_figure(f"New things, answers of {name}", them)
+            answers_figure(f"New things, answers of {name}", them)
             for name, them in answers.items()
         ),
         {"methods": {name: share_right(them) for name, them in answers.items()}},

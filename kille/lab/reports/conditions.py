@@ -6,14 +6,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from kille.lab.measures.measures import Measure
-from kille.lab.measures.scored_dialogues import Dialogue
+from kille.lab.measures.scored_dialogues import ScoredDialogue
 from kille.lab.reports.controls import against_the_first
 from kille.lab.reports.figure_styles import HUES
-from kille.lab.reports.findings import Theories, estimated
+from kille.lab.reports.findings import Theories, estimate_measure
 from kille.lab.reports.links import Places
 from kille.lab.reports.repeated_tests import in_phase, main_of, phases_of
-from kille.lab.reports.row_figures import in_rows
-from kille.lab.reports.short_names import short
+from kille.lab.reports.row_figures import row_figures
+from kille.lab.reports.short_names import shorten_names
 from kille.lab.results import Cell, Estimate, Figure, Result, Table
 
 _ROBOT, _PEOPLE = "κ robot–tutor", "κ tutor–judge"
@@ -37,8 +37,8 @@ _ROWS = 48
 """Of more phases and conditions, the last phase alone is told."""
 
 _Key: TypeAlias = tuple[str, ...]
-_Parts: TypeAlias = dict[str, dict[_Key, list[Dialogue]]]
-_Heads: TypeAlias = Mapping[str, Callable[[Dialogue], str]]
+_Parts: TypeAlias = dict[str, dict[_Key, list[ScoredDialogue]]]
+_Heads: TypeAlias = Mapping[str, Callable[[ScoredDialogue], str]]
 
 _TUTOR: _Heads = {"tutor": lambda it: it.run.tutor}
 _SCENE: _Heads = {"scene": lambda it: it.run.scene}
@@ -119,7 +119,7 @@ def _table(
     keys = _keys(parts)
     for measure in measures:
         found = {
-            key: [estimated(measure, of.get(key, ())) for of in parts.values()]
+            key: [estimate_measure(measure, of.get(key, ())) for of in parts.values()]
             for key in keys
         }
         if len({it.value for of in found.values() for it in of}) == 1:
@@ -165,7 +165,7 @@ def _by_phase(
         for key in keys:
             for column, name in enumerate(parts, start=1 + len(key)):
                 links[len(rows), column] = _place(places, name, heads, key)
-            told = (estimated(main, of.get(key, ())) for of in parts.values())
+            told = (estimate_measure(main, of.get(key, ())) for of in parts.values())
             rows.append((phase, *key, *told))
     yield Table(title, ("phase", *heads, *theories), tuple(rows), "", links)
 
@@ -194,7 +194,7 @@ _Estimates: TypeAlias = Mapping[str, Mapping[_Key, Estimate]]
 def _estimates(parts: _Parts, measure: Measure) -> _Estimates:
     keys = _keys(parts)
     return {
-        name: {key: estimated(measure, of.get(key, ())) for key in keys}
+        name: {key: estimate_measure(measure, of.get(key, ())) for key in keys}
         for name, of in parts.items()
     }
 
@@ -203,10 +203,10 @@ def _drawn(title: str, found: _Estimates, xlabel: str) -> Iterator[Figure]:
     keys = list(dict.fromkeys(key for of in found.values() for key in of))
     if not 1 < len(keys) <= _DRAWN:
         return
-    called = short(part for key in keys for part in key)
+    called = shorten_names(part for key in keys for part in key)
     labels = [", ".join(called[part] for part in key) for key in keys]
     series = {name: [of[key] for key in keys] for name, of in found.items()}
-    yield from in_rows(title, labels, series, {"xlabel": xlabel})
+    yield from row_figures(title, labels, series, {"xlabel": xlabel})
 
 
 def _agreement(by: str, parts: _Parts, measures: Sequence[Measure]) -> Iterator[Figure]:

@@ -18,10 +18,17 @@ from kille.lab.measures.measures import ACCURACY, Measure
 from kille.lab.measures.power import POWER, least_difference, power_of, runs_needed
 from kille.lab.reports.findings import Theories
 from kille.lab.reports.links import Places
-from kille.lab.reports.result_pages import shown
-from kille.lab.reports.row_figures import in_rows
-from kille.lab.reports.short_names import short
-from kille.lab.results import Cell, Estimate, Figure, Result, Table
+from kille.lab.reports.row_figures import row_figures
+from kille.lab.reports.short_names import shorten_names
+from kille.lab.results import (
+    UNKNOWN,
+    Cell,
+    Estimate,
+    Figure,
+    Result,
+    Table,
+    format_cell,
+)
 
 _SEED = 2  # of the chance by which pairs are drawn anew and exchanged
 _MAIN = ACCURACY.name
@@ -119,7 +126,7 @@ def _sentence(it: Contrast, p: float, measure: str) -> str:
 def told_by(difference: Difference, p: float) -> str:
     """A difference, with its band and how likely it is by chance, in a sentence."""
     estimate = agreeing(difference.estimate, p)
-    return f"{shown(estimate)} (p = {told_p(p)})".replace("= <", "<")
+    return f"{format_cell(estimate)} (p = {told_p(p)})".replace("= <", "<")
 
 
 def agreeing(estimate: Estimate, p: float) -> Estimate:
@@ -282,16 +289,15 @@ def _figures(found: Sequence[Contrast]) -> tuple[Figure, ...]:
     series = {
         name: [_estimate(it.differences.get(name)) for it in pairs] for name in shares
     }
-    called = short(name for it in pairs for name in (it.one, it.other))
+    called = shorten_names(name for it in pairs for name in (it.one, it.other))
     labels = [_on_two_lines(called[it.other], called[it.one]) for it in pairs]
     told = {"xlabel": "difference", "zero": 0.0}
-    return tuple(in_rows("Differences", labels, series, told))
+    return tuple(row_figures("Differences", labels, series, told))
 
 
 def _estimate(difference: Difference | None) -> Estimate:
-    nothing = Estimate(float("nan"), float("nan"), float("nan"))
     if difference is None:
-        return nothing
+        return UNKNOWN
     return agreeing(difference.estimate, difference.p)
 
 

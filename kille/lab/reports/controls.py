@@ -10,7 +10,7 @@ import numpy as np
 
 from kille.lab.measures.comparison import Difference, differences, in_pairs
 from kille.lab.measures.measures import Measure
-from kille.lab.measures.scored_dialogues import Dialogue
+from kille.lab.measures.scored_dialogues import ScoredDialogue
 from kille.lab.reports.contrasts import (
     CHANCE,
     CORRECTED,
@@ -131,7 +131,7 @@ def _tested(difference: Difference, p: float) -> tuple[Cell, ...]:
 def _one(
     what: str,
     theory: str,
-    dialogues: Sequence[Dialogue],
+    dialogues: Sequence[ScoredDialogue],
     names: tuple[str, str],
     measures: Sequence[Measure],
     places: Places,
@@ -147,7 +147,9 @@ def _one(
         yield _Told(theory, measure, *names, difference, place(theory, names[1]))
 
 
-def _without(what: str, dialogues: Sequence[Dialogue], name: str) -> list[Dialogue]:
+def _without(
+    what: str, dialogues: Sequence[ScoredDialogue], name: str
+) -> list[ScoredDialogue]:
     """The dialogues of a tutor or scene, as if there were no other."""
     return [
         replace(it, run=_run(what, it.run))

@@ -8,12 +8,12 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from kille.lab.measures.measures import ACCURACY, Measure, Vector, ratio
-from kille.lab.measures.scored_dialogues import Dialogue, parted
-from kille.lab.reports.findings import Theories, estimated
+from kille.lab.measures.scored_dialogues import ScoredDialogue, split_dialogues
+from kille.lab.reports.findings import Theories, estimate_measure
 from kille.lab.reports.repeated_tests import Tests, called, phases_of
-from kille.lab.reports.row_figures import as_drawn, bands
-from kille.lab.reports.short_names import short
-from kille.lab.results import Figure
+from kille.lab.reports.row_figures import interval_note
+from kille.lab.reports.short_names import shorten_names
+from kille.lab.results import Figure, interval_series
 
 
 def costs(theories: Theories, tests: Tests) -> Iterator[Figure]:
@@ -43,7 +43,7 @@ _NOTE = "Words are those of one dialogue."
 def said_before(phase: str) -> Measure:
     """How many words the tutor has said in a dialogue when a phase begins."""
 
-    def tally(dialogue: Dialogue) -> Vector:
+    def tally(dialogue: ScoredDialogue) -> Vector:
         words = 0
         for effort in dialogue.efforts:
             if effort.phase == phase:
@@ -72,34 +72,41 @@ def _by_tutors(series: _Series, phase: str) -> Figure:
     title += ", by tutor" if len(tutors) > 1 else ""
     if len(tutors) < 2 or sum(len(it["x"]) for it in series.values()) > _LABELLED:
         series = {name: {**it, "labels": []} for name, it in series.items()}
-    told = bands(low for it in series.values() for low in (*it["x_low"], *it["y_low"]))
+    told = interval_note(
+        low for it in series.values() for low in (*it["x_low"], *it["y_low"])
+    )
     return Figure("points", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
 
 
 def _by_phase(theories: Theories, phases: Sequence[str]) -> Figure:
     series: dict[str, Any] = {}
     for name, them in theories.items():
-        parts = parted(them, lambda it: it.phase if it.is_word else "")
+        parts = split_dialogues(them, lambda it: it.phase if it.is_word else "")
         known = [phase for phase in phases if phase in parts]
-        right = [estimated(ACCURACY, parts[phase]) for phase in known]
+        right = [estimate_measure(ACCURACY, parts[phase]) for phase in known]
         series[name] = {
-            "x": [estimated(said_before(phase), them).value for phase in known],
-            **as_drawn(right, "mean"),
+            "x": [estimate_measure(said_before(phase), them).value for phase in known],
+            **interval_series(right, "mean"),
         }
     title = f"Accuracy against what it cost: {called(phases)}"
-    told = bands(low for it in series.values() for low in it["low"])
+    told = interval_note(low for it in series.values() for low in it["low"])
     return Figure("curves", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
 
 
-def _by_tutor(dialogues: Sequence[Dialogue], phase: str) -> dict[str, list[Any]]:
+def _by_tutor(dialogues: Sequence[ScoredDialogue], phase: str) -> dict[str, list[Any]]:
     found: dict[str, list[Any]] = {
         name: [] for name in ("x", "y", "x_low", "x_high", "y_low", "y_high", "labels")
     }
-    asked = parted(dialogues, lambda it: it.phase if it.is_word else "").get(phase, [])
-    tutors = short(it.run.tutor for it in asked)
+    asked = split_dialogues(dialogues, lambda it: it.phase if it.is_word else "").get(
+        phase, []
+    )
+    tutors = shorten_names(it.run.tutor for it in asked)
     for tutor, label in tutors.items():
         them = [it for it in asked if it.run.tutor == tutor]
-        spent, right = estimated(said_before(phase), them), estimated(ACCURACY, them)
+        spent, right = (
+            estimate_measure(said_before(phase), them),
+            estimate_measure(ACCURACY, them),
+        )
         for axis, it in (("x", spent), ("y", right)):
             found[axis].append(it.value)
             found[f"{axis}_low"].append(it.low)

@@ -7,19 +7,23 @@ from typing import Any
 
 import numpy as np
 
+from kille.lab.measures.confusion_figures import confusion_figure
 from kille.lab.measures.measures import ACCURACY, DEGREE
-from kille.lab.measures.scored_dialogues import Dialogue, Scored, parted
-from kille.lab.measures.statistics import confusion
-from kille.lab.reports.findings import Theories, estimated
+from kille.lab.measures.scored_dialogues import (
+    ScoredAnswer,
+    ScoredDialogue,
+    split_dialogues,
+)
+from kille.lab.measures.statistics import reliability_bin
+from kille.lab.reports.findings import Theories, estimate_measure
 from kille.lab.reports.repeated_tests import Tests, called, phases_of
-from kille.lab.reports.row_figures import as_drawn, bands, in_rows
-from kille.lab.results import Figure
+from kille.lab.reports.row_figures import interval_note, row_figures
+from kille.lab.results import Figure, interval_series
 
 _PLACES = 12
 """At most so many places on a learning curve."""
 _LEAST = 5
 """Places of fewer answers are left out."""
-_BINS = 10
 _MOST = 16
 """Of at most so many words it is drawn which are taken for which."""
 _DRAWN = 40
@@ -42,22 +46,22 @@ def learning(theories: Theories, tests: Tests) -> Iterator[Figure]:
 def _learning(title: str, theories: Theories, test: Sequence[str]) -> Iterator[Figure]:
     """Nothing where there were always as many."""
 
-    def counts(answer: Scored) -> bool:
+    def counts(answer: ScoredAnswer) -> bool:
         return answer.is_word and answer.phase in test
 
     answers = (it for them in theories.values() for one in them for it in one.answers)
     lessons = {it.lessons for it in answers if counts(it)}
     wide = step(max(lessons)) if len(lessons) > _PLACES else 1
 
-    def place(answer: Scored) -> int:
+    def place(answer: ScoredAnswer) -> int:
         return near(answer.lessons, wide) if counts(answer) else -1
 
     series: dict[str, Any] = {}
     for name, them in theories.items():
-        parts = parted(them, place)
+        parts = split_dialogues(them, place)
         at = sorted(it for it in parts if it >= 0 and _count(parts[it]) >= _LEAST)
-        estimates = [estimated(ACCURACY, parts[it]) for it in at]
-        series[name] = {"x": at, **as_drawn(estimates, "mean")}
+        estimates = [estimate_measure(ACCURACY, parts[it]) for it in at]
+        series[name] = {"x": at, **interval_series(estimates, "mean")}
     if any(len(it["x"]) > 1 for it in series.values()):
         data = {
             "x": sorted({x for it in series.values() for x in it["x"]}),
@@ -65,7 +69,7 @@ def _learning(title: str, theories: Theories, test: Sequence[str]) -> Iterator[F
             "xlabel": "lessons",
             "ylabel": "accuracy",
         }
-        told = bands(low for it in series.values() for low in it["low"])
+        told = interval_note(low for it in series.values() for low in it["low"])
         yield Figure("curves", title, data, f"{_note(wide)} {told}")
 
 
@@ -78,7 +82,7 @@ def near(lessons: int, wide: int) -> int:
     return (lessons + wide // 2) // wide * wide
 
 
-def _count(dialogues: Sequence[Dialogue]) -> int:
+def _count(dialogues: Sequence[ScoredDialogue]) -> int:
     return sum(len(it.answers) for it in dialogues)
 
 
@@ -103,15 +107,15 @@ def step(most: int) -> int:
 
 def reliable(theories: Theories) -> Iterator[Figure]:
     """Whether what is said with a degree is right as often as that."""
-    series = {}
+    series: dict[str, dict[str, Any]] = {}
     for name, them in theories.items():
-        bins = parted(them, _bin)
+        bins = split_dialogues(them, _bin)
         at = sorted(it for it in bins if it >= 0)
-        said = [estimated(DEGREE, bins[it]).value for it in at]
-        right = [estimated(ACCURACY, bins[it]) for it in at]
+        said = [estimate_measure(DEGREE, bins[it]).value for it in at]
+        right = [estimate_measure(ACCURACY, bins[it]) for it in at]
         series[name] = {
             "x": said,
-            **as_drawn(right, "y"),
+            **interval_series(right, "y"),
             "counts": [_count(bins[it]) for it in at],
         }
     if not any(it["x"] for it in series.values()):
@@ -121,21 +125,23 @@ def reliable(theories: Theories) -> Iterator[Figure]:
         "xlabel": "degree of the word that was said",
         "ylabel": "share that is right",
     }
-    told = bands(low for it in series.values() for low in it["low"])
+    told = interval_note(low for it in series.values() for low in it["low"])
     note = f"On the dashed line degrees are what they say. {told}"
     yield Figure("reliability", "Reliability", data, note)
 
 
-def _bin(answer: Scored) -> int:
+def _bin(answer: ScoredAnswer) -> int:
     if not (answer.is_word and answer.said and np.isfinite(answer.degree)):
         return -1
-    return min(int(answer.degree * _BINS), _BINS - 1)
+    return int(reliability_bin(answer.degree))
 
 
 def words(theories: Theories) -> Iterator[Figure]:
     """The accuracy word by word, for each kind of word that has not too many."""
     parts = {
-        name: parted(them, lambda it: (it.kind, it.right) if it.is_word else None)
+        name: split_dialogues(
+            them, lambda it: (it.kind, it.right) if it.is_word else None
+        )
         for name, them in theories.items()
     }
     keys = sorted({key for them in parts.values() for key in them if key})
@@ -145,32 +151,28 @@ def words(theories: Theories) -> Iterator[Figure]:
         if not 1 < len(ordered) <= _DRAWN:
             continue
         series = {
-            name: [estimated(ACCURACY, of.get(key, ())) for key in ordered]
+            name: [estimate_measure(ACCURACY, of.get(key, ())) for key in ordered]
             for name, of in parts.items()
         }
         which = f": {_plural(kind)}" if len(kinds) > 1 else ""
         labels = [word for _, word in ordered]
-        yield from in_rows(f"Word by word{which}", labels, series, _ACCURACY)
+        yield from row_figures(f"Word by word{which}", labels, series, _ACCURACY)
 
 
 def confusions(theories: Theories) -> Iterator[Figure]:
     """Which words are taken for which, for each theory and kind of word."""
     for name, them in theories.items():
-        for kind, of in parted(them, lambda it: it.kind if it.is_word else "").items():
+        for kind, of in split_dialogues(
+            them, lambda it: it.kind if it.is_word else ""
+        ).items():
             labels = sorted({it.right for one in of for it in one.answers})
             if kind and 1 < len(labels) <= _MOST:
-                yield _confusion(f"{name}: {_plural(kind)}", labels, of)
+                given = [it for one in of for it in one.answers]
+                right = [it.right for it in given]
+                said = [it.said or _NOTHING for it in given]
+                title = f"{name}: {_plural(kind)}"
+                yield confusion_figure(title, labels, right, said)
 
 
 def _plural(kind: str) -> str:
     return _MANY.get(kind, f"{kind}s")
-
-
-def _confusion(title: str, labels: list[str], of: Sequence[Dialogue]) -> Figure:
-    answers = [it for one in of for it in one.answers]
-    right = [it.right for it in answers]
-    said = [it.said or _NOTHING for it in answers]
-    columns = [*labels, *sorted({*said} - {*labels})]
-    counts = confusion(right, said, columns)[: len(labels)]
-    data = {"labels": labels, "columns": columns, "counts": counts.tolist()}
-    return Figure("confusion", title, data)

@@ -11,7 +11,7 @@ from itertools import combinations, cycle
 from kille.lab.dialogues import Turn
 from kille.lab.measures.comparison import in_pairs
 from kille.lab.measures.measures import ACCURACY, value
-from kille.lab.measures.scored_dialogues import Dialogue, Scored
+from kille.lab.measures.scored_dialogues import ScoredAnswer, ScoredDialogue
 from kille.lab.reports.events import happening
 from kille.lab.reports.figure_styles import HUES
 from kille.lab.reports.findings import Theories
@@ -39,7 +39,7 @@ def pages(theories: Theories, places: Places, report: str) -> Iterator[Page]:
 
 def _pages(theories: Theories, places: Places) -> Iterator[_Piece]:
     """The place, the title and the body of each."""
-    occasions: dict[tuple[str, str, int], list[Dialogue]] = {}
+    occasions: dict[tuple[str, str, int], list[ScoredDialogue]] = {}
     for them in theories.values():
         for it in them:
             occasions.setdefault(it.pair, []).append(it)
@@ -66,7 +66,7 @@ def _beside(place: str) -> str:
     return place.rpartition("/")[2]
 
 
-def _title(dialogue: Dialogue) -> str:
+def _title(dialogue: ScoredDialogue) -> str:
     tutor, scene, seed = dialogue.pair
     return f"{tutor}, {scene}, seed {seed}"
 
@@ -78,7 +78,7 @@ def _link(place: str, text: str) -> str:
 # --- what was said -------------------------------------------------------------------
 
 
-def _said(dialogues: Sequence[Dialogue], places: Places) -> Iterator[str]:
+def _said(dialogues: Sequence[ScoredDialogue], places: Places) -> Iterator[str]:
     """What each theory was told and said: phase by phase, each from the same height."""
     hues = dict(zip(places.theories, cycle(HUES), strict=False))
     yield '<div class="theories">'
@@ -100,11 +100,11 @@ def _said(dialogues: Sequence[Dialogue], places: Places) -> Iterator[str]:
         yield "</div>"
 
 
-def _anchor(dialogue: Dialogue, places: Places) -> str:
+def _anchor(dialogue: ScoredDialogue, places: Places) -> str:
     return f"theory-{places.theories[dialogue.run.theory]}"
 
 
-def _summary(dialogue: Dialogue) -> str:
+def _summary(dialogue: ScoredDialogue) -> str:
     right = sum(it.is_right for it in dialogue.answers)
     turns = sum(it.turns for it in dialogue.efforts)
     words = sum(it.words for it in dialogue.efforts)
@@ -114,8 +114,8 @@ def _summary(dialogue: Dialogue) -> str:
     )
 
 
-def _turns(dialogue: Dialogue, phase: str, anchor: str) -> Iterator[str]:
-    answers: dict[int, list[Scored]] = {}
+def _turns(dialogue: ScoredDialogue, phase: str, anchor: str) -> Iterator[str]:
+    answers: dict[int, list[ScoredAnswer]] = {}
     for answer in dialogue.answers:
         answers.setdefault(answer.turn, []).append(answer)
     several = len({turn.tutor for turn in dialogue.turns}) > 1
@@ -126,7 +126,7 @@ def _turns(dialogue: Dialogue, phase: str, anchor: str) -> Iterator[str]:
             yield _turn(turn, who, told, f"{anchor}-{turn.number}")
 
 
-def _turn(turn: Turn, who: str, answers: Sequence[Scored], anchor: str) -> str:
+def _turn(turn: Turn, who: str, answers: Sequence[ScoredAnswer], anchor: str) -> str:
     """A turn; who of several tutors speaks in it is said."""
     lines = [_given(turn, who)] if turn.given else []
     if turn.answer:
@@ -143,13 +143,13 @@ def _given(turn: Turn, who: str) -> str:
     return f"<p>{named}{html_text(turn.given)}</p>"
 
 
-def _mark(answer: Scored) -> str:
+def _mark(answer: ScoredAnswer) -> str:
     return (
         '<span class="yes">✓</span>' if answer.is_right else '<span class="no">✗</span>'
     )
 
 
-def _told(answer: Scored) -> str:
+def _told(answer: ScoredAnswer) -> str:
     degree = f" ({answer.degree:.2f})" if answer.degree == answer.degree else ""
     said = f"{answer.said or '–'}{degree}"
     return said if answer.is_right else f"{said}, right is {answer.right}"
@@ -161,7 +161,7 @@ _HEADS = ("dialogue", "right", "of", "turns", "words", "corrections", "lessons")
 
 
 def _dialogues(
-    name: str, dialogues: Sequence[Dialogue], places: Places
+    name: str, dialogues: Sequence[ScoredDialogue], places: Places
 ) -> Iterator[str]:
     yield f"<p>{_link(places.answers(name), 'all answers')}</p>"
     for tutor, number in places.tutors.items():
@@ -174,7 +174,7 @@ def _dialogues(
         yield from _table(_HEADS, (_row(it, places) for it in found))
 
 
-def _row(it: Dialogue, places: Places) -> tuple[str, ...]:
+def _row(it: ScoredDialogue, places: Places) -> tuple[str, ...]:
     return (
         _link(places.dialogue(it.run), _title(it)),
         str(sum(one.is_right for one in it.answers)),
@@ -207,10 +207,12 @@ _LINKS = (
     "Each answer by its dialogue and its turn there: 3:80 is turn 80 of dialogue 3."
 )
 
-_Given = tuple[Dialogue, Scored]
+_Given = tuple[ScoredDialogue, ScoredAnswer]
 
 
-def _answers(name: str, dialogues: Sequence[Dialogue], places: Places) -> Iterator[str]:
+def _answers(
+    name: str, dialogues: Sequence[ScoredDialogue], places: Places
+) -> Iterator[str]:
     """The answers by kind of word and by word, then by phase."""
     yield f"<p>{_link(places.theory(name), 'all dialogues')}</p>"
     yield f'<p class="note">{_LINKS}</p>'
@@ -253,13 +255,13 @@ def _grouped(given: Sequence[_Given], places: Places) -> Iterator[str]:
     yield "</tbody></table></div>"
 
 
-def _to_turn(dialogue: Dialogue, answer: Scored, places: Places) -> str:
+def _to_turn(dialogue: ScoredDialogue, answer: ScoredAnswer, places: Places) -> str:
     place = _beside(places.turn(dialogue.run, answer.turn))
     return f'<a href="{place}">{places.pairs[dialogue.pair]}:{answer.turn}</a>'
 
 
 def _against(
-    one: Sequence[Dialogue], other: Sequence[Dialogue], places: Places
+    one: Sequence[ScoredDialogue], other: Sequence[ScoredDialogue], places: Places
 ) -> Iterator[str]:
     """The dialogues in which they differ most come first."""
     rows = []

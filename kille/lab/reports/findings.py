@@ -28,16 +28,21 @@ from kille.lab.measures.measures import (
     WORDS,
     Measure,
     Vector,
-    drawn,
-    measured,
+    estimate_tallies,
+    resample_counts,
     tallies,
 )
-from kille.lab.measures.scored_dialogues import Dialogue, Scored, of_theory, parted
+from kille.lab.measures.scored_dialogues import (
+    ScoredAnswer,
+    ScoredDialogue,
+    dialogues_of,
+    split_dialogues,
+)
 from kille.lab.reports.links import Places
-from kille.lab.reports.short_names import short
+from kille.lab.reports.short_names import shorten_names
 from kille.lab.results import Cell, Estimate, Result, Table
 
-Theories: TypeAlias = Mapping[str, Sequence[Dialogue]]
+Theories: TypeAlias = Mapping[str, Sequence[ScoredDialogue]]
 """The dialogues of each theory, in the order of the study."""
 
 _SEED = 1  # of the chance by which dialogues are drawn anew
@@ -49,15 +54,17 @@ _BANDS = (
 )
 
 
-def grouped(names: Sequence[str], dialogues: Sequence[Dialogue]) -> Theories:
+def group_by_theory(
+    names: Sequence[str], dialogues: Sequence[ScoredDialogue]
+) -> Theories:
     """The dialogues of each of the named theories that has any."""
-    found = {name: of_theory(dialogues, name) for name in names}
+    found = {name: dialogues_of(dialogues, name) for name in names}
     return {name: them for name, them in found.items() if them}
 
 
 def for_figures(theories: Theories) -> Theories:
     """The theories by names for which there is room in a figure."""
-    called = short(theories)
+    called = shorten_names(theories)
     return {called[name]: them for name, them in theories.items()}
 
 
@@ -93,23 +100,23 @@ def measures_of(theories: Theories) -> list[Measure]:
     return [measure for measure, _ in found]
 
 
-def _is_judged(dialogues: Sequence[Dialogue]) -> bool:
+def _is_judged(dialogues: Sequence[ScoredDialogue]) -> bool:
     """Whether anybody ever says something else than the tutor holds to be right."""
     answers = (it for one in dialogues for it in one.answers if it.is_word)
     return any(it.judge not in ("", it.right) for it in answers)
 
 
-def estimated(measure: Measure, dialogues: Sequence[Dialogue]) -> Estimate:
+def estimate_measure(measure: Measure, dialogues: Sequence[ScoredDialogue]) -> Estimate:
     """The measure over the dialogues with its band; the same for the same dialogues."""
     if not dialogues:
         return Estimate(float("nan"), float("nan"), float("nan"))
     draws = _draws(len(dialogues))
-    return measured(measure, tallies(measure, dialogues), draws)
+    return estimate_tallies(measure, tallies(measure, dialogues), draws)
 
 
 @lru_cache(maxsize=4)
 def _draws(count: int) -> Vector:
-    return drawn(count, np.random.default_rng(_SEED))
+    return resample_counts(count, np.random.default_rng(_SEED))
 
 
 # --- tables --------------------------------------------------------------------------
@@ -121,7 +128,7 @@ def overall(theories: Theories, measures: Sequence[Measure], places: Places) -> 
     rows += _answered(theories)
     answers = range(1, len(rows))
     for measure in measures:
-        told = (estimated(measure, them) for them in theories.values())
+        told = (estimate_measure(measure, them) for them in theories.values())
         rows.append((measure.name, *told))
     links = {
         (row, column): places.answers(name) if row in answers else places.theory(name)
@@ -177,7 +184,7 @@ _Key: TypeAlias = tuple[str, ...]
 def _words_only(theories: Theories) -> Theories:
     """The dialogues without the answers that say which thing is meant."""
     return {
-        name: parted(them, lambda it: it.is_word).get(True, [])
+        name: split_dialogues(them, lambda it: it.is_word).get(True, [])
         for name, them in theories.items()
     }
 
@@ -186,17 +193,17 @@ def _by(
     title: str,
     heads: _Key,
     theories: Theories,
-    key: Callable[[Scored], _Key],
+    key: Callable[[ScoredAnswer], _Key],
     to: Callable[[str, _Key], str],
 ) -> Iterator[Table]:
-    parts = {name: parted(them, key) for name, them in theories.items()}
+    parts = {name: split_dialogues(them, key) for name, them in theories.items()}
     yield from _shares(title, heads, parts, to)
 
 
 def _shares(
     title: str,
     heads: _Key,
-    parts: Mapping[str, Mapping[_Key, Sequence[Dialogue]]],
+    parts: Mapping[str, Mapping[_Key, Sequence[ScoredDialogue]]],
     to: Callable[[str, _Key], str],
 ) -> Iterator[Table]:
     """The accuracy of each theory in each part, and how many answers there are.
@@ -213,7 +220,7 @@ def _shares(
         cells: list[Cell] = [*key]
         for name, of in parts.items():
             links[row, len(cells)] = to(name, key)
-            cells.append(estimated(ACCURACY, of[key]) if key in of else None)
+            cells.append(estimate_measure(ACCURACY, of[key]) if key in of else None)
         rows.append((*cells, *count[:1]) if alike else tuple(cells))
     columns = (*heads, *parts, "answers") if alike else (*heads, *parts)
     yield Table(title, columns, tuple(rows), "", links)
@@ -223,5 +230,5 @@ def _shares(
         yield Table(f"{title}: answers", columns, tuple(many), "", links)
 
 
-def _count(dialogues: Sequence[Dialogue]) -> int:
+def _count(dialogues: Sequence[ScoredDialogue]) -> int:
     return sum(it.is_word for one in dialogues for it in one.answers)

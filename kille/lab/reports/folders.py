@@ -13,8 +13,8 @@ from kille.lab import log
 from kille.lab.errors import StudyError, TheoryError
 from kille.lab.log.reading import NO_PYTHON
 from kille.lab.measures.measures import ACCURACY
-from kille.lab.measures.scored_dialogues import Dialogue, scored
-from kille.lab.reports.findings import grouped
+from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
+from kille.lab.reports.findings import group_by_theory
 from kille.lab.reports.layouts import Described
 from kille.lab.reports.links import places_of
 from kille.lab.reports.name_clashes import unlike
@@ -65,7 +65,9 @@ def compare(
     return Report(page, write(_both(one, other, command, consent), page))
 
 
-def compared(one: Path, other: Path, consent: Consent = NO_PYTHON) -> list[Result]:
+def compare_results(
+    one: Path, other: Path, consent: Consent = NO_PYTHON
+) -> list[Result]:
     """What was found in two folders of results, for a terminal."""
     subject = _both(one, other, "", consent)
     everything = [it for them in subject.theories.values() for it in them]
@@ -76,8 +78,8 @@ def compared(one: Path, other: Path, consent: Consent = NO_PYTHON) -> list[Resul
 
 
 def _subject(folder: Path, command: str, study: Study) -> Subject:
-    dialogues = [scored(*it) for it in log.read(folder)]
-    theories = grouped(list(study.theories), dialogues)
+    dialogues = [score_dialogue(*it) for it in log.read(folder)]
+    theories = group_by_theory(list(study.theories), dialogues)
     shown = _described(study, theories or study.theories)
     return Subject(
         study.title,
@@ -99,7 +101,9 @@ def _subject(folder: Path, command: str, study: Study) -> Subject:
     )
 
 
-def _cut_short(theories: Mapping[str, Sequence[Dialogue]], most: int) -> list[str]:
+def _cut_short(
+    theories: Mapping[str, Sequence[ScoredDialogue]], most: int
+) -> list[str]:
     """Of which theories dialogues came to the last turn that the study allows.
 
     A theory that talks more is then asked less.
@@ -240,7 +244,7 @@ def _called(one: Path, other: Path) -> tuple[str, str]:
     return (names[0], names[1]) if names[0] != names[1] else (str(one), str(other))
 
 
-def _renamed(dialogue: Dialogue, theory: str) -> Dialogue:
+def _renamed(dialogue: ScoredDialogue, theory: str) -> ScoredDialogue:
     return replace(dialogue, run=replace(dialogue.run, theory=theory))
 
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kille.lab.reports.result_pages import shown
-from kille.lab.results import Cell, Estimate, Table
+from kille.lab.results import Cell, Table, format_cell
 from ttr.display.latex import latex_text
 
 
 def latex_table(table: Table) -> str:
-    r"""The table as a tabular, its title and its note above it as comments.
+    r"""Format a table as a tabular, with its title and note as comments above it.
 
     >>> print(latex_table(Table("A & B", ("theory", "p"), (("x_1", 0.25),))), end="")
     % A & B
@@ -28,8 +27,9 @@ def latex_table(table: Table) -> str:
 def _lines(table: Table) -> Iterator[str]:
     for comment in filter(None, (table.title, table.note)):
         yield f"% {' '.join(comment.split())}"
-    sides = [_side([row[i] for row in table.rows]) for i in range(len(table.columns))]
-    yield f"\\begin{{tabular}}{{{''.join(sides)}}}"
+    columns = range(len(table.columns))
+    sides = "".join("r" if table.has_numbers(it) else "l" for it in columns)
+    yield f"\\begin{{tabular}}{{{sides}}}"
     yield r"\hline"
     yield _row(table.columns)
     yield r"\hline"
@@ -45,13 +45,5 @@ def _row(cells: tuple[Cell, ...]) -> str:
 def _cell(cell: Cell) -> str:
     if isinstance(cell, str):
         return f"${latex_text(cell)}$" if cell else ""
-    told = shown(cell)
-    return "--" if told == shown(None) else f"${told}$"
-
-
-def _side(cells: list[Cell]) -> str:
-    """Numbers stand to the right, words to the left."""
-    is_number = all(
-        it is None or isinstance(it, int | float | Estimate) for it in cells
-    )
-    return "r" if is_number else "l"
+    text = format_cell(cell)
+    return "--" if text == format_cell(None) else f"${text}$"

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from kille.lab.measures.scored_dialogues import Dialogue
+from kille.lab.measures.scored_dialogues import ScoredDialogue
 from kille.lab.study import Run
 
 Pair = tuple[str, str, int]
@@ -83,14 +83,14 @@ class Places:
 
 
 def places_of(
-    theories: Sequence[str], dialogues: Sequence[Dialogue], folder: str
+    theories: Sequence[str], dialogues: Sequence[ScoredDialogue], folder: str
 ) -> Places:
     """The places of these dialogues, in their order.
 
-    >>> from kille.lab.measures.scored_dialogues import Dialogue
+    >>> from kille.lab.measures import ScoredDialogue
     >>> run = Run("cues", "Ann", "table", 3)
-    >>> places = places_of(["both", "cues"], [Dialogue(run, (), (), 0, 0.1)], "all")
-    >>> places.turn(run, 7)
+    >>> dialogue = ScoredDialogue(run, (), (), 0, 0.1)
+    >>> places_of(["both", "cues"], [dialogue], "all").turn(run, 7)
     'all/dialogue-1.html#theory-2-turn-7'
     """
     answers = [answer for it in dialogues for answer in it.answers]

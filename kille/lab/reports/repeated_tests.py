@@ -10,7 +10,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 
 from kille.lab.measures.measures import ACCURACY, REFERENCES, Measure
-from kille.lab.measures.scored_dialogues import Dialogue, Scored, parted
+from kille.lab.measures.scored_dialogues import (
+    ScoredAnswer,
+    ScoredDialogue,
+    split_dialogues,
+)
 from kille.lab.protocols.phases import SETTINGS
 from kille.lab.settings import fill_settings
 from kille.lab.study import Phase
@@ -18,7 +22,7 @@ from kille.lab.study import Phase
 Tests = Sequence[Sequence[str]]
 """The names of the phases, those together that ask alike."""
 
-_Theories = Mapping[str, Sequence[Dialogue]]
+_Theories = Mapping[str, Sequence[ScoredDialogue]]
 
 _ANY = ("order", "rounds", "turns")
 """In what order, and how often, does not make it another test."""
@@ -60,7 +64,7 @@ def main_of(measures: Iterable[Measure]) -> Measure | None:
     return known.get(ACCURACY.name) or known.get(REFERENCES.name)
 
 
-def counts(measure: Measure, answer: Scored) -> bool:
+def counts(measure: Measure, answer: ScoredAnswer) -> bool:
     """Whether an answer counts in what is the main measure."""
     return answer.is_word == (measure is ACCURACY)
 
@@ -84,7 +88,10 @@ def phases_of(theories: _Theories, measure: Measure) -> list[str]:
 def in_phase(theories: _Theories, measure: Measure, phase: str) -> _Theories:
     """The dialogues with those answers only that count in this phase."""
 
-    def place(answer: Scored) -> str:
+    def place(answer: ScoredAnswer) -> str:
         return answer.phase if counts(measure, answer) else ""
 
-    return {name: parted(them, place).get(phase, []) for name, them in theories.items()}
+    return {
+        name: split_dialogues(them, place).get(phase, [])
+        for name, them in theories.items()
+    }

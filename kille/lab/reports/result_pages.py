@@ -6,16 +6,18 @@ Whatever comes from names and files is escaped.
 
 from __future__ import annotations
 
-import math
 import re
 from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 
 from kille.lab.reports.drawing import MISSING, can_draw, jpeg, svg
-from kille.lab.results import Cell, Estimate, Figure, Result, Table
+from kille.lab.results import Cell, Estimate, Figure, Result, Table, format_cell
+from ttr.aliases import former_names
 from ttr.escapes import html_text
 
-__all__ = ["beginning", "ending", "file_of", "page", "section", "shown"]
+__all__ = ["beginning", "ending", "file_of", "page", "section"]
+
+__getattr__ = former_names(__name__, {"shown": "kille.lab.results:format_cell"})
 
 _SHORT = 14  # characters: such cells are not broken
 _LONGEST = 60  # characters in the name of a file
@@ -157,7 +159,7 @@ def file_of(number: int, place: int, of: Figure | Table, ending: str = ".pdf") -
 
 
 def _table(table: Table) -> Iterator[str]:
-    kinds = [_kind([row[i] for row in table.rows]) for i in range(len(table.columns))]
+    kinds = [_column_class(table, place) for place in range(len(table.columns))]
     yield f'<h3>{html_text(table.title)}</h3><div class="scroll"><table><thead><tr>'
     yield "".join(
         f"<th{kind}>{html_text(head)}</th>"
@@ -177,8 +179,8 @@ def _table(table: Table) -> Iterator[str]:
 
 def _cell(cell: Cell, to: str) -> str:
     """The cell, its band in small; it leads to where it is said that it does."""
-    told, _, band = shown(cell).partition(" [")
-    text = html_text(told if isinstance(cell, Estimate) else shown(cell))
+    told, _, band = format_cell(cell).partition(" [")
+    text = html_text(told if isinstance(cell, Estimate) else format_cell(cell))
     if to:
         text = f'<a href="{html_text(to)}">{text}</a>'
     if isinstance(cell, Estimate) and band:
@@ -186,40 +188,11 @@ def _cell(cell: Cell, to: str) -> str:
     return text
 
 
-def _kind(cells: Sequence[Cell]) -> str:
-    if all(it is None or isinstance(it, int | float | Estimate) for it in cells):
+def _column_class(table: Table, column: int) -> str:
+    if table.has_numbers(column):
         return ' class="number"'
-    short = all(len(shown(it)) <= _SHORT for it in cells)
+    short = all(len(format_cell(row[column])) <= _SHORT for row in table.rows)
     return ' class="short"' if short else ""
-
-
-def shown(cell: Cell) -> str:
-    """A cell as people read it; a dash for what could not be told.
-
-    >>> shown(0.9254), shown(12), shown(None), shown(float("nan")), shown("cup")
-    ('0.925', '12', '–', '–', 'cup')
-    >>> shown(Estimate(0.5, -0.0001, 0.75)), shown(Estimate(40.3, 38, 43.5, 1))
-    ('0.500 [0.000, 0.750]', '40.3 [38.0, 43.5]')
-    """
-    match cell:
-        case None:
-            return "–"
-        case float():
-            return f"{cell:.3f}" if math.isfinite(cell) else "–"
-        case Estimate():
-            return _estimated(cell)
-    return str(cell)
-
-
-def _estimated(it: Estimate) -> str:
-    if not math.isfinite(it.value):
-        return "–"
-    value, low, high = (
-        f"{round(x, it.decimals) + 0.0:.{it.decimals}f}"  # no zero is below zero
-        for x in (it.value, it.low, it.high)
-    )
-    banded = math.isfinite(it.low) and math.isfinite(it.high)
-    return f"{value} [{low}, {high}]" if banded else value
 
 
 def _figure(figure: Figure, number: int, file: str) -> str:

@@ -1,6 +1,6 @@
-"""Figures with a row for each word, tutor, scene or two theories.
+"""Figures with a row for each word, tutor, scene or pair of theories.
 
-What does not fit on a page of a paper goes on in the next figure.
+Rows that do not fit on a page of a paper follow in the next figure.
 """
 
 from __future__ import annotations
@@ -9,69 +9,55 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from kille.lab.reports.short_names import short
-from kille.lab.results import Estimate, Figure
-
-_BANDS = "Bands of 95 %."
-_NO_BANDS = "Too few dialogues for bands."
+from kille.lab.reports.short_names import shorten_names
+from kille.lab.results import Estimate, Figure, interval_series
 
 _HIGHEST = 9.5
-"""Inches that a figure may be high."""
+"""The height of a figure in inches, at the most."""
 _AROUND, _ROW, _SERIES = 1.1, 0.2, 0.16
-"""Inches that are taken by what is around the rows, by a row, and by each series."""
+"""Inches taken by what is around the rows, by each row, and by each series."""
 
 
-def as_drawn(estimates: Sequence[Estimate], name: str = "values") -> dict[str, Any]:
-    """Estimates as figures draw them: numbers, by this name, with their bands.
+def interval_note(lows: Iterable[float]) -> str:
+    """Say which intervals a figure shows, given their lower ends, NaN where missing.
 
-    >>> as_drawn([Estimate(0.5, 0.25, 0.75)], "mean")
-    {'mean': [0.5], 'low': [0.25], 'high': [0.75]}
+    >>> interval_note([math.nan, 0.25]), interval_note([math.nan])
+    ('95 % confidence intervals.', 'Too few dialogues for confidence intervals.')
     """
-    return {
-        name: [it.value for it in estimates],
-        "low": [it.low for it in estimates],
-        "high": [it.high for it in estimates],
-    }
+    if any(map(math.isfinite, lows)):
+        return "95 % confidence intervals."
+    return "Too few dialogues for confidence intervals."
 
 
-def bands(lows: Iterable[float]) -> str:
-    """What is told of bands by their lower ends, which are no numbers without a band.
-
-    >>> bands([math.nan, 0.25]), bands([math.nan])
-    ('Bands of 95 %.', 'Too few dialogues for bands.')
-    """
-    return _BANDS if any(map(math.isfinite, lows)) else _NO_BANDS
-
-
-def in_rows(
+def row_figures(
     title: str,
     labels: Sequence[str],
     series: Mapping[str, Sequence[Estimate]],
-    told: Mapping[str, Any],
+    settings: Mapping[str, Any],
 ) -> Iterator[Figure]:
-    """The estimates of each series, as many as there are labels; nothing of none.
+    """Figures with a row for each label, in which each series has an estimate.
 
-    `told` is what else the figures are given, such as `xlabel`. Names of series are cut
-    to the room that there is.
+    `settings` are further data of the figures, such as `xlabel`. Names of series are
+    shortened. Without labels or series there is no figure.
     """
     if not labels or not series:
         return
-    called = short(series)
-    parts = list(_parts(len(labels), len(series)))
-    for number, part in enumerate(parts, start=1):
-        some = {called[name]: list(them[part]) for name, them in series.items()}
+    short_name = shorten_names(series)
+    slices = list(_page_slices(len(labels), len(series)))
+    for number, rows in enumerate(slices, start=1):
+        shown = {short_name[name]: list(them[rows]) for name, them in series.items()}
         data = {
-            "labels": list(labels[part]),
-            "series": {name: as_drawn(them) for name, them in some.items()},
-            **told,
+            "labels": list(labels[rows]),
+            "series": {name: interval_series(them) for name, them in shown.items()},
+            **settings,
         }
-        which = f" ({number} of {len(parts)})" if len(parts) > 1 else ""
-        note = bands(it.low for them in some.values() for it in them)
+        which = f" ({number} of {len(slices)})" if len(slices) > 1 else ""
+        note = interval_note(it.low for them in shown.values() for it in them)
         yield Figure("intervals", f"{title}{which}", data, note)
 
 
-def _parts(rows: int, series: int) -> Iterator[slice]:
-    """The rows parted as evenly as they can be, so that each part fits on a page."""
+def _page_slices(rows: int, series: int) -> Iterator[slice]:
+    """Split the rows as evenly as possible, so that each part fits on a page."""
     fitting = max(1, int((_HIGHEST - _AROUND) / (_ROW + _SERIES * series)))
     size = math.ceil(rows / math.ceil(rows / fitting))
     for start in range(0, rows, size):

@@ -1,4 +1,4 @@
-"""Names short enough for a figure, and still told apart."""
+"""Names that are short enough for a figure, and still all different."""
 
 from __future__ import annotations
 
@@ -9,17 +9,15 @@ _MOST = 28
 """Letters for which there is room beside a figure."""
 
 
-def short(names: Iterable[str], most: int = _MOST) -> dict[str, str]:
-    """What each is called where there is little room: the middle of it is left out.
+def shorten_names(names: Iterable[str], most: int = _MOST) -> dict[str, str]:
+    """Short names of these names: the middle of those that are too long is left out.
 
-    >>> short(["driven", "says all that it thinks without any hedges"], 20)["driven"]
-    'driven'
-    >>> list(short(["says all that it thinks", "says all that he thinks"], 14).values())
-    ['says all…hinks', 'says all…hinks (2)']
+    >>> shorten_names(["driven", "says what it thinks", "says what he thinks"], 12)
+    {'driven': 'driven', 'says what it thinks': 'says wh…inks', ...}
     """
     found: dict[str, str] = {}
     for name in dict.fromkeys(names):
-        found[name] = _told_apart(_cut(name, most), found.values())
+        found[name] = _make_unique(_cut(name, most), found.values())
     return found
 
 
@@ -30,8 +28,8 @@ def _cut(name: str, most: int) -> str:
     return f"{name[: most - 1 - end]}…{name[-end:]}"
 
 
-def _told_apart(text: str, others: Collection[str]) -> str:
+def _make_unique(text: str, others: Collection[str]) -> str:
     if text not in others:
         return text
-    numbered = (f"{text} ({number})" for number in count(2))
-    return next(it for it in numbered if it not in others)
+    candidates = (f"{text} ({number})" for number in count(2))
+    return next(it for it in candidates if it not in others)

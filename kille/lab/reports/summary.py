@@ -7,11 +7,11 @@ from itertools import chain
 
 from kille.lab.measures.measures import Measure
 from kille.lab.reports.conditions import in_last_phase
-from kille.lab.reports.findings import Theories, estimated
+from kille.lab.reports.findings import Theories, estimate_measure
 from kille.lab.reports.links import Places
 from kille.lab.reports.repeated_tests import in_phase, main_of, phases_of
-from kille.lab.reports.row_figures import in_rows
-from kille.lab.reports.short_names import short
+from kille.lab.reports.row_figures import row_figures
+from kille.lab.reports.short_names import shorten_names
 from kille.lab.results import Cell, Estimate, Figure, Result, Table
 
 _BESIDE = ("κ robot–tutor", "words", "corrections", "questions")
@@ -90,7 +90,7 @@ def _columns(
 
 
 def _estimates(measure: Measure, theories: Theories) -> list[Estimate]:
-    return [estimated(measure, them) for them in theories.values()]
+    return [estimate_measure(measure, them) for them in theories.values()]
 
 
 def _by_phase(theories: Theories, main: Measure) -> Iterator[Figure]:
@@ -99,14 +99,18 @@ def _by_phase(theories: Theories, main: Measure) -> Iterator[Figure]:
     if len(phases) < 2:
         return
     parts = [in_phase(theories, main, phase) for phase in phases]
-    series = {name: [estimated(main, it[name]) for it in parts] for name in theories}
+    series = {
+        name: [estimate_measure(main, it[name]) for it in parts] for name in theories
+    }
     title = f"{main.name.capitalize()}, phase by phase"
-    yield from in_rows(title, phases, series, {"xlabel": main.name})
+    yield from row_figures(title, phases, series, {"xlabel": main.name})
 
 
 def _by_theory(theories: Theories, main: Measure) -> Iterator[Figure]:
     if len(theories) < 2:
         return
-    series = {main.name: [estimated(main, them) for them in theories.values()]}
-    labels = list(short(theories).values())
-    yield from in_rows(main.name.capitalize(), labels, series, {"xlabel": main.name})
+    series = {main.name: [estimate_measure(main, them) for them in theories.values()]}
+    labels = list(shorten_names(theories).values())
+    yield from row_figures(
+        main.name.capitalize(), labels, series, {"xlabel": main.name}
+    )

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from kille.lab.measures.scored_dialogues import Dialogue
+from kille.lab.measures.scored_dialogues import ScoredDialogue
 from kille.lab.reports.layouts import Described
 from kille.lab.study import Theory
 from kille.lab.theories.descriptions import describe
 
 
 def idle(
-    theories: Mapping[str, Described], dialogues: Mapping[str, Sequence[Dialogue]]
+    theories: Mapping[str, Described], dialogues: Mapping[str, Sequence[ScoredDialogue]]
 ) -> Iterator[str]:
     """A line for each theory with rules of its own that its dialogues never came to.
 

@@ -314,7 +314,9 @@ def test_what_could_not_be_told_is_a_dash_or_null(
     table = Table("t", ("method", "AUROC", "κ"), (("m", float("nan"), None),))
     facts = {"numbers": np.arange(2), "one": np.float32(0.5), "none": float("inf")}
     result = Result("r", (table,), (), facts)
-    monkeypatch.setattr(interface, "run", lambda plan, methods, **_: (result, methods))
+    monkeypatch.setattr(
+        interface, "run_plan", lambda plan, methods, **_: (result, methods)
+    )
     assert re.search(r"^m +– +–", kille(*MINE, "--protocol", "shots").out, re.MULTILINE)
     (told,) = json.loads(kille(*MINE, "--protocol", "shots", "--json").out)["results"]
     assert told["tables"][0]["rows"] == [["m", None, None]]
@@ -379,7 +381,9 @@ def test_a_head_is_broken_only_where_there_is_no_room(
     heads = ("method", "degree of .5 or more", "right of these")
     table = Table("t", heads, (("m", 1.0, 0.5),))
     result = Result("r", (table,), (), {})
-    monkeypatch.setattr(interface, "run", lambda plan, methods, **_: (result, methods))
+    monkeypatch.setattr(
+        interface, "run_plan", lambda plan, methods, **_: (result, methods)
+    )
     wide = kille(*MINE, "--protocol", "shots").out
     assert "method  degree of .5 or more  right of these" in wide
     monkeypatch.setenv("COLUMNS", "30")

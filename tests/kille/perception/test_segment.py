@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tabletop import LENS, SHAPE, UP, Card, frame_of, share
 
-from kille.lab.protocols.regions import Score, captures, score
+from kille.lab.protocols.regions import SegmentationScore, captures, score
 from kille.perception.geometry import CAMERA_UP, offset, table_axes
 from kille.perception.segment import (
     Segmentation,
@@ -173,7 +173,7 @@ def test_nothing_is_level_when_up_is_to_the_right() -> None:
 def test_real_things_are_found(data: Path) -> None:
     """None of these scenes was used to fit the merge."""
     frames = [it.shot.read() for it in captures(data / "mosd_scenes")[::2]]
-    found = sum((score(segment(it).regions, it) for it in frames), Score())
+    found = sum((score(segment(it).regions, it) for it in frames), SegmentationScore())
     assert found.f >= 0.9
     assert np.median(found.errors) <= 0.005
     assert np.quantile(found.errors, 0.9) <= 0.025
@@ -227,8 +227,8 @@ def test_a_bowl_is_one_thing_with_its_inside(seed: int) -> None:
 def test_more_things_in_heaps_are_found_than_plainly() -> None:
     """Heaps of seeds that the merge was not fitted to; there are no meshes in them."""
     frames = [pile(seed) for seed in range(5000, 5004)]
-    found = sum((score(segment(it).regions, it) for it in frames), Score())
-    plain = sum((score(segment_by_contact(it).regions, it) for it in frames), Score())
+    found = sum((score(segment(it).regions, it) for it in frames), SegmentationScore())
+    plain = sum((score(plainly(it).regions, it) for it in frames), SegmentationScore())
     assert found.recall > 0.6
     assert found.f > plain.f
 

@@ -15,7 +15,6 @@ from kille.lab.dialogues import Answer, Played
 from kille.lab.measures.comparison import (
     contrasts,
     differences,
-    exchanged,
     exchanges,
     holm,
     in_pairs,
@@ -23,24 +22,25 @@ from kille.lab.measures.comparison import (
     mcnemar,
     mcnemar_of,
     pairs_needed,
+    permutation_p,
 )
 from kille.lab.measures.measures import ACCURACY, LESSONS, tallies
-from kille.lab.measures.scored_dialogues import Dialogue, scored
+from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
 from kille.lab.study import Run
 
 MAIZE = (49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48)
 """Darwin's: how much higher crossed plants grew than self-fertilised ones, 1/8 inch."""
 
 
-def kept(lessons: Sequence[float], theory: str) -> list[Dialogue]:
+def kept(lessons: Sequence[float], theory: str) -> list[ScoredDialogue]:
     """Dialogues in which so many lessons were kept."""
     return [
-        Dialogue(Run(theory, "Ann", "table", seed), (), (), int(it), 0.1)
+        ScoredDialogue(Run(theory, "Ann", "table", seed), (), (), int(it), 0.1)
         for seed, it in enumerate(lessons)
     ]
 
 
-def talks(rights: Sequence[Sequence[bool]], theory: str) -> list[Dialogue]:
+def talks(rights: Sequence[Sequence[bool]], theory: str) -> list[ScoredDialogue]:
     """Dialogues in which the answers were right or wrong."""
     found = []
     for seed, them in enumerate(rights):
@@ -49,7 +49,7 @@ def talks(rights: Sequence[Sequence[bool]], theory: str) -> list[Dialogue]:
             for turn, it in enumerate(them)
         )
         run = Run(theory, "Ann", "table", seed)
-        found.append(scored(run, Played((), answers), 0.1))
+        found.append(score_dialogue(run, Played((), answers), 0.1))
     return found
 
 
@@ -58,7 +58,7 @@ def p_of(apart: Sequence[float]) -> float:
     first = tallies(LESSONS, kept([0] * len(apart), "a"))
     second = tallies(LESSONS, kept(apart, "b"))
     stays = exchanges(len(apart), np.random.default_rng(1))
-    return exchanged(LESSONS, first, second, stays)
+    return permutation_p(LESSONS, first, second, stays)
 
 
 def test_fisher_found_the_same_of_darwins_maize() -> None:
@@ -143,11 +143,11 @@ def test_theories_that_were_never_both_asked_have_no_difference() -> None:
 
 def test_pairs_are_of_one_tutor_scene_and_seed() -> None:
     one = [
-        Dialogue(Run("a", tutor, "table", 1), (), (), 0, 0.1)
+        ScoredDialogue(Run("a", tutor, "table", 1), (), (), 0, 0.1)
         for tutor in ("Bo", "Ann", "Cy")
     ]
     other = [
-        Dialogue(Run("b", tutor, "table", seed), (), (), 0, 0.1)
+        ScoredDialogue(Run("b", tutor, "table", seed), (), (), 0, 0.1)
         for tutor, seed in (("Ann", 1), ("Bo", 1), ("Cy", 2))
     ]
     assert [(a.run.tutor, b.run.tutor) for a, b in in_pairs(one, other)] == [
@@ -183,9 +183,11 @@ def test_mcnemar_counts_what_just_one_has_right() -> None:
 
 
 def test_mcnemar_is_of_words_not_of_things() -> None:
-    def find(theory: str, thing: str) -> Dialogue:
+    def find(theory: str, thing: str) -> ScoredDialogue:
         answer = Answer(1, "find", "reference", "o1", thing, "point")
-        return scored(Run(theory, "Ann", "table", 1), Played((), (answer,)), 0.1)
+        return score_dialogue(
+            Run(theory, "Ann", "table", 1), Played((), (answer,)), 0.1
+        )
 
     found = mcnemar_of([(find("a", "o1"), find("b", "o2"))])
     assert (found.one, found.other) == (0, 0)
@@ -221,7 +223,7 @@ def test_the_least_p_is_that_of_pairs_that_all_differ_one_way(count: int) -> Non
     first = np.tile([0.0, 1.0], (count, 1))
     second = np.ones((count, 2))
     stays = exchanges(count, np.random.default_rng(1))
-    found = exchanged(ACCURACY, first, second, stays)
+    found = permutation_p(ACCURACY, first, second, stays)
     assert found >= least_p(count)
     if count <= 15:
         assert found == least_p(count)

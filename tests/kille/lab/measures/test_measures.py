@@ -25,7 +25,11 @@ from kille.lab.measures.measures import (
     estimate,
     value,
 )
-from kille.lab.measures.scored_dialogues import Dialogue, parted, scored
+from kille.lab.measures.scored_dialogues import (
+    ScoredDialogue,
+    score_dialogue,
+    split_dialogues,
+)
 from kille.lab.measures.statistics import accuracy, brier, kappa
 from kille.lab.study import Run
 
@@ -42,12 +46,12 @@ def asked(right: str, said: str, kind: str = "relation", **more: object) -> Answ
 
 def dialogue(
     answers: Sequence[Answer], seed: int = 1, turns: Sequence[Turn] = ()
-) -> Dialogue:
+) -> ScoredDialogue:
     run = Run("both", "Ann", "table", seed)
-    return scored(run, Played(tuple(turns), tuple(answers)), 0.5)
+    return score_dialogue(run, Played(tuple(turns), tuple(answers)), 0.5)
 
 
-def talks_of(pairs: Sequence[Sequence[tuple[str, str]]]) -> list[Dialogue]:
+def talks_of(pairs: Sequence[Sequence[tuple[str, str]]]) -> list[ScoredDialogue]:
     return [
         dialogue([asked(right, said) for right, said in them], seed)
         for seed, them in enumerate(pairs)
@@ -184,7 +188,7 @@ def test_dialogues_in_which_nothing_is_measured_do_not_make_it_surer() -> None:
 @given(TALKS)
 def test_parts_add_up(pairs: list[list[tuple[str, str]]]) -> None:
     talks = talks_of(pairs)
-    parts = parted(talks, lambda it: it.right)
+    parts = split_dialogues(talks, lambda it: it.right)
     assert all(
         [it.pair for it in part] == [it.pair for it in talks] for part in parts.values()
     )

@@ -93,6 +93,6 @@ def test_what_takes_too_long_is_foreseen_and_marked(
 
 
 def test_the_system_need_not_tell_the_memory(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kille.lab.protocols.memory_use.resident", lambda: None)
+    monkeypatch.setattr("kille.lab.protocols.memory_use.resident_memory", lambda: None)
     found = measured(slow=Slow)
     assert [row[6] for row in found.tables[0].rows] == [None] * 3

@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 import pytest
 
-from kille.lab.protocols import objects, parted, plans, shots, variations
+from kille.lab.protocols import objects, picture_splits, plans, shots, variations
 from kille.lab.protocols import scenes as scenes_of
-from kille.lab.protocols.teaching import NOTHING, Answer, mean_degrees
+from kille.lab.protocols.teaching import NOTHING, ObjectAnswer, mean_degrees
 from kille.lab.results import ExperimentError, Result, silent
 from kille.lab.scenes.galleries import Gallery, open_gallery
 from kille.lab.scenes.labelled import Split, open_scenes, splits
@@ -35,18 +35,20 @@ def told(result: Result) -> str:
 
 
 def test_the_word_of_the_highest_degree_is_said() -> None:
-    answer = Answer("cup", {"cap": 0.2, "cup": 0.2, "car": 0.1})
+    answer = ObjectAnswer("cup", {"cap": 0.2, "cup": 0.2, "car": 0.1})
     assert answer.said == "cap"
     assert not answer.right
 
 
 @pytest.mark.parametrize("degrees", [{}, {"cup": 0.0}])
 def test_who_knows_no_word_says_none(degrees: dict[str, float]) -> None:
-    assert Answer("cup", degrees).said == NOTHING
+    assert ObjectAnswer("cup", degrees).said == NOTHING
 
 
 def test_a_word_that_was_not_known_yet_counts_as_0() -> None:
-    mean = mean_degrees([Answer("cup", {"cup": 1.0}), Answer("cup", {"car": 0.5})])
+    mean = mean_degrees(
+        [ObjectAnswer("cup", {"cup": 1.0}), ObjectAnswer("cup", {"car": 0.5})]
+    )
     assert mean.degrees == {"car": 0.25, "cup": 0.5}
 
 
@@ -67,9 +69,9 @@ def test_the_papers_protocol(colour: Make, mute: Make) -> None:
 
 
 def test_the_papers_own_ranking_stands_beside_ours(mute: Make) -> None:
-    answers = [Answer(thing, {}) for thing in TOY_NAMES]
-    course = objects._Course([answers], answers)
-    ranking = objects._ranking({"mute": course}, TOY_NAMES)
+    answers = [ObjectAnswer(thing, {}) for thing in NAMES]
+    course = objects._MethodAnswers([answers], answers)
+    ranking = objects._rank_table({"mute": course}, NAMES)
     assert ranking.columns == ("", "KILLE's robot", "mute")
     assert [row[1] for row in ranking.rows][:3] == ["book", "car", "shoe"]
 
@@ -115,13 +117,13 @@ def test_pictures_are_in_the_order_people_count(photos: Path) -> None:
 
 
 def test_every_other_picture_is_asked_for(gallery: Gallery, colour: Make) -> None:
-    result = parted.every_other(gallery, methods(colour=colour), seed=0)
+    result = picture_splits.every_other(gallery, methods(colour=colour), seed=0)
     assert result.tables[0].rows[0][:3] == ("colour", "9 of 9", 1.0)
     assert (result.facts["taught"], result.facts["asked"]) == (9, 9)
 
 
 def test_the_last_half_is_asked_for(gallery: Gallery, mute: Make) -> None:
-    result = parted.halves(gallery, methods(mute=mute), seed=0)
+    result = picture_splits.halves(gallery, methods(mute=mute), seed=0)
     assert result.tables[0].rows[0][:3] == ("mute", "0 of 9", 0.0)
     confusion = result.figures[0].data
     assert confusion["columns"][-1] == NOTHING
@@ -140,7 +142,7 @@ def test_what_is_taught_is_never_asked(gallery: Gallery) -> None:
             assert x not in self.seen
             return {"lime": 0.1}
 
-    for protocol in (parted.every_other, parted.halves, shots.shots):
+    for protocol in (picture_splits.every_other, picture_splits.halves, shots.shots):
         protocol(gallery, methods(honest=Honest), seed=3)
 
 
@@ -159,7 +161,7 @@ def test_what_does_not_open_is_left_out_and_named(photos: Path, colour: Make) ->
     (photos / "lime" / "broken.png").write_bytes(b"\x89PNG")
     gallery = open_gallery(photos, "photos")
     assert gallery.unread == ("lime/broken.png",)
-    result = parted.every_other(gallery, methods(colour=colour), seed=0)
+    result = picture_splits.every_other(gallery, methods(colour=colour), seed=0)
     assert "lime/broken.png" in result.tables[0].note
 
 
@@ -241,15 +243,17 @@ def test_who_fails_is_left_out_and_the_others_go_on(
     gallery: Gallery, colour: Make, failing: Make
 ) -> None:
     failures: list[MethodFailedError] = []
-    plan = plans.Plan("even-odd", lambda *a, **b: parted.every_other(gallery, *a, **b))
+    plan = plans.Plan(
+        "even-odd", lambda *a, **b: picture_splits.every_other(gallery, *a, **b)
+    )
     taking_part = methods(failing=failing, colour=colour)
-    result, able = plans.run(
+    result, able = plans.run_plan(
         plan, taking_part, seed=0, progress=silent, failed=failures.append
     )
     assert result is not None
     assert [row[0] for row in result.tables[0].rows] == ["colour"] == [*able]
     assert [failure.name for failure in failures] == ["failing"]
-    assert plans.run(
+    assert plans.run_plan(
         plan, methods(failing=failing), seed=0, progress=silent, failed=failures.append
     ) == (None, {})
 

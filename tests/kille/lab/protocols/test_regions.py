@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kille.lab.protocols.regions import Score, captures, regions, score
+from kille.lab.protocols.regions import SegmentationScore, captures, regions, score
 from kille.lab.results import ExperimentError
 from kille.perception.segment import region_of
 from kille.scene import Frame, Intrinsics
@@ -74,7 +74,7 @@ def test_nothing_in_view_is_found_by_no_regions() -> None:
     empty = replace(frame(), outlines={})
     assert score([], empty).f == 1
     assert (score([], frame()) + score([], empty)).recall == 0
-    assert Score().f == 1
+    assert SegmentationScore().f == 1
 
 
 def test_a_folder_without_labels_is_refused(tmp_path: Path) -> None:

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from kille.lab.protocols.causes import Cause, played
-from kille.lab.protocols.spatial import paper, published
-from kille.lab.protocols.staged import staged
+from kille.lab.protocols.causes import Cause, play_protocol
+from kille.lab.protocols.rendered_scenes import play_rendered_scenes
+from kille.lab.protocols.spatial import paper, published_agreement
 from kille.lab.results import silent
 from kille.lab.tutors.spatial_judges import WORDS, Person, draw_person
 from kille.perception.relations import PaperRelations, RelationMemory
@@ -20,7 +20,7 @@ METHODS = {"default": RelationMemory, "kille": PaperRelations}
 def robots(cause: Cause, runs: int = 12) -> tuple[float, float, float]:
     """The mean kappa of the people, that of the robot, and what was accepted."""
     found = [
-        played(RelationMemory, cause, np.random.default_rng([0, run]))
+        play_protocol(RelationMemory, cause, np.random.default_rng([0, run]))
         for run in range(runs)
     ]
     return (
@@ -74,7 +74,7 @@ def test_people_differ_in_their_habits() -> None:
 
 def test_the_published_kappas_follow_from_their_margins() -> None:
     """Agreement on 17 of 32 and on 15 of 64, with the words used as often as shown."""
-    (_, _, _, judges), (_, _, _, robot) = published().rows
+    (_, _, _, judges), (_, _, _, robot) = published_agreement().rows
     assert judges == pytest.approx(0.4313, abs=5e-4)
     assert robot == pytest.approx(0.0537, abs=5e-4)
 
@@ -82,8 +82,8 @@ def test_the_published_kappas_follow_from_their_margins() -> None:
 def test_the_report_has_a_row_for_each_cause_and_is_seeded(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("kille.lab.protocols.staged._POINTS", 2)
-    monkeypatch.setattr("kille.lab.protocols.staged._RINGS", (0.25,))
+    monkeypatch.setattr("kille.lab.protocols.rendered_scenes._POINTS", 2)
+    monkeypatch.setattr("kille.lab.protocols.rendered_scenes._RINGS", (0.25,))
     causes = (Cause("none"), Cause("places 8 cm off", noise=0.08))
     shares: list[float] = []
 
@@ -104,6 +104,6 @@ def test_the_report_has_a_row_for_each_cause_and_is_seeded(
 def test_rendered_scenes_seen_by_the_robots_own_eyes(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("kille.lab.protocols.staged._POINTS", 4)
-    table = staged(METHODS, seed=2, progress=silent)
+    monkeypatch.setattr("kille.lab.protocols.rendered_scenes._POINTS", 4)
+    table = play_rendered_scenes(METHODS, seed=2, progress=silent)
     assert all(float(row[-1] or 0) > 0.7 for row in table.rows)

@@ -117,7 +117,7 @@ def test_dialogues_that_were_cut_short_are_told(tmp_path: Path) -> None:
 def test_two_folders_are_compared_by_what_they_share(tmp_path: Path) -> None:
     """The first has seeds 1 to 4, the second 3 to 6; theories are those of one name."""
     one, other = ran(tmp_path / "one"), ran(tmp_path / "two", seeds="[3, 4, 5, 6]")
-    results = reports.compared(one, other)
+    results = reports.compare_results(one, other)
     assert table(results, "All measures").columns == (
         "",
         *(f"{it}: {name}" for it in ("one", "two") for name in ("good", "other")),
@@ -158,7 +158,7 @@ def test_what_is_called_the_same_and_is_not_is_told(
     """Else a difference would be held for one of the theories."""
     one = ran(tmp_path / "one")
     other = ran(tmp_path / "two", text=STUDY.replace(old, new))
-    [warning] = reports.compared(one, other)[0].text.splitlines()
+    [warning] = reports.compare_results(one, other)[0].text.splitlines()
     assert told in warning
     assert warning.endswith("differences may come of that as well.")
 
@@ -166,14 +166,14 @@ def test_what_is_called_the_same_and_is_not_is_told(
 def test_other_theories_are_all_compared(tmp_path: Path) -> None:
     one = ran(tmp_path / "one")
     other = ran(tmp_path / "two", other="third")
-    found = table(reports.compared(one, other), "Question by question")
+    found = table(reports.compare_results(one, other), "Question by question")
     assert [(row[0], row[2]) for row in found.rows] == [("one: good", "two: good")]
-    assert not reports.compared(one, other)[0].text
+    assert not reports.compare_results(one, other)[0].text
 
 
 def test_folders_of_one_name_are_told_apart_by_where_they_are(tmp_path: Path) -> None:
     one, other = ran(tmp_path / "a" / "same"), ran(tmp_path / "b" / "same")
-    columns = table(reports.compared(one, other), "All measures").columns
+    columns = table(reports.compare_results(one, other), "All measures").columns
     assert columns[1] == f"{one}: good"
 
 
@@ -181,13 +181,13 @@ def test_folders_of_one_name_are_told_apart_by_where_they_are(tmp_path: Path) ->
 def test_what_shares_nothing_is_not_compared(tmp_path: Path, seeds: str) -> None:
     one, other = ran(tmp_path / "one"), ran(tmp_path / "two", seeds=seeds)
     with pytest.raises(StudyError, match="no dialogues with the same tutor, scene"):
-        reports.compared(one, other)
+        reports.compare_results(one, other)
 
 
 def test_a_folder_is_not_compared_with_itself(tmp_path: Path) -> None:
     one = ran(tmp_path / "one")
     with pytest.raises(StudyError, match="are one folder: name two"):
-        reports.compared(one, one)
+        reports.compare_results(one, one)
 
 
 def test_where_there_is_no_log_there_is_no_report(tmp_path: Path) -> None:

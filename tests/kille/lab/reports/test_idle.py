@@ -6,7 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from kille.lab.dialogues import Played, Turn
-from kille.lab.measures.scored_dialogues import Dialogue, scored
+from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
 from kille.lab.reports.unused_rules import idle
 from kille.lab.study import Run, Theory
 from kille.lab.theories.descriptions import describe
@@ -18,11 +18,13 @@ rule silent(s : State /\\ [shared : [{label} : AskName]])
 """
 
 
-def dialogues(theory: str, *rules: str) -> list[Dialogue]:
+def dialogues(theory: str, *rules: str) -> list[ScoredDialogue]:
     """Two dialogues of one turn, in which these rules applied."""
     turn = Turn(1, "test", "Ann", "ask_name", "What is this?", "", 3, rules=rules)
     played = Played((turn,), ())
-    return [scored(Run(theory, "Ann", "table", it), played, 0.1) for it in (1, 2)]
+    return [
+        score_dialogue(Run(theory, "Ann", "table", it), played, 0.1) for it in (1, 2)
+    ]
 
 
 def told(folder: Path, *rules: str, label: str = "latest") -> list[str]:

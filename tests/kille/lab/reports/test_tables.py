@@ -12,7 +12,7 @@ import pytest
 
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.measures.measures import ACCURACY
-from kille.lab.measures.scored_dialogues import Dialogue, scored
+from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
 from kille.lab.reports import curves
 from kille.lab.reports.conditions import by_conditions
 from kille.lab.reports.contrasts import contrasted, corrected
@@ -20,7 +20,7 @@ from kille.lab.reports.costs import costs
 from kille.lab.reports.drawing import drawing
 from kille.lab.reports.findings import (
     Theories,
-    grouped,
+    group_by_theory,
     in_detail,
     measures_of,
     overall,
@@ -42,7 +42,7 @@ SHARES: Mapping[str, Mapping[str, float]] = {
 TESTS = [["teach 1", "teach 2"], ["test 1", "test 2"]]
 
 
-def talk(theory: str, tutor: str, scene: str, seed: int) -> Dialogue:
+def talk(theory: str, tutor: str, scene: str, seed: int) -> ScoredDialogue:
     """Two lessons each of a round, and four questions after each of the two rounds."""
     turns, answers = [], []
     for part in (1, 2):
@@ -69,7 +69,7 @@ def talk(theory: str, tutor: str, scene: str, seed: int) -> Dialogue:
                 )
             )
     run = Run(theory, tutor, scene, seed)
-    return scored(run, Played(tuple(turns), tuple(answers), 4), 0.1)
+    return score_dialogue(run, Played(tuple(turns), tuple(answers), 4), 0.1)
 
 
 def study(seeds: int = 6, scenes: tuple[str, ...] = ("table",)) -> Theories:
@@ -80,7 +80,7 @@ def study(seeds: int = 6, scenes: tuple[str, ...] = ("table",)) -> Theories:
         for tutor in ("silent", "corrects")
         for theory in SHARES
     ]
-    return grouped(list(SHARES), talks)
+    return group_by_theory(list(SHARES), talks)
 
 
 def row(table: Table, *start: object) -> tuple[object, ...]:
@@ -149,12 +149,14 @@ def test_answers_are_counted_for_each_theory_where_they_are_not_as_many() -> Non
     assert "By kind of word: answers" not in found
 
 
-def asked(theory: str, ways: Sequence[str], kind: str = "noun") -> Dialogue:
+def asked(theory: str, ways: Sequence[str], kind: str = "noun") -> ScoredDialogue:
     answers = [
         Answer(turn, "test", kind, "cup", "cup", way)
         for turn, way in enumerate(ways, start=1)
     ]
-    return scored(Run(theory, "Ann", "table", 1), Played((), tuple(answers)), 0.1)
+    return score_dialogue(
+        Run(theory, "Ann", "table", 1), Played((), tuple(answers)), 0.1
+    )
 
 
 def test_things_are_not_counted_as_answers_with_words() -> None:
@@ -223,7 +225,7 @@ def test_each_phase_is_told_with_each_tutor(theories: Theories) -> None:
 def test_two_people_who_never_quite_agree_are_drawn_as_the_ceiling() -> None:
     """The second judge says car where the first says cup, once in four times."""
 
-    def judged(it: Dialogue) -> Dialogue:
+    def judged(it: ScoredDialogue) -> ScoredDialogue:
         answers = (
             one._replace(judge="car" if n % 4 == 0 else one.right)
             for n, one in enumerate(it.answers)
@@ -363,7 +365,11 @@ def test_learning_is_drawn_by_lessons(theories: Theories) -> None:
 
 
 @pytest.mark.parametrize(
-    ("seeds", "told"), [(2, "Too few dialogues for bands."), (6, "Bands of 95 %.")]
+    ("seeds", "told"),
+    [
+        (2, "Too few dialogues for confidence intervals."),
+        (6, "95 % confidence intervals."),
+    ],
 )
 def test_bands_are_spoken_of_where_some_are_drawn(seeds: int, told: str) -> None:
     few = study(seeds)
@@ -386,7 +392,7 @@ def test_other_tests_are_no_points_of_the_same_curve() -> None:
         *answer("nouns 2", "noun", 2),
         *answer("colours 2", "adjective", 2),
     ]
-    talk = scored(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
+    talk = score_dialogue(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
     tests = [["nouns 1", "nouns 2"], ["lessons"], ["colours 1", "colours 2"]]
     nouns, colours = curves.learning({"a": [talk]}, tests)
     assert nouns.title == "Learning curve: nouns 1, nouns 2"
@@ -440,7 +446,7 @@ def test_places_on_a_learning_curve_have_as_much_room_as_each_other() -> None:
         Answer(turn, "test", "noun", "cup", "cup", "assert", lessons=turn // 5)
         for turn in range(5 * 14)
     ]
-    talk = scored(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
+    talk = score_dialogue(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
     (figure,) = curves.learning({"a": [talk]}, [["test"]])
     assert figure.data["series"]["a"]["x"] == [0, 2, 4, 6, 8, 10, 12, 14]
 
@@ -601,7 +607,7 @@ def test_thirty_words_of_six_theories_are_figures_that_fit_on_a_page() -> None:
     ]
     names = [f"a theory with a rather long name, number {n}" for n in range(6)]
     theories = {
-        name: [scored(Run(name, "A", "t", 1), Played((), tuple(answers)), 0.1)]
+        name: [score_dialogue(Run(name, "A", "t", 1), Played((), tuple(answers)), 0.1)]
         for name in names
     }
     figures = list(curves.words(theories))

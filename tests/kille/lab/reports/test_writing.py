@@ -17,10 +17,10 @@ import pytest
 
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.measures.comparison import Contrast, Difference, McNemar
-from kille.lab.measures.scored_dialogues import Dialogue, scored
+from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
 from kille.lab.reports.contrasts import out_of_reach
 from kille.lab.reports.drawing import MISSING
-from kille.lab.reports.findings import grouped
+from kille.lab.reports.findings import group_by_theory
 from kille.lab.reports.latex_tables import latex_table
 from kille.lab.reports.links import places_of
 from kille.lab.reports.study_report import Subject, every_two, results_of, write
@@ -33,7 +33,7 @@ SURE, ODD = "sure", "<b>odd</b> & shy"
 SKILL = {SURE: 0.9, ODD: 0.5}
 
 
-def dialogue(theory: str, seed: int, judged: bool = True) -> Dialogue:
+def dialogue(theory: str, seed: int, judged: bool = True) -> ScoredDialogue:
     """A tutor says what three things are, and asks; the better theory knows more."""
     shown, own = Random(f"shown {seed}"), Random(f"{theory} {seed}")
     turns, answers = [], []
@@ -56,13 +56,13 @@ def dialogue(theory: str, seed: int, judged: bool = True) -> Dialogue:
             )._replace(degrees=degrees, judge=judge, lessons=number // 2)
         )
     run = Run(theory, "Ann", "table & chairs", seed)
-    return scored(run, Played(tuple(turns), tuple(answers), 6), 0.25)
+    return score_dialogue(run, Played(tuple(turns), tuple(answers), 6), 0.25)
 
 
 def subject(*theories: str, seeds: int = 6, **more: object) -> Subject:
     names = theories or (SURE, ODD)
     talks = [dialogue(name, seed) for seed in range(1, seeds + 1) for name in names]
-    found = grouped(names, talks)
+    found = group_by_theory(names, talks)
     described = {
         name: {"strategy": record(mode=name[:4], sure=0.6), "rules": {"hedge": name}}
         for name in names

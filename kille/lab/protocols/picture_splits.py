@@ -11,12 +11,12 @@ from functools import partial
 from kille.lab.measures.statistics import kappa
 from kille.lab.progress import Steps
 from kille.lab.protocols.teaching import (
-    Answer,
-    asked,
-    confusion_figure,
+    ObjectAnswer,
+    answers_figure,
+    ask,
     right_cells,
     share_right,
-    taught,
+    teach,
 )
 from kille.lab.results import (
     Cell,
@@ -40,7 +40,7 @@ def every_other(
     """The pictures with even places are taught, those with odd ones asked for."""
     taught_of = {word: paths[0::2] for word, paths in gallery.categories.items()}
     asked_of = {word: paths[1::2] for word, paths in gallery.categories.items()}
-    return _parted(
+    return _teach_and_ask(
         "Even pictures taught, odd asked",
         gallery,
         methods,
@@ -57,7 +57,7 @@ def halves(
     cut = {word: (len(paths) + 1) // 2 for word, paths in gallery.categories.items()}
     taught_of = {w: paths[: cut[w]] for w, paths in gallery.categories.items()}
     asked_of = {w: paths[cut[w] :] for w, paths in gallery.categories.items()}
-    return _parted(
+    return _teach_and_ask(
         "First half taught, last half asked",
         gallery,
         methods,
@@ -67,7 +67,7 @@ def halves(
     )
 
 
-def _parted(
+def _teach_and_ask(
     title: str,
     gallery: Gallery,
     methods: Methods,
@@ -81,7 +81,7 @@ def _parted(
     lessons, questions = gallery.lessons(taught_of), gallery.lessons(asked_of)
     steps = Steps(progress, len(methods) * len(questions), LOOKING, 1)
     answers = {
-        name: asked(taught(make, lessons), questions, partial(steps, name))
+        name: ask(teach(make, lessons), questions, partial(steps, name))
         for name, make in methods.items()
     }
     return Result(
@@ -90,7 +90,7 @@ def _parted(
             Table(
                 "Which category is it?",
                 ("method", "right", "share", "95 % band", "κ"),
-                tuple((name, *_scores(them)) for name, them in answers.items()),
+                tuple((name, *_score_cells(them)) for name, them in answers.items()),
                 f"{len(lessons)} pictures taught. {gallery.note}".strip(),
             ),
             _by_category(answers),
@@ -105,12 +105,12 @@ def _parted(
     )
 
 
-def _scores(answers: Sequence[Answer]) -> tuple[Cell, ...]:
+def _score_cells(answers: Sequence[ObjectAnswer]) -> tuple[Cell, ...]:
     words, said = [it.word for it in answers], [it.said for it in answers]
     return (*right_cells(answers), kappa(words, said))
 
 
-def _by_category(answers: Mapping[str, Sequence[Answer]]) -> Table:
+def _by_category(answers: Mapping[str, Sequence[ObjectAnswer]]) -> Table:
     words = list(dict.fromkeys(it.word for them in answers.values() for it in them))
     rows: tuple[tuple[Cell, ...], ...] = tuple(
         (
@@ -126,16 +126,18 @@ def _by_category(answers: Mapping[str, Sequence[Answer]]) -> Table:
 
 
 def _figures(
-    questions: Sequence[Lesson], answers: Mapping[str, Sequence[Answer]]
+    questions: Sequence[Lesson], answers: Mapping[str, Sequence[ObjectAnswer]]
 ) -> tuple[Figure, ...]:
     confusions = (
-        confusion_figure(f"Answers of {name}", them) for name, them in answers.items()
+        answers_figure(f"Answers of {name}", them) for name, them in answers.items()
     )
-    wrong = (_wrong(name, questions, them) for name, them in answers.items())
+    wrong = (_mistakes_figure(name, questions, them) for name, them in answers.items())
     return *confusions, *wrong
 
 
-def _wrong(name: str, questions: Sequence[Lesson], answers: Sequence[Answer]) -> Figure:
+def _mistakes_figure(
+    name: str, questions: Sequence[Lesson], answers: Sequence[ObjectAnswer]
+) -> Figure:
     """The mistakes that were made with the highest degrees."""
     wrong = [i for i, answer in enumerate(answers) if not answer.right]
     surest = sorted(wrong, key=lambda i: -answers[i].best)[:_SHOWN]

@@ -32,14 +32,16 @@ _TRIES = 6
 
 
 @dataclass(frozen=True)
-class _Seen:
+class _SeenPlacement:
     """A placement: where the book truly is, and what the robot saw."""
 
     true: Place
     seen: Configuration
 
 
-def staged(methods: Mapping[str, Any], *, seed: int, progress: Progress) -> Table:
+def play_rendered_scenes(
+    methods: Mapping[str, Any], *, seed: int, progress: Progress
+) -> Table:
     """Two rounds of 16 lessons and one of 16 questions, for each of the methods."""
     chance = np.random.default_rng([seed, 1])
     stage = open_synthetic(f"synthetic:empty?seed={seed}")
@@ -64,12 +66,15 @@ def staged(methods: Mapping[str, Any], *, seed: int, progress: Progress) -> Tabl
         columns=("method", "judges' kappa", "robot's kappa", "accepted"),
         rows=tuple(rows),
         note=f"{len(taught)} lessons and {len(asked)} questions, one run; "
-        f"places are {_error(taught + asked):.1f} cm off (median).",
+        f"places are {_median_error(taught + asked):.1f} cm off (median).",
     )
 
 
 def _answers(
-    learner: Any, taught: Sequence[_Seen], words: Sequence[str], asked: Sequence[_Seen]
+    learner: Any,
+    taught: Sequence[_SeenPlacement],
+    words: Sequence[str],
+    asked: Sequence[_SeenPlacement],
 ) -> list[str]:
     """What a learner says of the questions that was taught these words."""
     for key, (it, word) in enumerate(zip(taught, words, strict=True)):
@@ -77,19 +82,19 @@ def _answers(
     return [likeliest_word(learner.predict_proba_one(it.seen)) for it in asked]
 
 
-def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[_Seen]:
+def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[_SeenPlacement]:
     """The book at each of 16 places, where there is room and the robot sees both."""
     for distance in _RINGS:
         for point in range(_POINTS):
             bearing = 2 * pi * point / _POINTS
-            seen = _placed(stage, distance, bearing, chance)
+            seen = _place_book(stage, distance, bearing, chance)
             if seen is not None:
                 yield seen
 
 
-def _placed(
+def _place_book(
     stage: Synthetic, distance: float, bearing: float, chance: np.random.Generator
-) -> _Seen | None:
+) -> _SeenPlacement | None:
     for _ in range(_TRIES):
         right, away = distance * cos(bearing), distance * sin(bearing)
         right, away = right + chance.normal(0, 0.01), away + chance.normal(0, 0.01)
@@ -106,29 +111,31 @@ def _placed(
             )
         except SensorError:
             continue
-        return _looked(stage.frame(), (right, away))
+        return _look(stage.frame(), (right, away))
     return None
 
 
-def _looked(frame: Frame, true: Place) -> _Seen | None:
+def _look(frame: Frame, true: Place) -> _SeenPlacement | None:
     scene = segment(frame)
-    target = _pointed(frame, scene.regions, _TARGET)
-    landmark = _pointed(frame, scene.regions, _LANDMARK)
+    target = _region_pointed_at(frame, scene.regions, _TARGET)
+    landmark = _region_pointed_at(frame, scene.regions, _LANDMARK)
     if target is None or landmark is None or target is landmark:
         return None
     others = [it for it in scene.regions if it is not target and it is not landmark]
     seen = configuration(frame, target, landmark, others, scene.up)
-    return None if seen is None else _Seen(true, seen)
+    return None if seen is None else _SeenPlacement(true, seen)
 
 
-def _pointed(frame: Frame, regions: tuple[Region, ...], name: str) -> Region | None:
+def _region_pointed_at(
+    frame: Frame, regions: tuple[Region, ...], name: str
+) -> Region | None:
     """The region that a finger on the thing would mean."""
     outline = frame.outlines[name]
     shared = [int((it.mask & outline).sum()) for it in regions]
     return regions[int(np.argmax(shared))] if any(shared) else None
 
 
-def _error(seen: list[_Seen]) -> float:
+def _median_error(seen: list[_SeenPlacement]) -> float:
     """How far off the places on the table are, in centimetres: the median."""
     off = [np.array(it.seen.offset[:2]) - it.true for it in seen]
     return float(np.median(np.linalg.norm(off, axis=1))) * 100 if off else 0.0
