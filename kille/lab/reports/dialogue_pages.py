@@ -1,29 +1,31 @@
-"""Pages of dialogues: what was said, by all theories side by side, and where to look.
+"""Pages of dialogues: what all theories were told and said, and lists that lead to it.
 
 Each number of a report leads to one of them. They need nothing but the report's folder.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, cycle
 
 from kille.lab.dialogues import Turn
 from kille.lab.measures.comparison import in_pairs
 from kille.lab.measures.measures import ACCURACY, value
 from kille.lab.measures.scored_dialogues import ScoredAnswer, ScoredDialogue
-from kille.lab.reports.events import happening
+from kille.lab.reports.elements import Markup, element, join, link, scrolling_table
+from kille.lab.reports.events import describe_event
 from kille.lab.reports.figure_styles import HUES
 from kille.lab.reports.findings import Theories
 from kille.lab.reports.links import Places
-from kille.lab.reports.result_pages import beginning
+from kille.lab.reports.result_pages import table_element, whole_page
 from kille.lab.reports.styles import DIALOGUES, THEORIES
-from ttr.escapes import html_address, html_text
+from kille.lab.results import Cell, Table
+from ttr.escapes import html_address
 
 Page = tuple[str, str]
 """The name of a file, and what is in it."""
 
-_Piece = tuple[str, str, Iterable[str]]
+_Piece = tuple[str, str, Iterable[Markup]]
 
 
 def pages(theories: Theories, places: Places, report: str) -> Iterator[Page]:
@@ -31,34 +33,29 @@ def pages(theories: Theories, places: Places, report: str) -> Iterator[Page]:
 
     `report` is the name of the page that leads to them, a folder further out.
     """
-    for name, title, body in _pages(theories, places):
-        back = f'<p><a href="../{html_address(report)}">report</a></p>'
-        parts = (*beginning(title, THEORIES + DIALOGUES), back, *body, "</body></html>")
-        yield _file(name), "\n".join(parts) + "\n"
+    back = element("p", link("report", f"../{html_address(report)}"))
+    for place, title, body in _pages(theories, places):
+        file = place.partition("#")[0].rpartition("/")[2]
+        yield file, whole_page(title, [back, *body], None, THEORIES + DIALOGUES)
 
 
 def _pages(theories: Theories, places: Places) -> Iterator[_Piece]:
-    """The place, the title and the body of each."""
+    """The place, the title and the body of each page."""
     occasions: dict[tuple[str, str, int], list[ScoredDialogue]] = {}
     for them in theories.values():
         for it in them:
             occasions.setdefault(it.pair, []).append(it)
     for them in occasions.values():
         title = f"Dialogue {places.pairs[them[0].pair]}: {_title(them[0])}"
-        yield places.dialogue(them[0].run), title, _said(them, places)
+        yield places.dialogue(them[0].run), title, _side_by_side(them, places)
     for name, them in theories.items():
-        yield places.theory(name), name, _dialogues(name, them, places)
+        yield places.theory(name), name, _dialogue_lists(name, them, places)
         title = f"{name}: all answers"
-        yield places.answers(name), title, _answers(name, them, places)
+        yield places.answers(name), title, _answer_lists(name, them, places)
     for one, other in combinations(theories, 2):
         title = f"{other} against {one}"
-        body = _against(theories[one], theories[other], places)
+        body = _differences(theories[one], theories[other], places)
         yield places.against(one, other), title, body
-
-
-def _file(place: str) -> str:
-    """The name of the file of a place."""
-    return place.partition("#")[0].rpartition("/")[2]
 
 
 def _beside(place: str) -> str:
@@ -71,37 +68,44 @@ def _title(dialogue: ScoredDialogue) -> str:
     return f"{tutor}, {scene}, seed {seed}"
 
 
-def _link(place: str, text: str) -> str:
-    return f'<a href="{html_text(_beside(place))}">{html_text(text)}</a>'
-
-
 # --- what was said -------------------------------------------------------------------
 
 
-def _said(dialogues: Sequence[ScoredDialogue], places: Places) -> Iterator[str]:
+def _side_by_side(
+    dialogues: Sequence[ScoredDialogue], places: Places
+) -> Iterator[Markup]:
     """What each theory was told and said: phase by phase, each from the same height."""
     hues = dict(zip(places.theories, cycle(HUES), strict=False))
-    yield '<div class="theories">'
-    for it in dialogues:
+
+    def columns(of: Callable[[ScoredDialogue], Iterator[Markup]]) -> Markup:
+        cards = (
+            element(
+                "div",
+                *of(it),
+                id=anchor(it) if of is heading else "",
+                style=f"--hue: {hues[it.run.theory]}",
+            )
+            for it in dialogues
+        )
+        return element("div", *cards, class_="theories")
+
+    def heading(it: ScoredDialogue) -> Iterator[Markup]:
         name = it.run.theory
-        yield f'<div id="{_anchor(it, places)}" style="--hue: {hues[name]}">'
-        yield f"<h4>{_link(places.theory(name), name)}</h4>"
-        yield f'<p class="note">{html_text(_summary(it))}</p></div>'
-    yield "</div>"
+        yield element("h4", link(name, _beside(places.theory(name))))
+        yield element("p", _summary(it), class_="note")
+
+    def anchor(it: ScoredDialogue) -> str:
+        return f"theory-{places.theories[it.run.theory]}"
+
+    yield columns(heading)
     for phase in dict.fromkeys(turn.phase for it in dialogues for turn in it.turns):
-        yield f'<h3>{html_text(phase)}</h3><div class="theories">'
-        for it in dialogues:
-            name = it.run.theory
-            yield f'<div style="--hue: {hues[name]}">'
+
+        def turns(it: ScoredDialogue, phase: str = phase) -> Iterator[Markup]:
             if len(dialogues) > 1:
-                yield f'<p class="called">{html_text(name)}</p>'
-            yield from _turns(it, phase, f"{_anchor(it, places)}-turn")
-            yield "</div>"
-        yield "</div>"
+                yield element("p", it.run.theory, class_="called")
+            yield from _turns(it, phase, f"{anchor(it)}-turn")
 
-
-def _anchor(dialogue: ScoredDialogue, places: Places) -> str:
-    return f"theory-{places.theories[dialogue.run.theory]}"
+        yield element("h3", phase) + columns(turns)
 
 
 def _summary(dialogue: ScoredDialogue) -> str:
@@ -114,42 +118,39 @@ def _summary(dialogue: ScoredDialogue) -> str:
     )
 
 
-def _turns(dialogue: ScoredDialogue, phase: str, anchor: str) -> Iterator[str]:
+def _turns(dialogue: ScoredDialogue, phase: str, anchor: str) -> Iterator[Markup]:
+    """The turns of a phase; it is said who of several tutors speaks in them."""
     answers: dict[int, list[ScoredAnswer]] = {}
     for answer in dialogue.answers:
         answers.setdefault(answer.turn, []).append(answer)
     several = len({turn.tutor for turn in dialogue.turns}) > 1
     for turn in dialogue.turns:
         if turn.phase == phase:
-            who = turn.tutor if several else ""
-            told = answers.get(turn.number, ())
-            yield _turn(turn, who, told, f"{anchor}-{turn.number}")
+            lines = [_input(turn, several)] if turn.given else []
+            if turn.answer:
+                lines.append(element("p", turn.answer, class_="robot"))
+            for it in answers.get(turn.number, ()):
+                lines.append(element("p", _mark(it), " ", _describe_answer(it)))
+            number = element("span", str(turn.number))
+            place = f"{anchor}-{turn.number}"
+            yield element("div", number, *lines, class_="turn", id=place)
 
 
-def _turn(turn: Turn, who: str, answers: Sequence[ScoredAnswer], anchor: str) -> str:
-    """A turn; who of several tutors speaks in it is said."""
-    lines = [_given(turn, who)] if turn.given else []
-    if turn.answer:
-        lines.append(f'<p class="robot">{html_text(turn.answer)}</p>')
-    lines += [f"<p>{_mark(it)} {html_text(_told(it))}</p>" for it in answers]
-    told = f"<span>{turn.number}</span>"
-    return f'<div class="turn" id="{anchor}">{told}{"".join(lines)}</div>'
-
-
-def _given(turn: Turn, who: str) -> str:
+def _input(turn: Turn, names_tutor: bool) -> Markup:
+    """What the tutor said, or what happened."""
     if not turn.words:
-        return f'<p class="happens">{html_text(happening(turn.given))}</p>'
-    named = f'<span class="who">{html_text(who)}:</span> ' if who else ""
-    return f"<p>{named}{html_text(turn.given)}</p>"
+        return element("p", describe_event(turn.given), class_="happens")
+    who = [element("span", f"{turn.tutor}:", class_="who"), " "] * names_tutor
+    return element("p", *who, turn.given)
 
 
-def _mark(answer: ScoredAnswer) -> str:
-    return (
-        '<span class="yes">✓</span>' if answer.is_right else '<span class="no">✗</span>'
-    )
+def _mark(answer: ScoredAnswer) -> Markup:
+    if answer.is_right:
+        return element("span", "✓", class_="yes")
+    return element("span", "✗", class_="no")
 
 
-def _told(answer: ScoredAnswer) -> str:
+def _describe_answer(answer: ScoredAnswer) -> str:
     degree = f" ({answer.degree:.2f})" if answer.degree == answer.degree else ""
     said = f"{answer.said or '–'}{degree}"
     return said if answer.is_right else f"{said}, right is {answer.right}"
@@ -160,47 +161,41 @@ def _told(answer: ScoredAnswer) -> str:
 _HEADS = ("dialogue", "right", "of", "turns", "words", "corrections", "lessons")
 
 
-def _dialogues(
+def _dialogue_lists(
     name: str, dialogues: Sequence[ScoredDialogue], places: Places
-) -> Iterator[str]:
-    yield f"<p>{_link(places.answers(name), 'all answers')}</p>"
-    for tutor, number in places.tutors.items():
-        found = [it for it in dialogues if it.run.tutor == tutor]
-        yield f'<h3 id="tutor-{number}">tutor {html_text(tutor)}</h3>'
-        yield from _table(_HEADS, (_row(it, places) for it in found))
-    for scene, number in places.scenes.items():
-        found = [it for it in dialogues if it.run.scene == scene]
-        yield f'<h3 id="scene-{number}">scene {html_text(scene)}</h3>'
-        yield from _table(_HEADS, (_row(it, places) for it in found))
+) -> Iterator[Markup]:
+    """The dialogues of a theory, tutor by tutor and scene by scene."""
+    yield element("p", link("all answers", _beside(places.answers(name))))
+    for what, numbers in (("tutor", places.tutors), ("scene", places.scenes)):
+        for one, number in numbers.items():
+            those = [it for it in dialogues if getattr(it.run, what) == one]
+            yield element("h3", f"{what} {one}", id=f"{what}-{number}")
+            yield _linked_rows(_HEADS, those, map(_counts, those), places)
 
 
-def _row(it: ScoredDialogue, places: Places) -> tuple[str, ...]:
+def _counts(it: ScoredDialogue) -> tuple[Cell, ...]:
     return (
-        _link(places.dialogue(it.run), _title(it)),
-        str(sum(one.is_right for one in it.answers)),
-        str(len(it.answers)),
-        str(sum(one.turns for one in it.efforts)),
-        str(sum(one.words for one in it.efforts)),
-        str(sum(one.corrections for one in it.efforts)),
-        str(it.lessons),
+        sum(one.is_right for one in it.answers),
+        len(it.answers),
+        sum(one.turns for one in it.efforts),
+        sum(one.words for one in it.efforts),
+        sum(one.corrections for one in it.efforts),
+        it.lessons,
     )
 
 
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
-    """Cells are pieces of a page already; all but the first are numbers."""
-    yield '<div class="scroll"><table><thead><tr>'
-    yield _cells("th", [html_text(head) for head in heads])
-    yield "</tr></thead><tbody>"
-    for row in rows:
-        yield f"<tr>{_cells('td', row)}</tr>"
-    yield "</tbody></table></div>"
-
-
-def _cells(tag: str, cells: Sequence[str]) -> str:
-    first, *others = cells
-    return f"<{tag}>{first}</{tag}>" + "".join(
-        f'<{tag} class="number">{it}</{tag}>' for it in others
-    )
+def _linked_rows(
+    heads: tuple[str, ...],
+    dialogues: Sequence[ScoredDialogue],
+    rows: Iterable[tuple[Cell, ...]],
+    places: Places,
+) -> Markup:
+    """A table of which each row leads to a dialogue."""
+    cells = tuple((_title(it), *row) for it, row in zip(dialogues, rows, strict=True))
+    links = {
+        (row, 0): _beside(places.dialogue(it.run)) for row, it in enumerate(dialogues)
+    }
+    return table_element(Table("", heads, cells, "", links))
 
 
 _LINKS = (
@@ -210,74 +205,79 @@ _LINKS = (
 _Given = tuple[ScoredDialogue, ScoredAnswer]
 
 
-def _answers(
+def _answer_lists(
     name: str, dialogues: Sequence[ScoredDialogue], places: Places
-) -> Iterator[str]:
-    """The answers by kind of word and by word, then by phase."""
-    yield f"<p>{_link(places.theory(name), 'all dialogues')}</p>"
-    yield f'<p class="note">{_LINKS}</p>'
+) -> Iterator[Markup]:
+    """The answers of a theory by kind of word and word, phase, and way of saying."""
+    yield element("p", link("all dialogues", _beside(places.theory(name))))
+    yield element("p", _LINKS, class_="note")
     given = [(it, answer) for it in dialogues for answer in it.answers]
     for kind, number in places.kinds.items():
         of_kind = [it for it in given if it[1].kind == kind]
-        yield f'<h2 id="kind-{number}">{html_text(kind)}</h2>'
-        for (its, word), place in places.words.items():
-            if its != kind:
-                continue
-            found = [it for it in of_kind if it[1].right == word]
-            yield f'<h3 id="word-{place}">{html_text(word)}</h3>'
-            yield from _grouped(found, places)
-    for phase, number in places.phases.items():
-        found = [it for it in given if it[1].phase == phase]
-        if found:
-            yield f'<h2 id="phase-{number}">in {html_text(phase)}</h2>'
-            yield from _grouped(found, places)
-    for way, number in places.ways.items():
-        found = [it for it in given if it[1].way == way]
-        if found:
-            yield f'<h2 id="way-{number}">as {html_text(way)}</h2>'
-            yield from _grouped(found, places)
+        yield element("h2", kind, id=f"kind-{number}")
+        for (of, word), place in places.words.items():
+            if of == kind:
+                some = [it for it in of_kind if it[1].right == word]
+                yield element("h3", word, id=f"word-{place}")
+                yield _answer_table(some, places)
+    yield from _answers_by("phase", "in", places.phases, given, places)
+    yield from _answers_by("way", "as", places.ways, given, places)
 
 
-def _grouped(given: Sequence[_Given], places: Places) -> Iterator[str]:
+def _answers_by(
+    what: str,
+    preposition: str,
+    numbers: Mapping[str, int],
+    given: Sequence[_Given],
+    places: Places,
+) -> Iterator[Markup]:
+    for one, number in numbers.items():
+        some = [it for it in given if getattr(it[1], what) == one]
+        if some:
+            yield element("h2", f"{preposition} {one}", id=f"{what}-{number}")
+            yield _answer_table(some, places)
+
+
+def _answer_table(given: Sequence[_Given], places: Places) -> Markup:
     """Answers by what was right and what was said, each a link to its turn."""
     groups: dict[tuple[str, str], list[_Given]] = {}
     for it in given:
         groups.setdefault((it[1].right, it[1].said), []).append(it)
-    yield '<div class="scroll"><table><thead><tr><th></th><th>right</th>'
-    yield '<th>said</th><th class="number">times</th><th></th></tr></thead><tbody>'
-    for (right, said), them in sorted(groups.items()):
-        links = "".join(_to_turn(it, answer, places) for it, answer in them)
-        yield (
-            f"<tr><td>{_mark(them[0][1])}</td><td>{html_text(right)}</td>"
-            f'<td>{html_text(said or "–")}</td><td class="number">{len(them)}</td>'
-            f'<td class="links">{links}</td></tr>'
+    rows = (
+        (
+            element("td", _mark(them[0][1])),
+            element("td", right),
+            element("td", said or "–"),
+            element("td", str(len(them)), class_="number"),
+            element("td", join(_turn_link(*it, places) for it in them), class_="links"),
         )
-    yield "</tbody></table></div>"
+        for (right, said), them in sorted(groups.items())
+    )
+    heads = (
+        element("th", head, class_="number" if head == "times" else "")
+        for head in ("", "right", "said", "times", "")
+    )
+    return scrolling_table(heads, rows)
 
 
-def _to_turn(dialogue: ScoredDialogue, answer: ScoredAnswer, places: Places) -> str:
-    place = _beside(places.turn(dialogue.run, answer.turn))
-    return f'<a href="{place}">{places.pairs[dialogue.pair]}:{answer.turn}</a>'
+def _turn_link(
+    dialogue: ScoredDialogue, answer: ScoredAnswer, places: Places
+) -> Markup:
+    text = f"{places.pairs[dialogue.pair]}:{answer.turn}"
+    return link(text, _beside(places.turn(dialogue.run, answer.turn)))
 
 
-def _against(
+def _differences(
     one: Sequence[ScoredDialogue], other: Sequence[ScoredDialogue], places: Places
-) -> Iterator[str]:
-    """The dialogues in which they differ most come first."""
+) -> Iterator[Markup]:
+    """The dialogues in which two theories differ most come first."""
     rows = []
     for first, second in in_pairs(one, other):
         before, after = value(ACCURACY, [first]), value(ACCURACY, [second])
-        rows.append((after - before, before, after, first))
-    rows.sort(key=lambda it: (it[0] != it[0], -abs(it[0]), it[3].pair))
+        rows.append((before, after, after - before, first))
+    rows.sort(key=lambda it: (it[2] != it[2], -abs(it[2]), it[3].pair))
     heads = ("dialogue", one[0].run.theory, other[0].run.theory, "difference")
-    yield "<p>Accuracy in each pair of dialogues, the largest difference first.</p>"
-    yield from _table(
-        heads,
-        (
-            (
-                _link(places.dialogue(it.run), _title(it)),
-                *(f"{x:.3f}" if x == x else "–" for x in (before, after, apart)),
-            )
-            for apart, before, after, it in rows
-        ),
+    yield element(
+        "p", "Accuracy in each pair of dialogues, the largest difference first."
     )
+    yield _linked_rows(heads, [it[3] for it in rows], (it[:3] for it in rows), places)

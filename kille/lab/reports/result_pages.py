@@ -1,16 +1,24 @@
-"""A page of HTML that holds all of a comparison: tables, figures, how to repeat it.
+"""Pages of HTML with results: tables, figures, and how to repeat them.
 
-It needs nothing but itself, by day and by night, on a wide and on a narrow window.
-Whatever comes from names and files is escaped.
+A page needs nothing but itself, by day and by night, on a wide and on a narrow window.
 """
 
 from __future__ import annotations
 
 import re
 from base64 import b64encode
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from kille.lab.reports.drawing import MISSING, can_draw, jpeg, svg
+from kille.lab.reports.elements import (
+    NOTHING,
+    Markup,
+    description_list,
+    element,
+    join,
+    link,
+    scrolling_table,
+)
 from kille.lab.results import Cell, Estimate, Figure, Result, Table, format_cell
 from ttr.aliases import former_names
 from ttr.escapes import html_text
@@ -21,6 +29,7 @@ __getattr__ = former_names(__name__, {"shown": "kille.lab.results:format_cell"})
 
 _SHORT = 14  # characters: such cells are not broken
 _LONGEST = 60  # characters in the name of a file
+_BROAD = ("map", "pictures")
 _STYLE = """
 :root { color-scheme: light dark; --ink: #1d2129; --paper: #fbfbf9; --line: #d9dade;
   --soft: #f0f1f0; --quiet: #5b6270; --accent: #0072B2; --wrong: #D55E00; }
@@ -70,8 +79,6 @@ dt { color: var(--quiet); } dd { margin: 0; min-width: 0; }
 @media print { .scroll { overflow: visible; } figure { break-inside: avoid; } }
 """
 
-_BROAD = ("map", "pictures")
-
 
 def page(
     title: str,
@@ -80,53 +87,61 @@ def page(
     failures: Sequence[str] = (),
 ) -> str:
     """The page; `about` says under which heads what it was made of, and how."""
-    return "\n".join(_page(title, results, about, failures)) + "\n"
+    parts = dict(enumerate(results, start=1))
+    command = about.get("command", "")
+    return whole_page(
+        title,
+        [
+            *([element("p", element("code", command), class_="quiet")] * bool(command)),
+            *warnings(failures),
+            *(contents({number: it.title for number, it in parts.items()})),
+            *(line for number, it in parts.items() for line in section(number, it)),
+        ],
+        about,
+    )
 
 
-def _page(
-    title: str,
-    results: Sequence[Result],
-    about: Mapping[str, str],
-    failures: Sequence[str],
-) -> Iterator[str]:
-    yield from beginning(title)
-    if "command" in about:
-        yield f'<p class="quiet"><code>{html_text(about["command"])}</code></p>'
-    for failure in failures:
-        yield f'<p class="wrong">{html_text(failure)}</p>'
-    if not can_draw():
-        yield f'<p class="note">{html_text(MISSING)}</p>'
-    yield from _contents(results)
-    for number, result in enumerate(results, start=1):
-        yield from section(number, result)
-    yield from ending(about)
+def whole_page(
+    title: str, body: Iterable[str], about: Mapping[str, str] | None, style: str = ""
+) -> str:
+    """A page of this body, with how it was made at its end if `about` says so."""
+    end = [_END] if about is None else ending(about)
+    return "\n".join([*beginning(title, style), *body, *end]) + "\n"
+
+
+_END = "</body></html>"
 
 
 def beginning(title: str, style: str = "") -> Iterator[str]:
-    """The head of a page and its title, with more style if it takes more."""
+    """The head of a page and its title, with further style sheets if it needs any."""
     yield "<!DOCTYPE html>"
     yield '<html lang="en"><head><meta charset="utf-8">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
-    title = html_text(title)
-    yield f"<title>{title}</title><style>{_STYLE}{style}</style></head><body>"
-    yield f"<h1>{title}</h1>"
+    yield f"{element('title', title)}<style>{_STYLE}{style}</style></head><body>"
+    yield element("h1", title)
 
 
 def ending(about: Mapping[str, str]) -> Iterator[str]:
     """How all that was made, and the end of the page."""
-    yield "<h2>How this was made</h2><dl>"
-    for head, text in about.items():
-        yield f"<dt>{html_text(head)}</dt><dd>{html_text(text)}</dd>"
-    yield "</dl></body></html>"
+    yield element("h2", "How this was made") + description_list(about.items())
+    yield _END
 
 
-def _contents(results: Sequence[Result]) -> Iterator[str]:
-    if len(results) < 2:
-        return
-    yield "<nav><ul>"
-    for number, result in enumerate(results, start=1):
-        yield f'<li><a href="#part-{number}">{html_text(result.title)}</a></li>'
-    yield "</ul></nav>"
+def warnings(texts: Iterable[str]) -> Iterator[Markup]:
+    """What is wrong, and that there are no figures if there are none."""
+    yield from (element("p", text, class_="wrong") for text in texts)
+    if not can_draw():
+        yield element("p", MISSING, class_="note")
+
+
+def contents(titles: Mapping[int, str]) -> Iterator[Markup]:
+    """Links to the parts of a page by their numbers, if there are several."""
+    if len(titles) > 1:
+        lines = (
+            element("li", link(title, f"#part-{number}"))
+            for number, title in sorted(titles.items())
+        )
+        yield element("nav", element("ul", *lines))
 
 
 def section(number: int, result: Result, drawn: str = "") -> Iterator[str]:
@@ -134,17 +149,21 @@ def section(number: int, result: Result, drawn: str = "") -> Iterator[str]:
 
     `drawn` is the folder in which the figures lie as PDF files, if they do.
     """
-    yield f'<section><h2 id="part-{number}">{html_text(result.title)}</h2>'
+    yield f"<section>{element('h2', result.title, id=f'part-{number}')}"
     if result.text:
-        yield f"<p>{html_text(result.text)}</p>"
+        yield element("p", result.text)
     for table in result.tables:
-        yield from _table(table)
+        yield element("h3", table.title) + table_element(table)
     if result.figures and can_draw():
-        yield '<h3>Figures</h3><div class="figures">'
-        for place, figure in enumerate(result.figures):
-            file = f"{drawn}/{file_of(number, place, figure)}" if drawn else ""
-            yield _figure(figure, 100 * number + place, file)
-        yield "</div>"
+        figures = (
+            _figure_element(
+                figure,
+                100 * number + place,
+                f"{drawn}/{file_of(number, place, figure)}" if drawn else "",
+            )
+            for place, figure in enumerate(result.figures)
+        )
+        yield element("h3", "Figures") + element("div", *figures, class_="figures")
     yield "</section>"
 
 
@@ -158,71 +177,75 @@ def file_of(number: int, place: int, of: Figure | Table, ending: str = ".pdf") -
     return f"{number}-{place + 1}-{words}"[:_LONGEST] + ending
 
 
-def _table(table: Table) -> Iterator[str]:
-    kinds = [_column_class(table, place) for place in range(len(table.columns))]
-    yield f'<h3>{html_text(table.title)}</h3><div class="scroll"><table><thead><tr>'
-    yield "".join(
-        f"<th{kind}>{html_text(head)}</th>"
-        for head, kind in zip(table.columns, kinds, strict=True)
-    )
-    yield "</tr></thead><tbody>"
-    for i, row in enumerate(table.rows):
-        cells = (
-            f"<td{kind}>{_cell(it, table.links.get((i, j), ''))}</td>"
-            for j, (it, kind) in enumerate(zip(row, kinds, strict=True))
+def table_element(table: Table) -> Markup:
+    """A table and its note, without its title."""
+    classes = [_column_class(table, place) for place in range(len(table.columns))]
+    heads = zip(table.columns, classes, strict=True)
+    rows = (
+        (
+            element("td", _cell(it, table.links.get((i, j), "")), class_=class_)
+            for j, (it, class_) in enumerate(zip(row, classes, strict=True))
         )
-        yield f"<tr>{''.join(cells)}</tr>"
-    yield "</tbody></table></div>"
-    if table.note:
-        yield f'<p class="note">{html_text(table.note)}</p>'
+        for i, row in enumerate(table.rows)
+    )
+    note = element("p", table.note, class_="note") if table.note else NOTHING
+    return (
+        scrolling_table(
+            (element("th", it, class_=class_) for it, class_ in heads), rows
+        )
+        + note
+    )
 
 
-def _cell(cell: Cell, to: str) -> str:
-    """The cell, its band in small; it leads to where it is said that it does."""
-    told, _, band = format_cell(cell).partition(" [")
-    text = html_text(told if isinstance(cell, Estimate) else format_cell(cell))
-    if to:
-        text = f'<a href="{html_text(to)}">{text}</a>'
-    if isinstance(cell, Estimate) and band:
-        text += f'<span class="band">[{html_text(band)}</span>'
-    return text
+def _cell(cell: Cell, address: str) -> Markup:
+    """The cell, which may lead to an address, with its interval in small print."""
+    if not isinstance(cell, Estimate):
+        return link(format_cell(cell), address)
+    value, bracket, interval = format_cell(cell).partition(" [")
+    if not interval:
+        return link(value, address)
+    small = element("span", bracket.strip(), interval, class_="band")
+    return link(value, address) + small
 
 
 def _column_class(table: Table, column: int) -> str:
     if table.has_numbers(column):
-        return ' class="number"'
-    short = all(len(format_cell(row[column])) <= _SHORT for row in table.rows)
-    return ' class="short"' if short else ""
+        return "number"
+    is_short = all(len(format_cell(row[column])) <= _SHORT for row in table.rows)
+    return "short" if is_short else ""
 
 
-def _figure(figure: Figure, number: int, file: str) -> str:
-    broad = ' class="broad"' if figure.kind in _BROAD else ""
-    body = _pictures(figure) if figure.kind == "pictures" else _drawn(figure, number)
-    note = html_text(figure.note)
-    if file and figure.kind != "pictures":
-        note += f' <a href="{html_text(file)}">PDF</a>'
-    told = f'<p class="note">{note.strip()}</p>' if note else ""
-    head = f"<figcaption>{html_text(figure.title)}</figcaption>"
-    return f"<figure{broad}>{head}{body}{told}</figure>"
-
-
-def _drawn(figure: Figure, number: int) -> str:
-    label = html_text(figure.title)
-    return svg(figure, number).replace(
-        "<svg", f'<svg role="img" aria-label="{label}"', 1
+def _figure_element(figure: Figure, number: int, file: str) -> Markup:
+    note = join([figure.note])
+    if figure.kind == "pictures":
+        body = _picture_cards(figure)
+    else:
+        body = _drawing(figure, number)
+        if file:
+            note = join([note, " " * bool(note), link("PDF", file)])
+    return element(
+        "figure",
+        element("figcaption", figure.title),
+        body,
+        element("p", note, class_="note") if note else NOTHING,
+        class_="broad" if figure.kind in _BROAD else "",
     )
 
 
-def _pictures(figure: Figure) -> str:
+def _drawing(figure: Figure, number: int) -> Markup:
+    label = html_text(figure.title)
+    return Markup(
+        svg(figure, number).replace("<svg", f'<svg role="img" aria-label="{label}"', 1)
+    )
+
+
+def _picture_cards(figure: Figure) -> Markup:
     data = figure.data
     captions = [str(caption) for caption in data["captions"]]
     good = data.get("good") or [True] * len(captions)
     cards = []
     for picture, caption, fine in zip(data["pictures"], captions, good, strict=True):
-        source = b64encode(jpeg(picture)).decode()
-        told = html_text(caption)
-        cards.append(
-            f'<div class="{"good" if fine else "bad"}">'
-            f'<img alt="{told}" src="data:image/jpeg;base64,{source}">{told}</div>'
-        )
-    return f'<div class="pictures">{"".join(cards)}</div>' if cards else "<p>None.</p>"
+        source = f"data:image/jpeg;base64,{b64encode(jpeg(picture)).decode()}"
+        image = element("img", alt=caption, src=source)
+        cards.append(element("div", image, caption, class_="good" if fine else "bad"))
+    return element("div", *cards, class_="pictures") if cards else element("p", "None.")

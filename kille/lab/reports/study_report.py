@@ -18,7 +18,8 @@ from kille.lab.reports.conditions import by_conditions
 from kille.lab.reports.contrasts import contrasted
 from kille.lab.reports.costs import costs
 from kille.lab.reports.dialogue_pages import pages
-from kille.lab.reports.drawing import MISSING, can_draw, pdf
+from kille.lab.reports.drawing import can_draw, pdf
+from kille.lab.reports.elements import Markup, element, folded, link
 from kille.lab.reports.findings import (
     Theories,
     for_figures,
@@ -31,29 +32,35 @@ from kille.lab.reports.latex_tables import latex_table
 from kille.lab.reports.layouts import Described, side_by_side
 from kille.lab.reports.links import Places, places_of
 from kille.lab.reports.repeated_tests import Tests
-from kille.lab.reports.result_pages import beginning, ending, file_of, section
+from kille.lab.reports.result_pages import (
+    contents,
+    file_of,
+    section,
+    warnings,
+    whole_page,
+)
 from kille.lab.reports.styles import PAGE, THEORIES
 from kille.lab.reports.summary import in_short
 from kille.lab.results import Result
 from ttr import TTRError
-from ttr.display import html as markup
-from ttr.escapes import html_address, html_text
+from ttr.display import html as ttr_html
+from ttr.escapes import html_address
 from ttr.safety.files import why_unwritten, write_whole
 
 _FEW = 5
-"""So many reasons why dialogues broke are told, and so many dialogues named of each."""
+"""How many reasons why dialogues broke are shown, and how many dialogues of each."""
 
 
 @dataclass(frozen=True)
 class Subject:
-    """What is reported on: the dialogues of each theory, and all that is told of them.
+    """What is reported on: the dialogues of each theory, and all that is said of them.
 
-    `which` are the theories that are compared, two by two; `main` is the name of the
-    measure whose differences are tested by themselves; `tests` the phases, those
-    together that ask alike; `numbers` says how many dialogues there are, of what;
-    `broken` are dialogues that were not played to their end, each with the reason;
-    `warnings` are what a reader has to know of the others; `files` are those beside the
-    report that hold the numbers.
+    `which` are the theories to compare, two by two; `main` is the name of the measure
+    whose differences are tested by themselves; `tests` are the phases, those that ask
+    alike together; `numbers` says how many dialogues there are, and of what; `broken`
+    are dialogues that were not played to their end, each with the reason; `warnings`
+    say what a reader has to know of the others; `files` hold the numbers, and lie
+    beside the report.
     """
 
     title: str
@@ -72,12 +79,12 @@ class Subject:
 
 
 def every_two(theories: Iterable[str]) -> list[tuple[str, str]]:
-    """Each two of them, in their order."""
+    """All pairs of theories, in their order."""
     return list(combinations(theories, 2))
 
 
 def results_of(subject: Subject, places: Places) -> list[Result]:
-    """What was found, in tables and figures; first, what has to be known of it."""
+    """What was found, in tables and figures; the warnings are the text of the first."""
     theories = subject.theories
     if not theories:
         return []
@@ -107,11 +114,11 @@ def results_of(subject: Subject, places: Places) -> list[Result]:
 
 
 def write(subject: Subject, page: Path) -> list[Result]:
-    """Writes the page, and its figures, tables and dialogues into folders beside it.
+    """Write the page, and its figures, tables and dialogues into folders beside it.
 
-    They are called as the page is: `PAGE-figures` (PDF), `PAGE-tables` (LaTeX) and
-    `PAGE-dialogues`. Gives what was
-    found. Raises `TTRError` where a file cannot be written.
+    The folders are named after the page: `PAGE-figures` (PDF), `PAGE-tables` (LaTeX)
+    and `PAGE-dialogues`. Returns what was found. TTRError where a file cannot be
+    written.
     """
     try:
         return _write(subject, page)
@@ -119,127 +126,103 @@ def write(subject: Subject, page: Path) -> list[Result]:
         raise TTRError(why_unwritten(error.filename or page, error)) from error
 
 
+_PAGES = "dialogue-[0-9]*.html", "theory-[0-9]*.html", "theories-[0-9]*.html"
+_FIGURES = "[0-9]*-[0-9]*-*.pdf"
+_TABLES = "[0-9]*-[0-9]*-*.tex"
+
+_SUMMARY, _THEORIES, _FIRST = 1, 2, 3
+"""The numbers of the parts of the page: in short, the theories, all that was found."""
+
+
 def _write(subject: Subject, page: Path) -> list[Result]:
-    dialogues = _emptied(page.with_name(f"{page.stem}-dialogues"), *_PAGES)
+    dialogues = _clear_folder(page, "dialogues", *_PAGES)
     everything = [it for them in subject.theories.values() for it in them]
     address = html_address(dialogues.name)
     places = places_of(list(subject.theories), everything, address)
     found = results_of(subject, places)
     for name, text in pages(subject.theories, places, page.name):
         (dialogues / name).write_text(text, "utf-8")
-    parts = {_GIST: _gist(subject, found, places)}
-    parts |= dict(enumerate(_untold(found), start=_FIRST))
-    figures = _emptied(page.with_name(f"{page.stem}-figures"), _FIGURES)
+    # On the page the warnings, which are the text of the first, stand before all else.
+    shown = [*(replace(it, text="") for it in found[:1]), *found[1:]]
+    parts = {_SUMMARY: _summary(subject, found, places)}
+    parts |= dict(enumerate(shown, start=_FIRST))
+    figures = _clear_folder(page, "figures", _FIGURES)
+    tables = _clear_folder(page, "tables", _TABLES)
     for part, result in parts.items():
         for place, figure in enumerate(result.figures if can_draw() else ()):
-            file = figures / file_of(part, place, figure)
-            file.write_bytes(pdf(figure))
-    tables = _emptied(page.with_name(f"{page.stem}-tables"), _TABLES)
-    for part, result in parts.items():
+            (figures / file_of(part, place, figure)).write_bytes(pdf(figure))
         for place, table in enumerate(result.tables):
             file = tables / file_of(part, place, table, ".tex")
             file.write_text(latex_table(table), "utf-8")
-    lines = _page(subject, parts, html_address(figures.name), tables)
-    write_whole(page, "\n".join(lines) + "\n")
+    body = _body(subject, parts, html_address(figures.name), tables)
+    style = PAGE + THEORIES + ttr_html.STYLE
+    write_whole(page, whole_page(subject.title, body, subject.about, style))
     return found
 
 
-def _gist(subject: Subject, found: Sequence[Result], places: Places) -> Result:
+def _clear_folder(page: Path, what: str, *patterns: str) -> Path:
+    """The folder beside a page without what an earlier report has left there."""
+    folder = page.with_name(f"{page.stem}-{what}")
+    folder.mkdir(exist_ok=True)
+    for file in chain.from_iterable(map(folder.glob, patterns)):
+        file.unlink()
+    return folder
+
+
+def _summary(subject: Subject, found: Sequence[Result], places: Places) -> Result:
     if not found:
         return Result("In short", text="No dialogue was played to its end.")
     measures = measures_of(subject.theories)
     return in_short(subject.theories, measures, found[1:], places, subject.main)
 
 
-def _untold(found: Sequence[Result]) -> Iterator[Result]:
-    """What was found, without the warnings: on a page they stand before all else."""
-    yield from (replace(it, text="") for it in found[:1])
-    yield from found[1:]
-
-
-_PAGES = "dialogue-[0-9]*.html", "theory-[0-9]*.html", "theories-[0-9]*.html"
-_FIGURES = "[0-9]*-[0-9]*-*.pdf"
-_TABLES = "[0-9]*-[0-9]*-*.tex"
-
-
-def _emptied(folder: Path, *of: str) -> Path:
-    """The folder without what an earlier report has left there."""
-    folder.mkdir(exist_ok=True)
-    for file in chain.from_iterable(map(folder.glob, of)):
-        file.unlink()
-    return folder
-
-
-_GIST, _THEORIES, _FIRST = 1, 2, 3
-"""The numbers of the parts of the page: in short, the theories, all that was found."""
-
-
-def _page(
+def _body(
     subject: Subject, parts: Mapping[int, Result], figures: str, tables: Path
 ) -> Iterator[str]:
-    yield from beginning(subject.title, PAGE + THEORIES + markup.STYLE)
     for paragraph in filter(None, re.split(r"\n\s*\n", subject.lead.strip())):
-        yield f"<p>{html_text(paragraph)}</p>"
+        yield element("p", paragraph)
     if subject.numbers:
-        yield f'<p class="quiet">{html_text(subject.numbers)}</p>'
-    yield from _wrong(subject)
-    if not can_draw():
-        yield f'<p class="note">{html_text(MISSING)}</p>'
-    yield from _contents(parts)
-    yield from section(_GIST, parts[_GIST], figures)
-    yield f'<section><h2 id="part-{_THEORIES}">The theories</h2>'
-    yield from side_by_side(subject.described)
-    yield "</section>"
+        yield element("p", subject.numbers, class_="quiet")
+    yield from warnings([*subject.warnings, *_broken_lines(subject.broken)])
+    titles = {number: it.title for number, it in parts.items()}
+    yield from contents({_THEORIES: "The theories"} | titles)
+    yield from section(_SUMMARY, parts[_SUMMARY], figures)
+    theories = element("h2", "The theories", id=f"part-{_THEORIES}")
+    yield element("section", theories, *side_by_side(subject.described))
     for number, result in parts.items():
         if number >= _FIRST:
             yield from section(number, result, figures)
     if subject.source:
-        yield "<h2>The study</h2><details><summary>its file</summary>"
-        yield f"<pre>{html_text(subject.source)}</pre></details>"
-    if subject.files:
-        links = ", ".join(
-            f'<a href="{html_address(it)}">{html_text(it)}</a>' for it in subject.files
-        )
-        yield f"<p>The numbers, for R and others: {links}.</p>"
-    if written := sorted(tables.glob(_TABLES)):
-        folder = html_address(tables.name)
-        links = ", ".join(
-            f'<a href="{folder}/{html_address(it.name)}">{html_text(it.stem)}</a>'
-            for it in written
-        )
-        yield f"<p>The tables, for LaTeX: {links}.</p>"
-    yield from ending(subject.about)
+        yield element("h2", "The study")
+        yield folded("its file", element("pre", subject.source))
+    names = {it: html_address(it) for it in subject.files}
+    yield from _files("The numbers, for R and others", names)
+    folder = html_address(tables.name)
+    latex = sorted(tables.glob(_TABLES))
+    names = {it.stem: f"{folder}/{html_address(it.name)}" for it in latex}
+    yield from _files("The tables, for LaTeX", names)
 
 
-def _contents(parts: Mapping[int, Result]) -> Iterator[str]:
-    titles = {_THEORIES: "The theories"} | {
-        number: it.title for number, it in parts.items()
-    }
-    yield "<nav><ul>"
-    for number, title in sorted(titles.items()):
-        yield f'<li><a href="#part-{number}">{html_text(title)}</a></li>'
-    yield "</ul></nav>"
+def _files(what: str, addresses: Mapping[str, str]) -> Iterator[Markup]:
+    """Links to files beside the page, by their names, if there are any."""
+    if addresses:
+        links = (link(name, address) for name, address in addresses.items())
+        yield element("p", f"{what}: ", Markup(", ".join(links)), ".")
 
 
-def _wrong(subject: Subject) -> Iterator[str]:
-    """What a reader has to know of the numbers, and what broke."""
-    for text in (*subject.warnings, *_broken(subject.broken)):
-        yield f'<p class="wrong">{html_text(text)}</p>'
-
-
-def _broken(broken: Sequence[tuple[str, str]]) -> Iterator[str]:
-    """The reasons for which dialogues broke, each with the first of these."""
+def _broken_lines(broken: Sequence[tuple[str, str]]) -> Iterator[str]:
+    """The reasons why dialogues broke, each with the first of these dialogues."""
     reasons: dict[str, list[str]] = {}
     for name, reason in broken:
         reasons.setdefault(reason, []).append(name)
     for reason, names in list(reasons.items())[:_FEW]:
-        named = ", ".join(names[:_FEW])
+        first = ", ".join(names[:_FEW])
         more = f" and {len(names) - _FEW:,} more" if len(names) > _FEW else ""
-        yield f"{_dialogues(len(names))} broke: {reason}: {named}{more}"
+        yield f"{_count_dialogues(len(names))} broke: {reason}: {first}{more}"
     others = sum(map(len, list(reasons.values())[_FEW:]))
     if others:
-        yield f"{_dialogues(others)} more broke, for other reasons."
+        yield f"{_count_dialogues(others)} more broke, for other reasons."
 
 
-def _dialogues(count: int) -> str:
+def _count_dialogues(count: int) -> str:
     return f"{count:,} dialogue{'s' if count != 1 else ''}"

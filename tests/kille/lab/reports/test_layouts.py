@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.lab.reports.layouts import apart, shortened, side_by_side
+from kille.lab.reports.layouts import mark_differences, omit_common_fields, side_by_side
 from ttr import Ind, Pred, Record, record, rectype, this
 from ttr.display.layout import Layout, Matrix, layout_of
 
@@ -32,7 +32,9 @@ def changed(layout: Layout, *path: str) -> Iterator[str]:
 
 
 def marked(one: object, *others: object) -> list[str]:
-    return list(changed(apart(layout_of(one), [layout_of(it) for it in others])))
+    return list(
+        changed(mark_differences(layout_of(one), [layout_of(it) for it in others]))
+    )
 
 
 def test_of_records_the_innermost_fields_are_marked() -> None:
@@ -66,14 +68,14 @@ def test_nothing_is_marked_just_if_they_are_the_same(
 def test_what_is_marked_is_still_there_when_it_is_shortened(
     one: Record, other: Record
 ) -> None:
-    layout = apart(layout_of(one), [layout_of(other)])
-    assert list(changed(shortened(layout))) == list(changed(layout))
+    layout = mark_differences(layout_of(one), [layout_of(other)])
+    assert list(changed(omit_common_fields(layout))) == list(changed(layout))
 
 
 def test_what_is_the_same_is_counted() -> None:
     one = record(a=record(b="1", c="2"), d="3", e="4", f="5")
     other = record(a=record(b="1", c="2"), d="3", e="4", f="6")
-    layout = shortened(apart(layout_of(one), [layout_of(other)]))
+    layout = omit_common_fields(mark_differences(layout_of(one), [layout_of(other)]))
     assert isinstance(layout, Matrix)
     assert [row.label.text for row in layout.rows] == ["f", "…"]
     assert "4 fields as in all" in str(layout.rows[-1].has)
