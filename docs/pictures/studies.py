@@ -16,7 +16,7 @@ from kille.lab.measures import ScoredDialogue, kappas, score_dialogue, vocabular
 from kille.lab.measures.measures import ACCURACY
 from kille.lab.reports.drawing import drawing
 from kille.lab.reports.findings import Theories, estimate_measure, group_by_theory
-from kille.lab.reports.repeated_tests import in_phase
+from kille.lab.reports.repeated_tests import restrict_to_phase
 from kille.lab.results import Figure, interval_series
 
 HERE = Path(__file__).parent
@@ -79,7 +79,7 @@ def of_cause(
 
 def does_correction_pay(theories: Theories) -> Figure:
     """What is right in the last test, by tutor."""
-    asked = in_phase(theories, ACCURACY, "test 3")
+    asked = restrict_to_phase(theories, ACCURACY, "test 3")
     tutors = list(dict.fromkeys(it.run.tutor for them in asked.values() for it in them))
     series = {
         name: interval_series(
@@ -96,7 +96,7 @@ def does_correction_pay(theories: Theories) -> Figure:
 
 def what_is_a_cup(theories: Theories) -> Figure:
     """How many other pictures are named rightly, by the number of lessons."""
-    asked = in_phase(theories, ACCURACY, "others")
+    asked = restrict_to_phase(theories, ACCURACY, "others")
     series = {
         name: interval_series(
             [

@@ -1,4 +1,4 @@
-"""What changes from tutor to tutor and from scene to scene: tables and figures."""
+"""Tables and figures of what changes from tutor to tutor and from scene to scene."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import TypeAlias
 
 from kille.lab.measures.measures import Measure
 from kille.lab.measures.scored_dialogues import ScoredDialogue
-from kille.lab.reports.controls import against_the_first
+from kille.lab.reports.controls import compare_with_first
 from kille.lab.reports.figure_styles import HUES
 from kille.lab.reports.findings import Theories, estimate_measure
 from kille.lab.reports.links import Places
-from kille.lab.reports.repeated_tests import in_phase, main_of, phases_of
+from kille.lab.reports.repeated_tests import main_measure, phases_of, restrict_to_phase
 from kille.lab.reports.row_figures import row_figures
 from kille.lab.reports.short_names import shorten_names
 from kille.lab.results import Cell, Estimate, Figure, Result, Table
 
 _ROBOT, _PEOPLE = "κ robot–tutor", "κ tutor–judge"
-_TOLD = (
+_SHOWN = (
     "accuracy",
     _ROBOT,
     "κ robot–judge",
@@ -30,11 +30,11 @@ _TOLD = (
     "lessons",
 )
 _CHIEF = ("accuracy", _ROBOT, "accepted", "reference")
-"""What is told of each tutor in front of each scene."""
+"""The measures shown of each tutor in front of each scene."""
 _DRAWN = 40
-"""At most so many conditions are drawn."""
+"""The most conditions that are drawn."""
 _ROWS = 48
-"""Of more phases and conditions, the last phase alone is told."""
+"""Of more phases times conditions, only the last phase is shown."""
 
 _Key: TypeAlias = tuple[str, ...]
 _Parts: TypeAlias = dict[str, dict[_Key, list[ScoredDialogue]]]
@@ -44,24 +44,24 @@ _TUTOR: _Heads = {"tutor": lambda it: it.run.tutor}
 _SCENE: _Heads = {"scene": lambda it: it.run.scene}
 
 
-def by_conditions(
+def compare_conditions(
     theories: Theories, measures: Sequence[Measure], places: Places
 ) -> Iterator[Result]:
-    """What is told of each tutor and each scene, where there are several.
+    """The measures for each tutor and for each scene, where there are several.
 
-    Of one theory it is said in words how much they matter.
+    Of a single theory it is said in words how much they matter.
     """
-    heads = _varied(places)
+    heads = _varied_conditions(places)
     if not heads:
         return
-    told = [it for it in measures if it.name in _TOLD]
+    told = [it for it in measures if it.name in _SHOWN]
     tables = [*_by_phase(theories, measures, heads, places)]
     figures: list[Figure] = []
     for head in heads:
         parts = _parts(theories, head)
-        tables.append(_table(_by(head), head, parts, told, places))
-        figures += _agreement(_by(head), parts, measures)
-    against = list(against_the_first(theories, measures, places))
+        tables.append(_table(_by_heads(head), head, parts, told, places))
+        figures += _agreement_figures(_by_heads(head), parts, measures)
+    against = list(compare_with_first(theories, measures, places))
     tables += [it.table for it in against]
     text = "\n\n".join(it.text for it in against if it.text)
     yield Result(
@@ -71,26 +71,28 @@ def by_conditions(
         text=text if len(theories) == 1 else "",
     )
     if len(heads) > 1:
-        yield _crossed(theories, measures, places)
+        yield _cross_conditions(theories, measures, places)
 
 
-def _crossed(theories: Theories, measures: Sequence[Measure], places: Places) -> Result:
-    """What is told of each tutor in front of each scene."""
+def _cross_conditions(
+    theories: Theories, measures: Sequence[Measure], places: Places
+) -> Result:
+    """The measures for each tutor in front of each scene."""
     heads = {**_TUTOR, **_SCENE}
     parts = _parts(theories, heads)
     chief = [it for it in measures if it.name in _CHIEF]
-    table = _table(_by(heads), heads, parts, chief, places)
-    figures = tuple(_agreement(_by(heads), parts, measures))
+    table = _table(_by_heads(heads), heads, parts, chief, places)
+    figures = tuple(_agreement_figures(_by_heads(heads), parts, measures))
     return Result("Each tutor in front of each scene", (table,), figures)
 
 
-def _varied(places: Places) -> list[_Heads]:
-    """Tutors if there are several, and scenes."""
+def _varied_conditions(places: Places) -> list[_Heads]:
+    """Tutors if there are several, and scenes if there are."""
     of = ((_TUTOR, places.tutors), (_SCENE, places.scenes))
     return [heads for heads, names in of if len(names) > 1]
 
 
-def _by(heads: _Heads) -> str:
+def _by_heads(heads: _Heads) -> str:
     return f"by {' and '.join(heads)}"
 
 
@@ -113,7 +115,7 @@ def _keys(parts: _Parts) -> list[_Key]:
 def _table(
     by: str, heads: _Heads, parts: _Parts, measures: Sequence[Measure], places: Places
 ) -> Table:
-    """Measure by measure; what is the same everywhere is left out."""
+    """The table of these measures, without those that are the same everywhere."""
     rows: list[tuple[Cell, ...]] = []
     links = {}
     keys = _keys(parts)
@@ -145,8 +147,8 @@ def _by_phase(
     varied: Sequence[_Heads],
     places: Places,
 ) -> Iterator[Table]:
-    """How much is right in each phase, where something is asked in several."""
-    main = main_of(measures)
+    """How much is right in each phase, if something is asked in several."""
+    main = main_measure(measures)
     if main is None:
         return
     phases = phases_of(theories, main)
@@ -161,7 +163,7 @@ def _by_phase(
     rows: list[tuple[Cell, ...]] = []
     links = {}
     for phase in phases:
-        parts = _parts(in_phase(theories, main, phase), heads)
+        parts = _parts(restrict_to_phase(theories, main, phase), heads)
         for key in keys:
             for column, name in enumerate(parts, start=1 + len(key)):
                 links[len(rows), column] = _place(places, name, heads, key)
@@ -173,19 +175,18 @@ def _by_phase(
 # --- figures -------------------------------------------------------------------------
 
 
-def in_last_phase(
+def last_phase_figures(
     theories: Theories, main: Measure, places: Places
 ) -> Iterator[Figure]:
-    """How much is right in the last phase in which something is asked.
-
-    Tutor by tutor and scene by scene, where there are several.
-    """
+    """How much is right in the last phase with questions, by tutor and by scene."""
     phases = phases_of(theories, main)
-    last = in_phase(theories, main, phases[-1])
+    last = restrict_to_phase(theories, main, phases[-1])
     where = f" in {phases[-1]}" if len(phases) > 1 else ""
-    for heads in _varied(places):
-        title = f"{main.name.capitalize()}{where}, {_by(heads)}"
-        yield from _drawn(title, _estimates(_parts(last, heads), main), main.name)
+    for heads in _varied_conditions(places):
+        title = f"{main.name.capitalize()}{where}, {_by_heads(heads)}"
+        yield from _condition_figures(
+            title, _estimates(_parts(last, heads), main), main.name
+        )
 
 
 _Estimates: TypeAlias = Mapping[str, Mapping[_Key, Estimate]]
@@ -199,7 +200,7 @@ def _estimates(parts: _Parts, measure: Measure) -> _Estimates:
     }
 
 
-def _drawn(title: str, found: _Estimates, xlabel: str) -> Iterator[Figure]:
+def _condition_figures(title: str, found: _Estimates, xlabel: str) -> Iterator[Figure]:
     keys = list(dict.fromkeys(key for of in found.values() for key in of))
     if not 1 < len(keys) <= _DRAWN:
         return
@@ -209,11 +210,13 @@ def _drawn(title: str, found: _Estimates, xlabel: str) -> Iterator[Figure]:
     yield from row_figures(title, labels, series, {"xlabel": xlabel})
 
 
-def _agreement(by: str, parts: _Parts, measures: Sequence[Measure]) -> Iterator[Figure]:
-    """Kappa of the robots and the tutors; beside it that of the tutors and a judge.
+def _agreement_figures(
+    by: str, parts: _Parts, measures: Sequence[Measure]
+) -> Iterator[Figure]:
+    """Kappa of robots and tutors, beside that of tutors and another judge.
 
-    These two are the same people whatever the theory, and set a ceiling to it; it is
-    drawn while there is a hue for it.
+    The latter is the same for every theory, and a ceiling; it is drawn as long as there
+    is a hue left for it.
     """
     named = {it.name: it for it in measures}
     if _ROBOT not in named:
@@ -223,4 +226,4 @@ def _agreement(by: str, parts: _Parts, measures: Sequence[Measure]) -> Iterator[
         people = list(_estimates(parts, named[_PEOPLE]).values())
         if all(repr(it) == repr(people[0]) for it in people):
             found["tutor and judge: the ceiling"] = people[0]
-    yield from _drawn(f"{_ROBOT} {by}", found, "κ")
+    yield from _condition_figures(f"{_ROBOT} {by}", found, "κ")

@@ -1,4 +1,4 @@
-"""How theories differ, and how many dialogues it takes to tell: tables and a figure."""
+"""How theories differ, and how many dialogues it takes to see it."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ from kille.lab.results import (
     format_cell,
 )
 
-_SEED = 2  # of the chance by which pairs are drawn anew and exchanged
+_SEED = 2  # of the chance by which pairs are resampled and exchanged
 _MAIN = ACCURACY.name
 CHANCE = 0.05
 FEW = 3
-"""Of more differences only those are told that are hardly by chance."""
+"""Of more differences, only the significant ones are put into words."""
 CORRECTED = "Each p is after Holm's correction."
 _LEAST = 0.001
 _SOUGHT = (0.05, 0.02)
-"""Differences for which it is told how many dialogues they take."""
+"""Differences for which the table of power says how many pairs they need."""
 
 TESTED = (
     "p: permutation test, in which the two of a pair are exchanged; then with Holm's "
@@ -64,15 +64,16 @@ _POWERED = (
 )
 
 
-def contrasted(
+def contrast_results(
     theories: Theories,
     which: Iterable[tuple[str, str]],
     measures: Sequence[Measure],
     places: Places,
     main: str = _MAIN,
 ) -> list[Result]:
-    """How theories differ, these two by two, first in the main measure; nothing of
-    none.
+    """How these pairs of theories differ, first in the main measure.
+
+    Nothing if no two of them have a pair of dialogues.
     """
     tested = [it for it in measures if it.better]
     found = contrasts(theories, which, tested, np.random.default_rng(_SEED))
@@ -82,19 +83,21 @@ def contrasted(
     mains = found if main in [it.name for it in measures] else []
     tested.sort(key=lambda it: it.name != main)
     tables = (
-        _differences(found, tested, places, main),
-        _answers(asked, places),
-        _powers(found, main),
+        _differences_table(found, tested, places, main),
+        _answers_table(asked, places),
+        _power_table(found, main),
     )
     told = tuple(it for it in tables if it.rows)
-    text = "\n\n".join([*out_of_reach(mains, main), _in_words(mains, main)])
+    text = "\n\n".join(
+        [*unreachable_significance(mains, main), _summary_text(mains, main)]
+    )
     return [Result("How they differ", told, _figures(found), text=text)]
 
 
-def _in_words(found: Sequence[Contrast], main: str) -> str:
-    """What became of the main measure, a line for each two theories.
+def _summary_text(found: Sequence[Contrast], main: str) -> str:
+    """What became of the main measure: a line for each pair of theories.
 
-    Of many, how many differ, and those that do.
+    Of many pairs, how many differ, and those that do.
     """
     mains = [it.differences.get(main) for it in found]
     ps = holm([float("nan") if it is None else it.p for it in mains])
@@ -119,21 +122,23 @@ def _sentence(it: Contrast, p: float, measure: str) -> str:
         return f"{it.other} and {it.one} have the same {measure} in every pair."
     if not main.pairs:
         return f"{it.other} and {it.one} were never both asked for words."
-    told = told_by(main, p)
+    told = format_difference(main, p)
     return f"The {measure} of {it.other} differs from that of {it.one} by {told}."
 
 
-def told_by(difference: Difference, p: float) -> str:
-    """A difference, with its band and how likely it is by chance, in a sentence."""
-    estimate = agreeing(difference.estimate, p)
-    return f"{format_cell(estimate)} (p = {told_p(p)})".replace("= <", "<")
+def format_difference(difference: Difference, p: float) -> str:
+    """Format a difference with its confidence interval and its p, for a sentence."""
+    estimate = drop_contradicting_interval(difference.estimate, p)
+    return f"{format_cell(estimate)} (p = {format_p(p)})".replace("= <", "<")
 
 
-def agreeing(estimate: Estimate, p: float) -> Estimate:
-    """A difference beside its p: without a band that says otherwise of zero.
+def drop_contradicting_interval(estimate: Estimate, p: float) -> Estimate:
+    """A difference without its interval, if interval and p disagree about zero.
 
-    >>> agreeing(Estimate(0.2, 0.1, 0.3), 0.01), agreeing(Estimate(0.2, 0.1, 0.3), 0.06)
-    (Estimate(value=0.2, low=0.1, ...), Estimate(value=0.2, low=nan, high=nan, ...))
+    >>> drop_contradicting_interval(Estimate(0.2, 0.1, 0.3), 0.01)
+    Estimate(value=0.2, low=0.1, high=0.3, decimals=3)
+    >>> drop_contradicting_interval(Estimate(0.2, 0.1, 0.3), 0.06)
+    Estimate(value=0.2, low=nan, high=nan, decimals=3)
     """
     apart = not estimate.low <= 0 <= estimate.high
     if apart == (p < CHANCE):
@@ -141,19 +146,21 @@ def agreeing(estimate: Estimate, p: float) -> Estimate:
     return estimate._replace(low=float("nan"), high=float("nan"))
 
 
-def out_of_reach(found: Sequence[Contrast], main: str = _MAIN) -> Iterator[str]:
-    """That no difference can be significant, where there are too few pairs for it."""
+def unreachable_significance(
+    found: Sequence[Contrast], main: str = _MAIN
+) -> Iterator[str]:
+    """Say that no difference can be significant, if there are too few pairs for it."""
     mains = [it.differences[main] for it in found if main in it.differences]
     most, tests = max((it.pairs for it in mains), default=0), len(mains)
     least = min(1.0, tests * least_p(most))
     if not most or least < CHANCE:
         return
     needed = pairs_needed(tests, CHANCE)
-    corrected = f" after Holm's correction for {tests} tests" if tests > 1 else ""
+    correction = f" after Holm's correction for {tests} tests" if tests > 1 else ""
     yield (
         f"No difference in {main} can be significant: with {most} "
-        f"pair{'s' if most != 1 else ''} of dialogues p is {told_p(least)} at "
-        f"best{corrected}. "
+        f"pair{'s' if most != 1 else ''} of dialogues p is {format_p(least)} at "
+        f"best{correction}. "
         + (
             f"It takes {needed} pairs: give the study more seeds."
             if needed
@@ -163,14 +170,14 @@ def out_of_reach(found: Sequence[Contrast], main: str = _MAIN) -> Iterator[str]:
 
 
 def contrast_names(contrast: Contrast) -> str:
-    """What is compared, as the later less the earlier."""
+    """The name of a contrast: the later theory less the earlier one."""
     return f"{contrast.other} − {contrast.one}"
 
 
-def told_p(p: float) -> str:
-    """A probability of chance alone as papers write it.
+def format_p(p: float) -> str:
+    """Format a p-value as papers write it.
 
-    >>> told_p(0.0301), told_p(0.00002), told_p(float("nan"))
+    >>> format_p(0.0301), format_p(0.00002), format_p(float("nan"))
     ('0.030', '< 0.001', '–')
     """
     if p != p:
@@ -178,24 +185,24 @@ def told_p(p: float) -> str:
     return f"{p:.3f}" if p >= _LEAST else f"< {_LEAST}"
 
 
-def _differences(
+def _differences_table(
     found: Sequence[Contrast], measures: Sequence[Measure], places: Places, main: str
 ) -> Table:
-    """Measure by measure, as they are corrected for how many they are."""
+    """The paired differences, measure by measure."""
     told = [
         (it, measure.name, it.differences[measure.name])
         for measure in measures
         for it in found
         if measure.name in it.differences
     ]
-    ps = corrected([(name, d.p) for _, name, d in told], main)
+    ps = correct_by_family([(name, d.p) for _, name, d in told], main)
     rows = tuple(
         (
             contrast_names(it),
             name,
-            agreeing(d.estimate, d.p),
-            told_p(d.p),
-            told_p(p),
+            drop_contradicting_interval(d.estimate, d.p),
+            format_p(d.p),
+            format_p(p),
             d.pairs,
         )
         for (it, name, d), p in zip(told, ps, strict=True)
@@ -209,8 +216,10 @@ def _differences(
     return Table("Paired differences", columns, rows, note, links)
 
 
-def corrected(ps: Sequence[tuple[str, float]], main: str = _MAIN) -> list[float]:
-    """Those of the main measure are one family of tests, all others another."""
+def correct_by_family(
+    ps: Sequence[tuple[str, float]], main: str = _MAIN
+) -> list[float]:
+    """Correct p-values by Holm's method, those of the main measure by themselves."""
     found = [p for _, p in ps]
     for is_main in (True, False):
         places = [i for i, (name, _) in enumerate(ps) if (name == main) == is_main]
@@ -219,11 +228,11 @@ def corrected(ps: Sequence[tuple[str, float]], main: str = _MAIN) -> list[float]
     return found
 
 
-def _answers(found: Sequence[Contrast], places: Places) -> Table:
-    corrected = holm([it.answers.p for it in found])
+def _answers_table(found: Sequence[Contrast], places: Places) -> Table:
+    ps = holm([it.answers.p for it in found])
     rows = tuple(
-        (*_sides(it), told_p(it.answers.p), told_p(p))
-        for it, p in zip(found, corrected, strict=True)
+        (*_side_cells(it), format_p(it.answers.p), format_p(p))
+        for it, p in zip(found, ps, strict=True)
     )
     columns = ("theory", "only it right", "theory", "only it right", "p", "p (Holm)")
     links = {
@@ -234,16 +243,16 @@ def _answers(found: Sequence[Contrast], places: Places) -> Table:
     return Table("Question by question", columns, rows, _ANSWERED, links)
 
 
-def _sides(it: Contrast) -> tuple[Cell, ...]:
+def _side_cells(it: Contrast) -> tuple[Cell, ...]:
     return it.one, it.answers.one, it.other, it.answers.other
 
 
 # --- power ---------------------------------------------------------------------------
 
 
-def _powers(found: Sequence[Contrast], main: str) -> Table:
+def _power_table(found: Sequence[Contrast], main: str) -> Table:
     told = [(it, it.differences[main]) for it in found if main in it.differences]
-    rows = tuple((contrast_names(it), *_power(d)) for it, d in told)
+    rows = tuple((contrast_names(it), *_power_cells(d)) for it, d in told)
     columns = (
         "theories",
         "pairs",
@@ -259,7 +268,7 @@ def _powers(found: Sequence[Contrast], main: str) -> Table:
     )
 
 
-def _power(d: Difference) -> tuple[Cell, ...]:
+def _power_cells(d: Difference) -> tuple[Cell, ...]:
     least = least_difference(d.spread, d.pairs)
     chance = np.random.default_rng(_SEED)
     known = np.isfinite(least) and least > 0
@@ -280,7 +289,7 @@ def _power(d: Difference) -> tuple[Cell, ...]:
 _SHARES = ("accuracy", "κ robot–tutor", "accepted", "reference", "margin")
 """Measures on one scale, whose differences are drawn together."""
 _LINE = 24
-"""Letters of two names for which there is room in a line beside a figure."""
+"""Two names of so many letters together fit on a line beside a figure."""
 
 
 def _figures(found: Sequence[Contrast]) -> tuple[Figure, ...]:
@@ -298,9 +307,9 @@ def _figures(found: Sequence[Contrast]) -> tuple[Figure, ...]:
 def _estimate(difference: Difference | None) -> Estimate:
     if difference is None:
         return UNKNOWN
-    return agreeing(difference.estimate, difference.p)
+    return drop_contradicting_interval(difference.estimate, difference.p)
 
 
 def _on_two_lines(other: str, one: str) -> str:
-    """A pair of names, the second below the first if they are long."""
+    """Two names, the second below the first if they are long."""
     return f"{other} −{' ' if len(other + one) <= _LINE else chr(10)}{one}"

@@ -1,4 +1,4 @@
-"""Whether other tutors and other scenes change anything: each against the first one."""
+"""Do other tutors and other scenes change anything? Each against the first one."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from kille.lab.reports.contrasts import (
     CORRECTED,
     FEW,
     TESTED,
-    agreeing,
-    corrected,
-    told_by,
-    told_p,
+    correct_by_family,
+    drop_contradicting_interval,
+    format_difference,
+    format_p,
 )
 from kille.lab.reports.findings import Theories
 from kille.lab.reports.links import Places
 from kille.lab.results import Cell, Table
 from kille.lab.study import Run
 
-_SEED = 3  # of the chance by which pairs are drawn anew and exchanged
+_SEED = 3  # of the chance by which pairs are resampled and exchanged
 _MAIN = "accuracy"
 _TESTED = (_MAIN, "κ robot–tutor", "words")
 _NOTE = (
@@ -36,15 +36,15 @@ _NOTE = (
 )
 
 
-class Against(NamedTuple):
+class Comparison(NamedTuple):
     """A table of differences, and what became of the main measure, line by line."""
 
     table: Table
     text: str
 
 
-class _Told(NamedTuple):
-    """A difference, of what, and where it leads to."""
+class _NamedDifference(NamedTuple):
+    """A difference: in which measure of which theory, between whom, and its link."""
 
     theory: str
     measure: str
@@ -54,39 +54,40 @@ class _Told(NamedTuple):
     place: str
 
     @property
-    def named(self) -> tuple[str, str, str]:
-        """What it is a difference of."""
+    def name_cells(self) -> tuple[str, str, str]:
+        """The cells that say what it is a difference of."""
         return self.theory, self.measure, f"{self.other} − {self.first}"
 
 
-def against_the_first(
+def compare_with_first(
     theories: Theories, measures: Sequence[Measure], places: Places
-) -> Iterator[Against]:
-    """The tutors against the first tutor, and the scenes against the first scene."""
+) -> Iterator[Comparison]:
+    """Compare all tutors with the first tutor, and all scenes with the first scene."""
     tested = [it for it in measures if it.name in _TESTED]
-    yield from _against("tutor", list(places.tutors), theories, tested, places)
-    yield from _against("scene", list(places.scenes), theories, tested, places)
+    yield from _compare_names("tutor", list(places.tutors), theories, tested, places)
+    yield from _compare_names("scene", list(places.scenes), theories, tested, places)
 
 
-def _against(
+def _compare_names(
     what: str,
     names: Sequence[str],
     theories: Theories,
     measures: Sequence[Measure],
     places: Places,
-) -> Iterator[Against]:
+) -> Iterator[Comparison]:
     first, *others = names
     told = [
         one
         for theory, them in theories.items()
         for name in others
-        for one in _one(what, theory, them, (first, name), measures, places)
+        for one in _differences_of(what, theory, them, (first, name), measures, places)
     ]
     if not told:
         return
-    ps = corrected([(it.measure, it.difference.p) for it in told])
+    ps = correct_by_family([(it.measure, it.difference.p) for it in told])
     rows = tuple(
-        (*it.named, *_tested(it.difference, p)) for it, p in zip(told, ps, strict=True)
+        (*it.name_cells, *_test_cells(it.difference, p))
+        for it, p in zip(told, ps, strict=True)
     )
     columns = ("theory", "measure", what, "difference", "p", "p (Holm)", "pairs")
     links = {(row, 3): it.place for row, it in enumerate(told)}
@@ -96,13 +97,13 @@ def _against(
         for it, p in zip(told, ps, strict=True)
         if it.measure == _MAIN and it.difference.pairs
     ]
-    yield Against(table, "\n".join(_in_words(what, names, mains)))
+    yield Comparison(table, "\n".join(_summary_lines(what, names, mains)))
 
 
-def _in_words(
-    what: str, names: Sequence[str], mains: Sequence[tuple[_Told, float]]
+def _summary_lines(
+    what: str, names: Sequence[str], mains: Sequence[tuple[_NamedDifference, float]]
 ) -> Iterator[str]:
-    """What became of the main measure, a line for each; of many, how many differ."""
+    """What became of the main measure: a line for each, or how many of many differ."""
     (first, *others), seen = names, mains
     if len(mains) > FEW:
         seen = [(it, p) for it, p in mains if p < CHANCE]
@@ -115,27 +116,27 @@ def _in_words(
         yield CORRECTED
 
 
-def _sentence(what: str, first: str, it: _Told, p: float) -> str:
-    told = told_by(it.difference, p)
+def _sentence(what: str, first: str, it: _NamedDifference, p: float) -> str:
+    told = format_difference(it.difference, p)
     return (
         f"The {_MAIN} of {it.theory} with the {what} {it.other} differs from that "
         f"with {first} by {told}."
     )
 
 
-def _tested(difference: Difference, p: float) -> tuple[Cell, ...]:
-    told = agreeing(difference.estimate, difference.p)
-    return told, told_p(difference.p), told_p(p), difference.pairs
+def _test_cells(difference: Difference, p: float) -> tuple[Cell, ...]:
+    told = drop_contradicting_interval(difference.estimate, difference.p)
+    return told, format_p(difference.p), format_p(p), difference.pairs
 
 
-def _one(
+def _differences_of(
     what: str,
     theory: str,
     dialogues: Sequence[ScoredDialogue],
     names: tuple[str, str],
     measures: Sequence[Measure],
     places: Places,
-) -> Iterator[_Told]:
+) -> Iterator[_NamedDifference]:
     """How the dialogues of a theory differ between two tutors, or scenes."""
     sides = (_without(what, dialogues, name) for name in names)
     pairs = in_pairs(*sides)
@@ -144,19 +145,21 @@ def _one(
     place = places.tutor if what == "tutor" else places.scene
     found = differences(measures, pairs, np.random.default_rng(_SEED))
     for measure, difference in found.items():
-        yield _Told(theory, measure, *names, difference, place(theory, names[1]))
+        yield _NamedDifference(
+            theory, measure, *names, difference, place(theory, names[1])
+        )
 
 
 def _without(
     what: str, dialogues: Sequence[ScoredDialogue], name: str
 ) -> list[ScoredDialogue]:
-    """The dialogues of a tutor or scene, as if there were no other."""
+    """The dialogues with a tutor or scene, without its name, to make them pairs."""
     return [
-        replace(it, run=_run(what, it.run))
+        replace(it, run=_run_without(what, it.run))
         for it in dialogues
         if getattr(it.run, what) == name
     ]
 
 
-def _run(what: str, run: Run) -> Run:
+def _run_without(what: str, run: Run) -> Run:
     return replace(run, tutor="") if what == "tutor" else replace(run, scene="")

@@ -1,4 +1,4 @@
-"""What it costs the tutor to make the robot know so much: figures."""
+"""Figures of what it costs the tutor to make the robot know so much."""
 
 from __future__ import annotations
 
@@ -10,38 +10,38 @@ import numpy as np
 from kille.lab.measures.measures import ACCURACY, Measure, Vector, ratio
 from kille.lab.measures.scored_dialogues import ScoredDialogue, split_dialogues
 from kille.lab.reports.findings import Theories, estimate_measure
-from kille.lab.reports.repeated_tests import Tests, called, phases_of
+from kille.lab.reports.repeated_tests import Tests, phases_of, test_title
 from kille.lab.reports.row_figures import interval_note
 from kille.lab.reports.short_names import shorten_names
 from kille.lab.results import Figure, interval_series
 
 
-def costs(theories: Theories, tests: Tests) -> Iterator[Figure]:
-    """The accuracy in each test against what was said before it; then by tutor.
+def cost_figures(theories: Theories, tests: Tests) -> Iterator[Figure]:
+    """The accuracy in each test against the words said before it; then by tutor.
 
-    Nothing of a test that is not repeated, nor of tutors who all say as much.
+    A test that is not repeated, and tutors who all say as much, have no figure.
     """
     phases = phases_of(theories, ACCURACY)
     for test in tests:
         asked = [phase for phase in test if phase in phases]
         if len(asked) > 1:
-            yield _by_phase(theories, asked)
+            yield _phase_figure(theories, asked)
     for phase in phases[-1:]:
-        series = {name: _by_tutor(them, phase) for name, them in theories.items()}
-        if _differ(series):
-            yield _by_tutors(series, phase)
+        series = {name: _tutor_points(them, phase) for name, them in theories.items()}
+        if _points_differ(series):
+            yield _tutor_figure(series, phase)
 
 
 _Series: TypeAlias = Mapping[str, Mapping[str, Sequence[Any]]]
 
 _LABELS = {"xlabel": "words of the tutor until then", "ylabel": "accuracy"}
 _LABELLED = 16
-"""At most so many points are called by the tutor."""
+"""Up to this many points are labelled with their tutor."""
 _NOTE = "Words are those of one dialogue."
 
 
-def said_before(phase: str) -> Measure:
-    """How many words the tutor has said in a dialogue when a phase begins."""
+def words_before(phase: str) -> Measure:
+    """The measure of how many words the tutor has said when a phase begins."""
 
     def tally(dialogue: ScoredDialogue) -> Vector:
         words = 0
@@ -54,8 +54,8 @@ def said_before(phase: str) -> Measure:
     return Measure("words", f"words of the tutor before {phase}", tally, ratio, -1, 1)
 
 
-def _differ(series: _Series) -> bool:
-    """Whether some two points lie beside each other, and not by chance alone."""
+def _points_differ(series: _Series) -> bool:
+    """Do any two points differ in x, and not by chance alone?"""
     points = [
         (x, low if low == low else x, high if high == high else x)
         for it in series.values()
@@ -65,8 +65,8 @@ def _differ(series: _Series) -> bool:
     return any(low > least for _, low, _ in points)
 
 
-def _by_tutors(series: _Series, phase: str) -> Figure:
-    """The points by the tutor, called so where there are several, and not too many."""
+def _tutor_figure(series: _Series, phase: str) -> Figure:
+    """The points by tutor, with labels where there are several tutors, but not many."""
     tutors = {label for it in series.values() for label in it["labels"]}
     title = f"Accuracy in {phase} against what it cost"
     title += ", by tutor" if len(tutors) > 1 else ""
@@ -78,22 +78,24 @@ def _by_tutors(series: _Series, phase: str) -> Figure:
     return Figure("points", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
 
 
-def _by_phase(theories: Theories, phases: Sequence[str]) -> Figure:
+def _phase_figure(theories: Theories, phases: Sequence[str]) -> Figure:
     series: dict[str, Any] = {}
     for name, them in theories.items():
         parts = split_dialogues(them, lambda it: it.phase if it.is_word else "")
         known = [phase for phase in phases if phase in parts]
         right = [estimate_measure(ACCURACY, parts[phase]) for phase in known]
         series[name] = {
-            "x": [estimate_measure(said_before(phase), them).value for phase in known],
+            "x": [estimate_measure(words_before(phase), them).value for phase in known],
             **interval_series(right, "mean"),
         }
-    title = f"Accuracy against what it cost: {called(phases)}"
+    title = f"Accuracy against what it cost: {test_title(phases)}"
     told = interval_note(low for it in series.values() for low in it["low"])
     return Figure("curves", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
 
 
-def _by_tutor(dialogues: Sequence[ScoredDialogue], phase: str) -> dict[str, list[Any]]:
+def _tutor_points(
+    dialogues: Sequence[ScoredDialogue], phase: str
+) -> dict[str, list[Any]]:
     found: dict[str, list[Any]] = {
         name: [] for name in ("x", "y", "x_low", "x_high", "y_low", "y_high", "labels")
     }
@@ -104,7 +106,7 @@ def _by_tutor(dialogues: Sequence[ScoredDialogue], phase: str) -> dict[str, list
     for tutor, label in tutors.items():
         them = [it for it in asked if it.run.tutor == tutor]
         spent, right = (
-            estimate_measure(said_before(phase), them),
+            estimate_measure(words_before(phase), them),
             estimate_measure(ACCURACY, them),
         )
         for axis, it in (("x", spent), ("y", right)):

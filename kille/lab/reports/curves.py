@@ -1,4 +1,4 @@
-"""Figures of theories: how they learn, and whether degrees hold."""
+"""Figures of how theories learn, how reliable their degrees are, and of each word."""
 
 from __future__ import annotations
 
@@ -16,45 +16,47 @@ from kille.lab.measures.scored_dialogues import (
 )
 from kille.lab.measures.statistics import reliability_bin
 from kille.lab.reports.findings import Theories, estimate_measure
-from kille.lab.reports.repeated_tests import Tests, called, phases_of
+from kille.lab.reports.repeated_tests import Tests, phases_of, test_title
 from kille.lab.reports.row_figures import interval_note, row_figures
 from kille.lab.results import Figure, interval_series
 
 _PLACES = 12
-"""At most so many places on a learning curve."""
+"""The most places on a learning curve."""
 _LEAST = 5
-"""Places of fewer answers are left out."""
+"""Places with fewer answers are left out."""
 _MOST = 16
-"""Of at most so many words it is drawn which are taken for which."""
+"""The most words in a figure of confusions."""
 _DRAWN = 40
-"""At most so many words are drawn one by one."""
+"""The most words that are drawn one by one."""
 _NOTHING = "(nothing)"
 _MANY = {"reply": "replies"}
 _ACCURACY = {"xlabel": "accuracy"}
 
 
-def learning(theories: Theories, tests: Tests) -> Iterator[Figure]:
-    """The accuracy in each test by how many lessons there were before the question."""
+def learning_curves(theories: Theories, tests: Tests) -> Iterator[Figure]:
+    """The accuracy in each test by the number of lessons before the question."""
     phases = phases_of(theories, ACCURACY)
     asked = [[phase for phase in test if phase in phases] for test in tests]
     several = sum(map(bool, asked)) > 1
     for test in filter(None, asked):
-        told = f": {called(test)}" if several else ""
-        yield from _learning(f"Learning curve{told}", theories, test)
+        told = f": {test_title(test)}" if several else ""
+        yield from _learning_curve(f"Learning curve{told}", theories, test)
 
 
-def _learning(title: str, theories: Theories, test: Sequence[str]) -> Iterator[Figure]:
-    """Nothing where there were always as many."""
+def _learning_curve(
+    title: str, theories: Theories, test: Sequence[str]
+) -> Iterator[Figure]:
+    """The curve of one test, unless all its questions came after as many lessons."""
 
     def counts(answer: ScoredAnswer) -> bool:
         return answer.is_word and answer.phase in test
 
     answers = (it for them in theories.values() for one in them for it in one.answers)
     lessons = {it.lessons for it in answers if counts(it)}
-    wide = step(max(lessons)) if len(lessons) > _PLACES else 1
+    wide = axis_step(max(lessons)) if len(lessons) > _PLACES else 1
 
     def place(answer: ScoredAnswer) -> int:
-        return near(answer.lessons, wide) if counts(answer) else -1
+        return nearest_place(answer.lessons, wide) if counts(answer) else -1
 
     series: dict[str, Any] = {}
     for name, them in theories.items():
@@ -73,10 +75,10 @@ def _learning(title: str, theories: Theories, test: Sequence[str]) -> Iterator[F
         yield Figure("curves", title, data, f"{_note(wide)} {told}")
 
 
-def near(lessons: int, wide: int) -> int:
-    """The place nearest to so many lessons; what is between two goes to the later.
+def nearest_place(lessons: int, wide: int) -> int:
+    """The place nearest to a number of lessons; halfway, it is the later one.
 
-    >>> [near(it, 2) for it in range(7)]
+    >>> [nearest_place(it, 2) for it in range(7)]
     [0, 2, 2, 4, 4, 6, 6]
     """
     return (lessons + wide // 2) // wide * wide
@@ -87,14 +89,14 @@ def _count(dialogues: Sequence[ScoredDialogue]) -> int:
 
 
 def _note(wide: int) -> str:
-    near = f"Answers are put to the nearest {wide} lessons. " if wide > 1 else ""
-    return f"{near}Not every dialogue comes to all of these."
+    places = f"Answers are put to the nearest {wide} lessons. " if wide > 1 else ""
+    return f"{places}Not every dialogue comes to all of these."
 
 
-def step(most: int) -> int:
-    """How far apart places on an axis up to so much are: 1, 2, 5, 10, 20, 50, …
+def axis_step(most: int) -> int:
+    """The distance between places on an axis up to `most`: 1, 2, 5, 10, 20, 50, …
 
-    >>> step(9), step(48), step(2000)
+    >>> axis_step(9), axis_step(48), axis_step(2000)
     (1, 5, 200)
     """
     scale = 1
@@ -105,11 +107,11 @@ def step(most: int) -> int:
         scale *= 10
 
 
-def reliable(theories: Theories) -> Iterator[Figure]:
-    """Whether what is said with a degree is right as often as that."""
+def reliability_figures(theories: Theories) -> Iterator[Figure]:
+    """Is what is said with some degree right as often as that?"""
     series: dict[str, dict[str, Any]] = {}
     for name, them in theories.items():
-        bins = split_dialogues(them, _bin)
+        bins = split_dialogues(them, _bin_of)
         at = sorted(it for it in bins if it >= 0)
         said = [estimate_measure(DEGREE, bins[it]).value for it in at]
         right = [estimate_measure(ACCURACY, bins[it]) for it in at]
@@ -130,13 +132,13 @@ def reliable(theories: Theories) -> Iterator[Figure]:
     yield Figure("reliability", "Reliability", data, note)
 
 
-def _bin(answer: ScoredAnswer) -> int:
+def _bin_of(answer: ScoredAnswer) -> int:
     if not (answer.is_word and answer.said and np.isfinite(answer.degree)):
         return -1
     return int(reliability_bin(answer.degree))
 
 
-def words(theories: Theories) -> Iterator[Figure]:
+def word_figures(theories: Theories) -> Iterator[Figure]:
     """The accuracy word by word, for each kind of word that has not too many."""
     parts = {
         name: split_dialogues(
@@ -159,8 +161,8 @@ def words(theories: Theories) -> Iterator[Figure]:
         yield from row_figures(f"Word by word{which}", labels, series, _ACCURACY)
 
 
-def confusions(theories: Theories) -> Iterator[Figure]:
-    """Which words are taken for which, for each theory and kind of word."""
+def confusion_figures(theories: Theories) -> Iterator[Figure]:
+    """Which words are taken for which, by theory and kind of word."""
     for name, them in theories.items():
         for kind, of in split_dialogues(
             them, lambda it: it.kind if it.is_word else ""

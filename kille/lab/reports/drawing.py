@@ -1,7 +1,7 @@
-"""Drawing figures with matplotlib, which is optional: the extra `plots` has it.
+"""Drawing figures with matplotlib, which comes with the extra `plots`.
 
-Ink is drawn in a colour of its own, so that a page can give it the colour of its text,
-by day and by night.
+Ink has a colour of its own, for which a page puts the colour of its text, by day and by
+night.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from kille.lab.reports.figure_styles import (
     RIGHT,
     WIDTH,
     WRONG,
-    blank,
-    legend,
-    named,
+    add_legend,
+    blank_drawing,
+    name_axes,
 )
 from kille.lab.reports.interval_figures import (
-    drawn_intervals,
-    drawn_points,
-    drawn_reliability,
+    draw_intervals,
+    draw_points,
+    draw_reliability,
 )
 from kille.lab.results import Figure
 from ttr.escapes import terminal_line
@@ -44,7 +44,7 @@ __all__ = ["MISSING", "can_draw", "drawing", "jpeg", "pdf", "svg"]
 
 MISSING = "no figures: they need matplotlib, pip install 'kille[plots]'"
 
-_TICKS = 13  # so many measured places each have a number on the axis
+_TICKS = 13  # up to this many measured places each have a number on the axis
 _SETTINGS: Any = {
     "svg.fonttype": "none",
     "pdf.fonttype": 42,  # letters that remain letters
@@ -66,7 +66,7 @@ _SETTINGS: Any = {
 
 
 def can_draw() -> bool:
-    """Whether matplotlib is installed."""
+    """Is matplotlib installed?"""
     return find_spec("matplotlib") is not None
 
 
@@ -75,23 +75,23 @@ def drawing(figure: Figure) -> Drawing:
     from matplotlib import rc_context
 
     with rc_context(_SETTINGS):
-        return _DRAWN[figure.kind](_visible(figure.data))
+        return _DRAW[figure.kind](_make_visible(figure.data))
 
 
-def _visible(data: Any) -> Any:
-    """The data with their words as they can be drawn."""
+def _make_visible(data: Any) -> Any:
+    """The data with the invisible characters of their words made visible."""
     match data:
         case str():
             return terminal_line(data)
         case list() | tuple():
-            return [_visible(it) for it in data]
+            return [_make_visible(it) for it in data]
         case Mapping():
-            return {_visible(key): _visible(it) for key, it in data.items()}
+            return {_make_visible(key): _make_visible(it) for key, it in data.items()}
     return data
 
 
 def svg(figure: Figure, number: int = 0) -> str:
-    """The figure as SVG for the inside of a page, in which it is figure `number`.
+    """The figure as SVG, to be figure `number` of a page.
 
     The ink is `currentColor`. The same figure is the same text.
     """
@@ -134,14 +134,14 @@ def jpeg(picture: Any) -> bytes:
     return file.getvalue()
 
 
-def _confusion(data: Mapping[str, Any]) -> Drawing:
+def _draw_confusion(data: Mapping[str, Any]) -> Drawing:
     """Right answers are blue and on the diagonal, wrong ones are red."""
     rows = list(data["labels"])
     columns = list(data.get("columns", rows))
     counts = np.asarray(data["counts"], float)
     share = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
     cell = 0.42
-    drawn, axes = blank(2.2 + cell * len(columns), 1.8 + cell * len(rows))
+    drawn, axes = blank_drawing(2.2 + cell * len(columns), 1.8 + cell * len(rows))
     for i, row in enumerate(rows):
         for j, column in enumerate(columns):
             if counts[i, j]:
@@ -173,9 +173,9 @@ def _square(column: int, row: int, hue: str, alpha: float) -> Any:
     return Rectangle((column - 0.5, row - 0.5), 1, 1, color=hue, alpha=alpha, lw=0)
 
 
-def _curves(data: Mapping[str, Any]) -> Drawing:
-    """Means with a mark at each measured place, and their bands."""
-    drawn, axes = blank(WIDTH, 3.8)
+def _draw_curves(data: Mapping[str, Any]) -> Drawing:
+    """Means with a mark at each measured place, and their intervals."""
+    drawn, axes = blank_drawing(WIDTH, 3.8)
     series = data["series"]
     top = 0.0
     for (name, it), hue, marker in zip(
@@ -191,30 +191,30 @@ def _curves(data: Mapping[str, Any]) -> Drawing:
         axes.set_xscale("log")
     if "y" in log:
         axes.set_yscale("log")
-        _decades(axes)
+        _set_decades(axes)
     elif top <= 1:
         axes.set_ylim(0, 1.03)
     if 0 < len(data.get("x", ())) <= _TICKS:
         axes.set_xticks(list(data["x"]), [f"{it:,g}" for it in data["x"]])
         axes.set_xticks([], minor=True)
-    named(axes, data)
+    name_axes(axes, data)
     axes.grid(color=FAINT, alpha=0.25, lw=0.6)
-    legend(axes)
+    add_legend(axes)
     return drawn
 
 
-def _decades(axes: Axes) -> None:
-    """Whole powers of ten on the logarithmic axis upwards, in plain numbers."""
+def _set_decades(axes: Axes) -> None:
+    """Label the logarithmic vertical axis with powers of ten, in plain numbers."""
     low, high = np.log10(axes.get_ylim())
     powers = 10.0 ** np.arange(np.floor(low), np.ceil(high) + 1)
     axes.set_ylim(powers[0], powers[-1])
     axes.set_yticks(powers, [f"{it:,g}" for it in powers])
 
 
-def _bars(data: Mapping[str, Any]) -> Drawing:
-    """Bars from the left, the first on top; what is below 0 is red."""
+def _draw_bars(data: Mapping[str, Any]) -> Drawing:
+    """Horizontal bars, the first on top; those below 0 are red."""
     labels, values = list(data["labels"]), np.asarray(data["values"], float)
-    drawn, axes = blank(WIDTH, 0.9 + 0.3 * len(labels))
+    drawn, axes = blank_drawing(WIDTH, 0.9 + 0.3 * len(labels))
     places = np.arange(len(labels))
     hues = [RIGHT if value >= 0 else WRONG for value in values]
     axes.barh(places, values, color=hues, alpha=0.75, height=0.68)
@@ -233,8 +233,8 @@ def _bars(data: Mapping[str, Any]) -> Drawing:
     return drawn
 
 
-def _map(data: Mapping[str, Any]) -> Drawing:
-    """For each word its degree at each place around the landmark, seen from above."""
+def _draw_map(data: Mapping[str, Any]) -> Drawing:
+    """The degree of each word at each place around the landmark, seen from above."""
     from matplotlib.figure import Figure as Drawing
 
     words = list(data["words"])
@@ -244,7 +244,7 @@ def _map(data: Mapping[str, Any]) -> Drawing:
     grid = drawn.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     every = list(grid.ravel())
     for axes, word in zip(every, words, strict=False):
-        image = _around(axes, data, word)
+        image = _draw_word(axes, data, word)
     for axes in every[len(words) :]:
         axes.set_visible(False)
     drawn.supxlabel(data.get("xlabel", "right"))
@@ -253,8 +253,8 @@ def _map(data: Mapping[str, Any]) -> Drawing:
     return drawn
 
 
-def _around(axes: Axes, data: Mapping[str, Any], word: str) -> Any:
-    """The degrees of one word, with the line of .5, the landmark and the lessons."""
+def _draw_word(axes: Axes, data: Mapping[str, Any], word: str) -> Any:
+    """Draw the degrees of one word, with the line of .5, the landmark and lessons."""
     x, y = np.asarray(data["right"], float), np.asarray(data["away"], float)
     degrees = np.asarray(data["degrees"][word], float)
     look: Any = {"cmap": "cividis", "shading": "nearest", "rasterized": True}
@@ -269,7 +269,7 @@ def _around(axes: Axes, data: Mapping[str, Any], word: str) -> Any:
     return image
 
 
-def _pictures(data: Mapping[str, Any]) -> Drawing:
+def _draw_pictures(data: Mapping[str, Any]) -> Drawing:
     """Pictures in rows with their captions; those that are not good are framed red."""
     from matplotlib.figure import Figure as Drawing
 
@@ -293,13 +293,13 @@ def _pictures(data: Mapping[str, Any]) -> Drawing:
     return drawn
 
 
-_DRAWN: Mapping[str, Callable[[Mapping[str, Any]], Drawing]] = {
-    "confusion": _confusion,
-    "curves": _curves,
-    "bars": _bars,
-    "map": _map,
-    "pictures": _pictures,
-    "points": drawn_points,
-    "intervals": drawn_intervals,
-    "reliability": drawn_reliability,
+_DRAW: Mapping[str, Callable[[Mapping[str, Any]], Drawing]] = {
+    "confusion": _draw_confusion,
+    "curves": _draw_curves,
+    "bars": _draw_bars,
+    "map": _draw_map,
+    "pictures": _draw_pictures,
+    "points": draw_points,
+    "intervals": draw_intervals,
+    "reliability": draw_reliability,
 }

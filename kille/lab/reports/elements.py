@@ -67,6 +67,6 @@ def description_list(entries: Iterable[tuple[str, str]]) -> Markup:
     return element("dl", *(element("dt", a) + element("dd", b) for a, b in entries))
 
 
-def folded(summary: str, *content: str) -> Markup:
-    """A piece of a page that a reader may unfold."""
+def fold(summary: str, *content: str) -> Markup:
+    """Fold a piece of a page away behind its summary; readers may unfold it."""
     return element("details", element("summary", summary), *content)

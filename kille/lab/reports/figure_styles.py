@@ -1,4 +1,4 @@
-"""What all figures are drawn with: hues, markers, an empty drawing, a legend.
+"""The style of all figures: hues, markers, an empty drawing, a legend.
 
 Hues are those of Okabe and Ito 2008, which people with any colour vision tell apart;
 series differ in their markers too.
@@ -30,7 +30,7 @@ _HANDLE = 9  # letters that the line and the space beside a name take
 _COLUMNS = 3
 
 
-def blank(width: float, height: float) -> tuple[Drawing, Axes]:
+def blank_drawing(width: float, height: float) -> tuple[Drawing, Axes]:
     """An empty drawing of so many inches, with its axes."""
     from matplotlib.figure import Figure as Drawing
 
@@ -38,8 +38,8 @@ def blank(width: float, height: float) -> tuple[Drawing, Axes]:
     return drawn, drawn.subplots()
 
 
-def legend(axes: Axes, width: float = WIDTH) -> None:
-    """The names of the series above the axes, in as many columns as there is room for.
+def add_legend(axes: Axes, width: float = WIDTH) -> None:
+    """Put a legend above the axes, in as many columns as fit.
 
     The width is that of the drawing, in inches.
     """
@@ -52,7 +52,7 @@ def legend(axes: Axes, width: float = WIDTH) -> None:
     )
 
 
-def named(axes: Axes, data: Mapping[str, Any]) -> None:
-    """The axes with the names that the data gives them."""
+def name_axes(axes: Axes, data: Mapping[str, Any]) -> None:
+    """Label the axes as the data says."""
     axes.set_xlabel(data.get("xlabel", ""))
     axes.set_ylabel(data.get("ylabel", ""))

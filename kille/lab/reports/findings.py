@@ -1,6 +1,6 @@
-"""What a study found: tables and figures of its dialogues, theory by theory.
+"""What a study found: tables of its dialogues, theory by theory.
 
-Numbers lead to the dialogues behind them, where `places` says where these are.
+Numbers lead to the dialogues behind them, whose places are `places`.
 """
 
 from __future__ import annotations
@@ -40,39 +40,39 @@ from kille.lab.measures.scored_dialogues import (
 )
 from kille.lab.reports.links import Places
 from kille.lab.reports.short_names import shorten_names
-from kille.lab.results import Cell, Estimate, Result, Table
+from kille.lab.results import UNKNOWN, Cell, Estimate, Result, Table
 
 Theories: TypeAlias = Mapping[str, Sequence[ScoredDialogue]]
 """The dialogues of each theory, in the order of the study."""
 
-_SEED = 1  # of the chance by which dialogues are drawn anew
-_BANDS = (
-    f"In brackets: the band of 95 %, of dialogues drawn anew with these tutors and "
-    f"scenes (bootstrap over whole dialogues, not over single answers); none where "
-    f"fewer than {FEWEST} dialogues have the measure. A measure that is the same as "
-    f"one above in every dialogue is left out."
+_SEED = 1  # of the chance by which dialogues are resampled
+_INTERVALS = (
+    f"In brackets: the 95 % confidence interval, of dialogues drawn anew with these "
+    f"tutors and scenes (bootstrap over whole dialogues, not over single answers); "
+    f"none where fewer than {FEWEST} dialogues have the measure. A measure that is the "
+    f"same as one above in every dialogue is left out."
 )
 
 
 def group_by_theory(
     names: Sequence[str], dialogues: Sequence[ScoredDialogue]
 ) -> Theories:
-    """The dialogues of each of the named theories that has any."""
+    """Group dialogues by these theories; theories without any are left out."""
     found = {name: dialogues_of(dialogues, name) for name in names}
     return {name: them for name, them in found.items() if them}
 
 
-def for_figures(theories: Theories) -> Theories:
-    """The theories by names for which there is room in a figure."""
+def shorten_theory_names(theories: Theories) -> Theories:
+    """The theories by names that fit beside a figure."""
     called = shorten_names(theories)
     return {called[name]: them for name, them in theories.items()}
 
 
-def measures_of(theories: Theories) -> list[Measure]:
-    """All measures for which there is something to be told, the main one first.
+def known_measures(theories: Theories) -> list[Measure]:
+    """All measures that are known for these dialogues, the main one first.
 
-    What is counted as another measure is in every dialogue is left out, and agreement
-    with a judge who was never asked, or always agrees with the tutor.
+    A measure that has the same tallies as one before it is left out, and so is the
+    agreement with a judge who was never asked, or always agrees with the tutor.
     """
     everything = list(chain.from_iterable(theories.values()))
     robot, *judged = kappas(vocabulary(everything))
@@ -101,15 +101,15 @@ def measures_of(theories: Theories) -> list[Measure]:
 
 
 def _is_judged(dialogues: Sequence[ScoredDialogue]) -> bool:
-    """Whether anybody ever says something else than the tutor holds to be right."""
+    """Does another judge ever say something else than the tutor?"""
     answers = (it for one in dialogues for it in one.answers if it.is_word)
     return any(it.judge not in ("", it.right) for it in answers)
 
 
 def estimate_measure(measure: Measure, dialogues: Sequence[ScoredDialogue]) -> Estimate:
-    """The measure over the dialogues with its band; the same for the same dialogues."""
+    """The measure over the dialogues, with an interval by the same draws every time."""
     if not dialogues:
-        return Estimate(float("nan"), float("nan"), float("nan"))
+        return UNKNOWN
     draws = _draws(len(dialogues))
     return estimate_tallies(measure, tallies(measure, dialogues), draws)
 
@@ -122,10 +122,12 @@ def _draws(count: int) -> Vector:
 # --- tables --------------------------------------------------------------------------
 
 
-def overall(theories: Theories, measures: Sequence[Measure], places: Places) -> Table:
-    """Every measure of every theory, below of how many dialogues and answers it is."""
+def overall_table(
+    theories: Theories, measures: Sequence[Measure], places: Places
+) -> Table:
+    """Every measure of every theory, below the numbers of dialogues and answers."""
     rows: list[tuple[Cell, ...]] = [("dialogues", *map(len, theories.values()))]
-    rows += _answered(theories)
+    rows += _answer_counts(theories)
     answers = range(1, len(rows))
     for measure in measures:
         told = (estimate_measure(measure, them) for them in theories.values())
@@ -135,11 +137,11 @@ def overall(theories: Theories, measures: Sequence[Measure], places: Places) -> 
         for row in range(len(rows))
         for column, name in enumerate(theories, start=1)
     }
-    return Table("All measures", ("", *theories), tuple(rows), _BANDS, links)
+    return Table("All measures", ("", *theories), tuple(rows), _INTERVALS, links)
 
 
-def _answered(theories: Theories) -> Iterator[tuple[Cell, ...]]:
-    """How many answers there are of words; and of things, if any were asked for."""
+def _answer_counts(theories: Theories) -> Iterator[tuple[Cell, ...]]:
+    """How many words were asked for; and how many things, if any."""
     words = [_count(of) for of in theories.values()]
     things = [sum(len(it.answers) for it in of) for of in theories.values()]
     yield ("answers", *words)
@@ -147,14 +149,14 @@ def _answered(theories: Theories) -> Iterator[tuple[Cell, ...]]:
         yield ("things asked for", *(a - b for a, b in zip(things, words, strict=True)))
 
 
-def meanings(measures: Sequence[Measure]) -> Result:
-    """What the measures say."""
+def measure_meanings(measures: Sequence[Measure]) -> Result:
+    """What the measures mean."""
     rows = tuple((it.name, it.meaning) for it in measures)
     table = Table("Measures", ("measure", "what it is"), rows)
     return Result("What the numbers mean", (table,))
 
 
-def in_detail(theories: Theories, places: Places) -> Iterator[Table]:
+def detail_tables(theories: Theories, places: Places) -> Iterator[Table]:
     """How many answers are right: by kind of word, phase, way of saying and word."""
     words = _words_only(theories)
 
@@ -170,10 +172,16 @@ def in_detail(theories: Theories, places: Places) -> Iterator[Table]:
     def to_word(name: str, key: Sequence[str]) -> str:
         return places.word(name, key[0], key[1])
 
-    yield from _by("By kind of word", ("kind",), words, lambda it: (it.kind,), to_kind)
-    yield from _by("By phase", ("phase",), words, lambda it: (it.phase,), to_phase)
-    yield from _by("By how it was put", ("way",), words, lambda it: (it.way,), to_way)
-    yield from _by(
+    yield from _tables_by(
+        "By kind of word", ("kind",), words, lambda it: (it.kind,), to_kind
+    )
+    yield from _tables_by(
+        "By phase", ("phase",), words, lambda it: (it.phase,), to_phase
+    )
+    yield from _tables_by(
+        "By how it was put", ("way",), words, lambda it: (it.way,), to_way
+    )
+    yield from _tables_by(
         "By word", ("kind", "word"), words, lambda it: (it.kind, it.right), to_word
     )
 
@@ -189,7 +197,7 @@ def _words_only(theories: Theories) -> Theories:
     }
 
 
-def _by(
+def _tables_by(
     title: str,
     heads: _Key,
     theories: Theories,
@@ -197,18 +205,18 @@ def _by(
     to: Callable[[str, _Key], str],
 ) -> Iterator[Table]:
     parts = {name: split_dialogues(them, key) for name, them in theories.items()}
-    yield from _shares(title, heads, parts, to)
+    yield from _accuracy_tables(title, heads, parts, to)
 
 
-def _shares(
+def _accuracy_tables(
     title: str,
     heads: _Key,
     parts: Mapping[str, Mapping[_Key, Sequence[ScoredDialogue]]],
     to: Callable[[str, _Key], str],
 ) -> Iterator[Table]:
-    """The accuracy of each theory in each part, and how many answers there are.
+    """The accuracy of each theory in each part, and the numbers of answers.
 
-    In a table of their own, where theories gave not as many.
+    These have a table of their own where they differ between theories.
     """
     keys = dict.fromkeys(key for them in parts.values() for key in them)
     ordered = sorted(keys) if len(heads) > 1 else list(keys)

@@ -1,4 +1,4 @@
-"""Reports of folders of results: what was found in one, and in two compared."""
+"""Reports of a folder of results, and of two folders side by side."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
 from kille.lab.reports.findings import group_by_theory
 from kille.lab.reports.layouts import Described
 from kille.lab.reports.links import places_of
-from kille.lab.reports.name_clashes import unlike
-from kille.lab.reports.repeated_tests import tests_of
+from kille.lab.reports.name_clashes import differing_names
+from kille.lab.reports.repeated_tests import group_tests
 from kille.lab.reports.study_report import Subject, every_two, results_of, write
-from kille.lab.reports.unused_rules import idle
+from kille.lab.reports.unused_rules import unused_rules
 from kille.lab.results import ExperimentError, Result
 from kille.lab.study import MAIN_MEASURES, Study, Theory
 from kille.lab.theories.descriptions import describe
@@ -29,21 +29,21 @@ from ttr.safety.consent import Consent
 
 _NAME = "report.html"
 _USUAL = ".results"
-"""What the name of a folder of results ends in, if nobody has named another."""
+"""How the names of folders of results end, unless the user names them."""
 
 
 class Report(NamedTuple):
-    """A page that was written, and what was found."""
+    """A page that was written, and the results on it."""
 
     page: Path
     results: list[Result]
 
 
 def report(folder: Path, *, command: str = "", study: Study | None = None) -> Report:
-    """Writes the report of a folder of results into it.
+    """Write the report of a folder of results into it.
 
-    It is of this study, or else of the one that the log has, of which no Python is run
-    to show it. StudyError where there are none, TTRError where it cannot be written.
+    It is of this study, or else of the one in the log, whose Python is not run. Raises
+    StudyError where there are no results, TTRError where the page cannot be written.
     """
     page = folder / _NAME
     subject = _subject(folder, command, study or log.study(folder))
@@ -58,18 +58,18 @@ def compare(
     command: str = "",
     consent: Consent = NO_PYTHON,
 ) -> Report:
-    """Writes a report of two folders of results side by side.
+    """Write a report of two folders of results side by side.
 
-    To show their theories, Python is run only where there is consent to that.
+    To show their theories, Python is run only with consent.
     """
-    return Report(page, write(_both(one, other, command, consent), page))
+    return Report(page, write(_subject_of_two(one, other, command, consent), page))
 
 
 def compare_results(
     one: Path, other: Path, consent: Consent = NO_PYTHON
 ) -> list[Result]:
-    """What was found in two folders of results, for a terminal."""
-    subject = _both(one, other, "", consent)
+    """The results of two folders side by side, for a terminal."""
+    subject = _subject_of_two(one, other, "", consent)
     everything = [it for them in subject.theories.values() for it in them]
     return results_of(subject, places_of(list(subject.theories), everything, ""))
 
@@ -80,31 +80,34 @@ def compare_results(
 def _subject(folder: Path, command: str, study: Study) -> Subject:
     dialogues = [score_dialogue(*it) for it in log.read(folder)]
     theories = group_by_theory(list(study.theories), dialogues)
-    shown = _described(study, theories or study.theories)
+    shown = _describe_theories(study, theories or study.theories)
     return Subject(
         study.title,
         theories,
         shown,
         [it for it in study.contrasts if theories.keys() >= {*it}]
         or every_two(theories),
-        tests_of(study.phases),
+        group_tests(study.phases),
         _about(folder, study, command, len(dialogues)),
         main=MAIN_MEASURES[study.main],
         lead=study.about,
-        numbers=_numbers(study, len(dialogues), log.about(folder).planned),
+        numbers=_summarise_numbers(study, len(dialogues), log.about(folder).planned),
         source=study.source,
-        broken=[(str(it.run), it.reason) for it in log.broken_runs(folder)],
-        warnings=[*_cut_short(theories, study.turns), *idle(shown, theories)],
+        broken=[(str(it.run), it.reason) for it in log.broken(folder)],
+        warnings=[
+            *_cut_short_lines(theories, study.turns),
+            *unused_rules(shown, theories),
+        ],
         files=sorted(
             it.name for it in folder.iterdir() if it.suffix in (".csv", ".parquet")
         ),
     )
 
 
-def _cut_short(
+def _cut_short_lines(
     theories: Mapping[str, Sequence[ScoredDialogue]], most: int
 ) -> list[str]:
-    """Of which theories dialogues came to the last turn that the study allows.
+    """Warn of theories whose dialogues came to the last turn that the study allows.
 
     A theory that talks more is then asked less.
     """
@@ -121,7 +124,7 @@ def _cut_short(
     ]
 
 
-def _numbers(study: Study, played: int, planned: int) -> str:
+def _summarise_numbers(study: Study, played: int, planned: int) -> str:
     """How many dialogues there are, and of what."""
     of = (
         (study.theories, "theory", "theories"),
@@ -135,12 +138,12 @@ def _numbers(study: Study, played: int, planned: int) -> str:
     return f"{some}{many}: {' × '.join(parts)}"
 
 
-def _described(study: Study, names: Iterable[str]) -> dict[str, Described]:
-    return {name: _shown(study.theories[name]) for name in names}
+def _describe_theories(study: Study, names: Iterable[str]) -> dict[str, Described]:
+    return {name: _describe_theory(study.theories[name]) for name in names}
 
 
-def _shown(theory: Theory) -> Described:
-    """A theory by its parts; of one whose own files are gone, that they are."""
+def _describe_theory(theory: Theory) -> Described:
+    """Describe a theory by its parts, or say why it cannot be shown."""
     try:
         return describe(theory)
     except (TheoryError, ExperimentError, TTRError, OSError) as error:
@@ -156,7 +159,7 @@ def _about(folder: Path, study: Study, command: str, count: int) -> Mapping[str,
         "theories": ", ".join(study.theories),
         "tutors": ", ".join(study.tutors),
         "scenes": ", ".join(study.scenes),
-        "seeds": _seeds(study.seeds),
+        "seeds": _format_seeds(study.seeds),
         "dialogues": f"{count:,} of {about.planned:,} played to their end",
         "begun": about.began,
         "versions": versions,
@@ -164,10 +167,10 @@ def _about(folder: Path, study: Study, command: str, count: int) -> Mapping[str,
     return {head: text for head, text in told.items() if text}
 
 
-def _seeds(seeds: tuple[int, ...]) -> str:
-    """The seeds in short.
+def _format_seeds(seeds: tuple[int, ...]) -> str:
+    """Format seeds in short.
 
-    >>> _seeds((1, 2, 3, 4)), _seeds((3, 7))
+    >>> _format_seeds((1, 2, 3, 4)), _format_seeds((3, 7))
     ('1 to 4', '3, 7')
     """
     first, last = min(seeds), max(seeds)
@@ -179,23 +182,26 @@ def _seeds(seeds: tuple[int, ...]) -> str:
 # --- two folders ---------------------------------------------------------------------
 
 
-def _both(one: Path, other: Path, command: str, consent: Consent) -> Subject:
-    """Both as one: theories of one name are compared with each other, or else all."""
+def _subject_of_two(one: Path, other: Path, command: str, consent: Consent) -> Subject:
+    """Both folders as one subject.
+
+    Theories of the same name are compared; if there are none, each with each.
+    """
     studies = [log.study(folder, consent) for folder in (one, other)]
     first = _subject(one, command, studies[0])
     second = _subject(other, command, studies[1])
-    names = _called(one, other)
+    names = _name_folders(one, other)
     common = [name for name in first.theories if name in second.theories]
     which = [(name, name) for name in common] or [
         (name, it) for name in first.theories for it in second.theories
     ]
     subjects = dict(zip(names, (first, second), strict=True))
     theories = {
-        f"{label}: {name}": [_renamed(it, f"{label}: {name}") for it in them]
+        f"{label}: {name}": [_rename_theory(it, f"{label}: {name}") for it in them]
         for label, subject in subjects.items()
         for name, them in subject.theories.items()
     }
-    shared = _shared(first, second, one, other)
+    shared = _common_occasions(first, second, one, other)
     return Subject(
         f"{names[1]} against {names[0]}",
         theories,
@@ -224,7 +230,7 @@ def _both(one: Path, other: Path, command: str, consent: Consent) -> Subject:
         ],
         warnings=[
             *shared,
-            *unlike(*studies),
+            *differing_names(*studies),
             *(
                 f"{label}: {text}"
                 for label, subject in subjects.items()
@@ -234,8 +240,8 @@ def _both(one: Path, other: Path, command: str, consent: Consent) -> Subject:
     )
 
 
-def _called(one: Path, other: Path) -> tuple[str, str]:
-    """What two folders are called: by their names, or by where they are."""
+def _name_folders(one: Path, other: Path) -> tuple[str, str]:
+    """Names for two folders: their own, or their paths if these are the same."""
     if os.path.realpath(one) == os.path.realpath(other):
         raise StudyError([f"{one} and {other} are one folder: name two"])
     names = [
@@ -244,12 +250,14 @@ def _called(one: Path, other: Path) -> tuple[str, str]:
     return (names[0], names[1]) if names[0] != names[1] else (str(one), str(other))
 
 
-def _renamed(dialogue: ScoredDialogue, theory: str) -> ScoredDialogue:
+def _rename_theory(dialogue: ScoredDialogue, theory: str) -> ScoredDialogue:
     return replace(dialogue, run=replace(dialogue.run, theory=theory))
 
 
-def _shared(first: Subject, second: Subject, one: Path, other: Path) -> list[str]:
-    """What has to be known of two that were not played on the same occasions."""
+def _common_occasions(
+    first: Subject, second: Subject, one: Path, other: Path
+) -> list[str]:
+    """Warn if two studies were not played on the same occasions."""
     mine, theirs = (
         {it.pair for them in subject.theories.values() for it in them}
         for subject in (first, second)

@@ -1,4 +1,4 @@
-"""Figures of numbers with their bands: side by side, two by two, and of degrees."""
+"""Figures of numbers with their intervals: in rows, as points, and of reliability."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from kille.lab.reports.figure_styles import (
     INK,
     MARKERS,
     WIDTH,
-    blank,
-    legend,
-    named,
+    add_legend,
+    blank_drawing,
+    name_axes,
 )
-from kille.lab.reports.point_labels import labelled
+from kille.lab.reports.point_labels import label_points
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
@@ -27,11 +27,11 @@ _ROW, _SERIES = 0.2, 0.16  # inches
 _SQUARE = 4.8
 
 
-def drawn_intervals(data: Mapping[str, Any]) -> Drawing:
-    """A row for each label, with a mark and a band for each series."""
+def draw_intervals(data: Mapping[str, Any]) -> Drawing:
+    """A row for each label, with a mark and an interval for each series."""
     labels, series = list(data["labels"]), data["series"]
     high = 1.1 + (_ROW + _SERIES * len(series)) * len(labels)
-    drawn, axes = blank(WIDTH, high)
+    drawn, axes = blank_drawing(WIDTH, high)
     apart = 0.62 / max(len(series), 1)
     for number, ((name, it), hue, marker) in enumerate(
         zip(series.items(), cycle(HUES), cycle(MARKERS), strict=False)
@@ -52,12 +52,12 @@ def drawn_intervals(data: Mapping[str, Any]) -> Drawing:
     axes.spines["left"].set_visible(False)
     axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.6)
     if len(series) > 1:
-        legend(axes)
+        add_legend(axes)
     return drawn
 
 
-def drawn_reliability(data: Mapping[str, Any]) -> Drawing:
-    """Shares that are right against what was said, above how often each was said.
+def draw_reliability(data: Mapping[str, Any]) -> Drawing:
+    """The share that is right against the degree, above how often each was said.
 
     Source: Murphy and Winkler 1977; DeGroot and Fienberg 1983.
     """
@@ -75,18 +75,18 @@ def drawn_reliability(data: Mapping[str, Any]) -> Drawing:
         axes.plot(it["x"], it["y"], color=hue, marker=marker, ms=5, lw=1.4, label=name)
         below.plot(it["x"], it["counts"], color=hue, marker=marker, ms=3.5, lw=1)
     axes.set(xlim=(0, 1.02), ylim=(0, 1.02))
-    named(axes, {"ylabel": data.get("ylabel", "")})
-    named(below, {"xlabel": data.get("xlabel", ""), "ylabel": "answers"})
+    name_axes(axes, {"ylabel": data.get("ylabel", "")})
+    name_axes(below, {"xlabel": data.get("xlabel", ""), "ylabel": "answers"})
     below.set_ylim(bottom=0)
     for it in (axes, below):
         it.grid(color=FAINT, alpha=0.25, lw=0.6)
-    legend(axes, _SQUARE)
+    add_legend(axes, _SQUARE)
     return drawn
 
 
-def drawn_points(data: Mapping[str, Any]) -> Drawing:
-    """Points of each series, with bands both ways and labels where there are any."""
-    drawn, axes = blank(WIDTH, 3.6)
+def draw_points(data: Mapping[str, Any]) -> Drawing:
+    """Points of each series, with intervals both ways and labels if there are any."""
+    drawn, axes = blank_drawing(WIDTH, 3.6)
     series = data["series"]
     for (name, it), hue, marker in zip(
         series.items(), cycle(HUES), cycle(MARKERS), strict=False
@@ -97,9 +97,9 @@ def drawn_points(data: Mapping[str, Any]) -> Drawing:
         if "x_low" in it:
             axes.hlines(it["y"], it["x_low"], it["x_high"], color=hue, lw=1.2)
             axes.vlines(it["x"], it["y_low"], it["y_high"], color=hue, lw=1.2)
-    named(axes, data)
+    name_axes(axes, data)
     axes.margins(0.12, 0.08)
     axes.grid(color=FAINT, alpha=0.25, lw=0.6)
-    legend(axes)
-    labelled(drawn, axes, series.values())
+    add_legend(axes)
+    label_points(drawn, axes, series.values())
     return drawn

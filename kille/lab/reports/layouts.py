@@ -12,7 +12,7 @@ from kille.lab.reports.elements import (
     Markup,
     description_list,
     element,
-    folded,
+    fold,
     join,
     scrolling_table,
 )
@@ -90,8 +90,8 @@ def _common_parts(
     others = {part: it for part, it in parts.items() if part != "about"}
     if others:
         head = "the same in all: " if len(theories) > 1 else ""
-        inside = (folded(part, _value(it)) for part, it in others.items())
-        yield folded(f"{head}{', '.join(others)}", *inside)
+        inside = (fold(part, _value(it)) for part, it in others.items())
+        yield fold(f"{head}{', '.join(others)}", *inside)
 
 
 # --- matrices ------------------------------------------------------------------------
@@ -193,7 +193,7 @@ def _matrices(groups: Sequence[_Group], hues: Mapping[str, str]) -> Iterator[Mar
 
     yield columns(short)
     if short != whole:
-        yield folded("with all fields", columns(whole))
+        yield fold("with all fields", columns(whole))
 
 
 def _others(layouts: Sequence[Layout | None], place: int) -> list[Layout]:
@@ -257,7 +257,7 @@ def _entry_table(groups: Sequence[_Group], hues: Mapping[str, str]) -> Iterator[
         )
     same = {name: of[0] for name, of in entries.items() if name not in differing}
     if same:
-        yield folded(f"{len(same)} the same in all", _entry_list(same))
+        yield fold(f"{len(same)} the same in all", _entry_list(same))
 
 
 def _entry_cells(entries: Sequence[object]) -> Iterator[Markup]:

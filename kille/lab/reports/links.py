@@ -1,6 +1,6 @@
-"""Where the dialogues behind the numbers lie: pages beside the report, and their parts.
+"""Addresses of the dialogues behind the numbers: pages beside the report, and parts.
 
-There is a page for what all theories had with a tutor in front of a scene and a seed,
+There is a page for the dialogues of all theories with the same tutor, scene and seed,
 two for the dialogues and the answers of each theory, and one for each two theories.
 """
 
@@ -20,7 +20,7 @@ _Name = TypeVar("_Name")
 
 @dataclass(frozen=True)
 class Places:
-    """The places of dialogues, by numbers from 1.
+    """The addresses of dialogues; what they are of has numbers from 1.
 
     `folder` is the address of their folder, as seen from the report.
     """
@@ -100,17 +100,17 @@ def places_of(
     ]
     return Places(
         folder,
-        theories=_numbered(theories),
-        tutors=_numbered([it.run.tutor for it in dialogues]),
-        scenes=_numbered([it.run.scene for it in dialogues]),
-        phases=_numbered(phases),
-        words=_numbered(sorted({(it.kind, it.right) for it in answers})),
-        kinds=_numbered(sorted({it.kind for it in answers})),
-        ways=_numbered(sorted({it.way for it in answers})),
-        pairs=_numbered([it.pair for it in dialogues]),
+        theories=_number(theories),
+        tutors=_number([it.run.tutor for it in dialogues]),
+        scenes=_number([it.run.scene for it in dialogues]),
+        phases=_number(phases),
+        words=_number(sorted({(it.kind, it.right) for it in answers})),
+        kinds=_number(sorted({it.kind for it in answers})),
+        ways=_number(sorted({it.way for it in answers})),
+        pairs=_number([it.pair for it in dialogues]),
     )
 
 
-def _numbered(names: Sequence[_Name]) -> dict[_Name, int]:
+def _number(names: Sequence[_Name]) -> dict[_Name, int]:
     """Each name once, in order, with its number from 1."""
     return {name: number for number, name in enumerate(dict.fromkeys(names), start=1)}

@@ -1,4 +1,4 @@
-"""What is called the same in two studies, and is not."""
+"""Tutors, scenes and phases that differ between two studies under the same name."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from kille.lab.study import Named, Study
 _ALSO = "differences may come of that as well."
 
 
-def unlike(one: Study, other: Study) -> Iterator[str]:
-    """The tutors and scenes that only their names have in common; then the phases.
+def differing_names(one: Study, other: Study) -> Iterator[str]:
+    """Warn of tutors and scenes with only their names in common; then of phases.
 
-    Dialogues with them are pairs by their names, and differ not by the theories alone.
+    Their dialogues are pairs by these names, but differ not only by the theories.
     """
     for what, ours, theirs in (
         ("tutor", one.tutors, other.tutors),
         ("scene", one.scenes, other.scenes),
     ):
         for name, it in ours.items():
-            keys = ", ".join(_keys(it, theirs.get(name, it)))
+            keys = ", ".join(_differing_settings(it, theirs.get(name, it)))
             if keys:
                 yield f"The {what} {name} is not the same in both ({keys}): {_ALSO}"
     if one.phases != other.phases:
         yield f"The phases are not the same in both: {_ALSO}"
 
 
-def _keys(one: Named, other: Named) -> list[str]:
+def _differing_settings(one: Named, other: Named) -> list[str]:
     """The settings in which two differ."""
     ours, theirs = _settings(one), _settings(other)
     return [

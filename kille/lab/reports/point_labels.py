@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _AWAY = (5, 13, 22, 32)
 _SIDES = ((1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1), (1, 0), (-1, 0))
-"""Where a label may stand: so many points away from its own, on these sides of it."""
+"""Where a label may stand: so many points away from its point, on these sides of it."""
 _LEADING = 10  # points: those farther away have a line to their point
 _ACROSS = {1: "left", -1: "right", 0: "center"}
 _UPRIGHT = {1: "bottom", -1: "top", 0: "center"}
@@ -27,17 +27,19 @@ _AROUND = 1  # pixels about what is covered
 
 
 class _Label(NamedTuple):
-    """What a point is called, and where it is."""
+    """The name of a point, and where it is."""
 
     text: str
     at: tuple[float, float]
 
 
-def labelled(drawn: Drawing, axes: Axes, series: Iterable[Mapping[str, Any]]) -> None:
-    """Calls the points of the series by their labels, one by one.
+def label_points(
+    drawn: Drawing, axes: Axes, series: Iterable[Mapping[str, Any]]
+) -> None:
+    """Write labels at the points of the series, one by one.
 
     Each stands at the first place where nothing is; if there is none, where it covers
-    least. What else there is has to be drawn before.
+    least. Everything else has to be drawn before.
     """
     every = list(series)
     labels = [
@@ -48,13 +50,13 @@ def labelled(drawn: Drawing, axes: Axes, series: Iterable[Mapping[str, Any]]) ->
     if not labels:
         return
     drawn.draw_without_rendering()  # places are known only then
-    taken = [box for it in every for box in _covered(axes, it)]
+    taken = [box for it in every for box in _boxes_of(axes, it)]
     for label in labels:
-        taken.append(_placed(axes, label, taken))
+        taken.append(_place_label(axes, label, taken))
 
 
-def _covered(axes: Axes, series: Mapping[str, Any]) -> Iterator[Bbox]:
-    """What the points and bands of a series cover, in pixels."""
+def _boxes_of(axes: Axes, series: Mapping[str, Any]) -> Iterator[Bbox]:
+    """The boxes that the points and intervals of a series cover, in pixels."""
     xs, ys = series["x"], series["y"]
     nothing = [float("nan")] * len(xs)
     lows, highs = (
@@ -75,16 +77,16 @@ def _box(axes: Axes, *corners: tuple[float, float]) -> Iterator[Bbox]:
         yield Bbox(pixels).padded(_AROUND)
 
 
-def _placed(axes: Axes, label: _Label, taken: Sequence[Bbox]) -> Bbox:
-    """Writes the label where it covers least, and gives what it covers itself."""
+def _place_label(axes: Axes, label: _Label, taken: Sequence[Bbox]) -> Bbox:
+    """Write the label where it covers least; returns its box."""
     from matplotlib.text import Text
 
     tried = []
     for away, side in product(_AWAY, _SIDES):
-        drawn = _written(axes, label, away, side)
+        drawn = _write_label(axes, label, away, side)
         drawn.get_window_extent()  # finds its place, and counts the line to its point
         box = Text.get_window_extent(drawn)
-        cost = _overlap(box, taken) + _outside(box, axes.bbox)
+        cost = _covered_area(box, taken) + _area_outside(box, axes.bbox)
         tried.append((cost, box, drawn))
         if not cost:
             break
@@ -95,7 +97,7 @@ def _placed(axes: Axes, label: _Label, taken: Sequence[Bbox]) -> Bbox:
     return best[1]
 
 
-def _written(
+def _write_label(
     axes: Axes, label: _Label, away: float, side: tuple[int, int]
 ) -> Annotation:
     leading = {"arrowstyle": "-", "color": FAINT, "lw": 0.5, "shrinkA": 0, "shrinkB": 2}
@@ -111,16 +113,16 @@ def _written(
     )
 
 
-def _overlap(box: Bbox, others: Iterable[Bbox]) -> float:
-    """How many square pixels of it are covered already."""
-    return sum(_area(box, it) for it in others)
+def _covered_area(box: Bbox, others: Iterable[Bbox]) -> float:
+    """How many square pixels of a box are covered already."""
+    return sum(_common_area(box, it) for it in others)
 
 
-def _area(one: Bbox, other: Bbox) -> float:
+def _common_area(one: Bbox, other: Bbox) -> float:
     wide = min(one.x1, other.x1) - max(one.x0, other.x0)
     high = min(one.y1, other.y1) - max(one.y0, other.y0)
     return float(max(wide, 0.0) * max(high, 0.0))
 
 
-def _outside(box: Bbox, frame: Bbox) -> float:
-    return float(box.width * box.height) - _area(box, frame)
+def _area_outside(box: Bbox, frame: Bbox) -> float:
+    return float(box.width * box.height) - _common_area(box, frame)

@@ -1,6 +1,6 @@
-"""Which phases are one test that is repeated: between them it shows what was learned.
+"""Which phases repeat the same test, so that they show what was learned in between.
 
-Answers of other tests are no points of the same curve: things that were taught are
+Answers of different tests are no points of the same curve: things that were taught are
 named more readily than others of their kinds.
 """
 
@@ -25,17 +25,17 @@ Tests = Sequence[Sequence[str]]
 _Theories = Mapping[str, Sequence[ScoredDialogue]]
 
 _ANY = ("order", "rounds", "turns")
-"""In what order, and how often, does not make it another test."""
+"""Another order, or another number of questions, does not make it another test."""
 _NAMED = 3
-"""So many phases are named one by one."""
+"""Up to this many phases are named one by one."""
 
 
-def tests_of(phases: Iterable[Phase]) -> tuple[tuple[str, ...], ...]:
-    """The phases that do the same with the same things, in their order.
+def group_tests(phases: Iterable[Phase]) -> tuple[tuple[str, ...], ...]:
+    """Group phases that do the same with the same things, in their order.
 
     >>> first = Phase("before", "ask", {"of": "new"})
     >>> other = Phase("after", "ask", {"of": "new", "what": "nouns"})
-    >>> tests_of([first, Phase("lessons", "teach"), other])
+    >>> group_tests([first, Phase("lessons", "teach"), other])
     (('before', 'after'), ('lessons',))
     """
     found: dict[object, list[str]] = {}
@@ -46,10 +46,10 @@ def tests_of(phases: Iterable[Phase]) -> tuple[tuple[str, ...], ...]:
     return tuple(map(tuple, found.values()))
 
 
-def called(test: Sequence[str]) -> str:
-    """What a test is called.
+def test_title(test: Sequence[str]) -> str:
+    """The name of a test: its phases.
 
-    >>> called(["test 1", "test 2"]), called(["a", "b", "c", "d"])
+    >>> test_title(["test 1", "test 2"]), test_title(["a", "b", "c", "d"])
     ('test 1, test 2', 'a to d')
     """
     return ", ".join(test) if len(test) <= _NAMED else f"{test[0]} to {test[-1]}"
@@ -58,25 +58,25 @@ def called(test: Sequence[str]) -> str:
 # --- what is measured in them --------------------------------------------------------
 
 
-def main_of(measures: Iterable[Measure]) -> Measure | None:
-    """How often it is right: in words, or where there are none, in things."""
+def main_measure(measures: Iterable[Measure]) -> Measure | None:
+    """The measure of how often the robot is right in words, or if none, in things."""
     known = {it.name: it for it in measures}
     return known.get(ACCURACY.name) or known.get(REFERENCES.name)
 
 
-def counts(measure: Measure, answer: ScoredAnswer) -> bool:
-    """Whether an answer counts in what is the main measure."""
+def is_counted(measure: Measure, answer: ScoredAnswer) -> bool:
+    """Does an answer count for the main measure?"""
     return answer.is_word == (measure is ACCURACY)
 
 
 def phases_of(theories: _Theories, measure: Measure) -> list[str]:
-    """The phases in which something is asked that counts, in their order.
+    """The phases with questions that count, in their order.
 
-    One that the first dialogues lack has its place after that which comes before it.
+    A phase that the first dialogues lack comes after the one that precedes it.
     """
     found: list[str] = []
     for dialogue in chain.from_iterable(theories.values()):
-        asked = (it.phase for it in dialogue.answers if counts(measure, it))
+        asked = (it.phase for it in dialogue.answers if is_counted(measure, it))
         place = 0
         for phase in dict.fromkeys(asked):
             if phase not in found:
@@ -85,11 +85,11 @@ def phases_of(theories: _Theories, measure: Measure) -> list[str]:
     return found
 
 
-def in_phase(theories: _Theories, measure: Measure, phase: str) -> _Theories:
-    """The dialogues with those answers only that count in this phase."""
+def restrict_to_phase(theories: _Theories, measure: Measure, phase: str) -> _Theories:
+    """The dialogues with only those answers that count in this phase."""
 
     def place(answer: ScoredAnswer) -> str:
-        return answer.phase if counts(measure, answer) else ""
+        return answer.phase if is_counted(measure, answer) else ""
 
     return {
         name: split_dialogues(them, place).get(phase, [])

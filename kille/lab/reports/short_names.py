@@ -17,11 +17,11 @@ def shorten_names(names: Iterable[str], most: int = _MOST) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for name in dict.fromkeys(names):
-        found[name] = _make_unique(_cut(name, most), found.values())
+        found[name] = _make_unique(_shorten(name, most), found.values())
     return found
 
 
-def _cut(name: str, most: int) -> str:
+def _shorten(name: str, most: int) -> str:
     if len(name) <= most:
         return name
     end = (most - 1) * 2 // 5

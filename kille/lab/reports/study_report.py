@@ -14,19 +14,19 @@ from pathlib import Path
 
 from kille.lab.measures.measures import ACCURACY
 from kille.lab.reports import curves
-from kille.lab.reports.conditions import by_conditions
-from kille.lab.reports.contrasts import contrasted
-from kille.lab.reports.costs import costs
+from kille.lab.reports.conditions import compare_conditions
+from kille.lab.reports.contrasts import contrast_results
+from kille.lab.reports.costs import cost_figures
 from kille.lab.reports.dialogue_pages import pages
 from kille.lab.reports.drawing import can_draw, pdf
-from kille.lab.reports.elements import Markup, element, folded, link
+from kille.lab.reports.elements import Markup, element, fold, link
 from kille.lab.reports.findings import (
     Theories,
-    for_figures,
-    in_detail,
-    meanings,
-    measures_of,
-    overall,
+    detail_tables,
+    known_measures,
+    measure_meanings,
+    overall_table,
+    shorten_theory_names,
 )
 from kille.lab.reports.latex_tables import latex_table
 from kille.lab.reports.layouts import Described, side_by_side
@@ -40,7 +40,7 @@ from kille.lab.reports.result_pages import (
     whole_page,
 )
 from kille.lab.reports.styles import PAGE, THEORIES
-from kille.lab.reports.summary import in_short
+from kille.lab.reports.summary import summary_result
 from kille.lab.results import Result
 from ttr import TTRError
 from ttr.display import html as ttr_html
@@ -88,27 +88,32 @@ def results_of(subject: Subject, places: Places) -> list[Result]:
     theories = subject.theories
     if not theories:
         return []
-    measures = measures_of(theories)
-    drawn = for_figures(theories)
+    measures = known_measures(theories)
+    drawn = shorten_theory_names(theories)
     first = Result(
         "What they do",
-        (overall(theories, measures, places),),
-        (*curves.learning(drawn, subject.tests), *costs(drawn, subject.tests)),
+        (overall_table(theories, measures, places),),
+        (
+            *curves.learning_curves(drawn, subject.tests),
+            *cost_figures(drawn, subject.tests),
+        ),
         text="\n".join(subject.warnings),
     )
     details = Result(
         "In detail",
-        tuple(it for it in in_detail(theories, places) if len(it.rows) > 1),
-        (*curves.words(drawn), *curves.confusions(drawn)),
+        tuple(it for it in detail_tables(theories, places) if len(it.rows) > 1),
+        (*curves.word_figures(drawn), *curves.confusion_figures(drawn)),
     )
-    certainty = Result("How sure they are", (), tuple(curves.reliable(drawn)))
+    certainty = Result(
+        "How sure they are", (), tuple(curves.reliability_figures(drawn))
+    )
     found = [
         first,
-        *contrasted(theories, subject.which, measures, places, subject.main),
-        *by_conditions(theories, measures, places),
+        *contrast_results(theories, subject.which, measures, places, subject.main),
+        *compare_conditions(theories, measures, places),
         certainty,
         details,
-        meanings(measures),
+        measure_meanings(measures),
     ]
     return [it for it in found if it.tables or it.figures]
 
@@ -172,8 +177,8 @@ def _clear_folder(page: Path, what: str, *patterns: str) -> Path:
 def _summary(subject: Subject, found: Sequence[Result], places: Places) -> Result:
     if not found:
         return Result("In short", text="No dialogue was played to its end.")
-    measures = measures_of(subject.theories)
-    return in_short(subject.theories, measures, found[1:], places, subject.main)
+    measures = known_measures(subject.theories)
+    return summary_result(subject.theories, measures, found[1:], places, subject.main)
 
 
 def _body(
@@ -194,7 +199,7 @@ def _body(
             yield from section(number, result, figures)
     if subject.source:
         yield element("h2", "The study")
-        yield folded("its file", element("pre", subject.source))
+        yield fold("its file", element("pre", subject.source))
     names = {it: html_address(it) for it in subject.files}
     yield from _files("The numbers, for R and others", names)
     folder = html_address(tables.name)

@@ -1,4 +1,4 @@
-"""How pages of reports look, besides what all pages of experiments have in common."""
+"""Style sheets of pages of reports, besides the one that all pages share."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ table:has(th.number:nth-child(4)):has(th.number:nth-child(5)):has(
   table:has(th.number:nth-child(5)) .band { display: block; margin: 0; }
 }
 """
-"""A report: its contents in a line; bands below their numbers, where there is no room
-beside them."""
+"""A report: its contents in a line; intervals below their numbers, where there is no
+room beside them."""
 
 DIALOGUES = """
 .turn { display: grid; grid-template-columns: 2.2rem 1fr; gap: 0 .4rem;

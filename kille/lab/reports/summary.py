@@ -1,4 +1,4 @@
-"""What a study found, in short: what a reader sees first."""
+"""The summary of what a study found, which a reader sees first."""
 
 from __future__ import annotations
 
@@ -6,52 +6,54 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 
 from kille.lab.measures.measures import Measure
-from kille.lab.reports.conditions import in_last_phase
+from kille.lab.reports.conditions import last_phase_figures
 from kille.lab.reports.findings import Theories, estimate_measure
 from kille.lab.reports.links import Places
-from kille.lab.reports.repeated_tests import in_phase, main_of, phases_of
+from kille.lab.reports.repeated_tests import main_measure, phases_of, restrict_to_phase
 from kille.lab.reports.row_figures import row_figures
 from kille.lab.reports.short_names import shorten_names
 from kille.lab.results import Cell, Estimate, Figure, Result, Table
 
 _BESIDE = ("κ robot–tutor", "words", "corrections", "questions")
-"""What is told beside the main measure, if there is any of it."""
+"""The measures shown beside the main one, if they are known."""
 _LINES = 4
-"""Of a paragraph of more lines only the first is told."""
+"""Of a paragraph of more lines only the first is shown."""
 _DRAWN = 2
-"""So many figures there is room for."""
+"""The most figures."""
 
 
-def in_short(
+def summary_result(
     theories: Theories,
     measures: Sequence[Measure],
     found: Iterable[Result],
     places: Places,
     chosen: str = "",
 ) -> Result:
-    """How much is right of each theory and what it cost, and what was found of it.
+    """How much each theory gets right and at what cost, and what was found of it.
 
-    `chosen` is the name of a measure that is told as well.
+    `chosen` is the name of a further measure to show.
     """
-    main = main_of(measures)
-    tables = (_each(theories, measures, main, places, (*_BESIDE, chosen)),)
+    main = main_measure(measures)
+    tables = (_theory_table(theories, measures, main, places, (*_BESIDE, chosen)),)
     if main is None:
         text = "Nothing was asked to which the tutor knew an answer: nothing is right."
         return Result("In short", tables, text=text)
     figures = [
-        *in_last_phase(theories, main, places),
-        *_by_phase(theories, main),
-    ] or list(_by_theory(theories, main))
-    return Result("In short", tables, tuple(figures[:_DRAWN]), text=_lines(found))
+        *last_phase_figures(theories, main, places),
+        *_phase_figures(theories, main),
+    ] or list(_theory_figures(theories, main))
+    return Result(
+        "In short", tables, tuple(figures[:_DRAWN]), text=_summary_lines(found)
+    )
 
 
-def _lines(found: Iterable[Result]) -> str:
+def _summary_lines(found: Iterable[Result]) -> str:
     parts = (part.splitlines() for it in found for part in it.text.split("\n\n"))
     told = (part if len(part) <= _LINES else part[:1] for part in parts)
     return "\n".join(chain.from_iterable(told))
 
 
-def _each(
+def _theory_table(
     theories: Theories,
     measures: Sequence[Measure],
     main: Measure | None,
@@ -80,7 +82,7 @@ def _columns(
         yield main.name, _estimates(main, theories)
         phases = phases_of(theories, main)
         if len(phases) > 1:
-            last = in_phase(theories, main, phases[-1])
+            last = restrict_to_phase(theories, main, phases[-1])
             yield f"{main.name} in {phases[-1]}", _estimates(main, last)
     for measure in measures:
         told = _estimates(measure, theories)
@@ -93,12 +95,12 @@ def _estimates(measure: Measure, theories: Theories) -> list[Estimate]:
     return [estimate_measure(measure, them) for them in theories.values()]
 
 
-def _by_phase(theories: Theories, main: Measure) -> Iterator[Figure]:
-    """How much is right in each phase, where something is asked in several."""
+def _phase_figures(theories: Theories, main: Measure) -> Iterator[Figure]:
+    """How much is right in each phase, if something is asked in several."""
     phases = phases_of(theories, main)
     if len(phases) < 2:
         return
-    parts = [in_phase(theories, main, phase) for phase in phases]
+    parts = [restrict_to_phase(theories, main, phase) for phase in phases]
     series = {
         name: [estimate_measure(main, it[name]) for it in parts] for name in theories
     }
@@ -106,7 +108,7 @@ def _by_phase(theories: Theories, main: Measure) -> Iterator[Figure]:
     yield from row_figures(title, phases, series, {"xlabel": main.name})
 
 
-def _by_theory(theories: Theories, main: Measure) -> Iterator[Figure]:
+def _theory_figures(theories: Theories, main: Measure) -> Iterator[Figure]:
     if len(theories) < 2:
         return
     series = {main.name: [estimate_measure(main, them) for them in theories.values()]}

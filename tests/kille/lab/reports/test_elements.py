@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.lab.reports.elements import Markup, element, folded, join, link
+from kille.lab.reports.elements import Markup, element, fold, join, link
 
 TEXTS = st.text(st.sampled_from("a&<>\"'/= ;#"), max_size=12)
 
@@ -40,7 +40,7 @@ def test_no_text_becomes_markup(inside: str, address: str) -> None:
 @given(TEXTS)
 def test_what_is_put_together_stays_escaped(text: str) -> None:
     assert element("b", text) + text == join([element("b", text), text])
-    assert Reader(folded(text, element("b", text) + text)).text == text * 3
+    assert Reader(fold(text, element("b", text) + text)).text == text * 3
 
 
 def test_a_text_made_of_markup_is_a_text_again() -> None:

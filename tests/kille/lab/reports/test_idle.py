@@ -7,7 +7,7 @@ from pathlib import Path
 
 from kille.lab.dialogues import Played, Turn
 from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
-from kille.lab.reports.unused_rules import idle
+from kille.lab.reports.unused_rules import unused_rules
 from kille.lab.study import Run, Theory
 from kille.lab.theories.descriptions import describe
 
@@ -33,7 +33,9 @@ def told(folder: Path, *rules: str, label: str = "latest") -> list[str]:
     own = f'import "tutor.ttr"\n{RULE.format(label=label)}'
     (folder / "own.ttr").write_text(own, encoding="utf-8")
     theory = Theory("mute", rules=str(folder / "own.ttr"))
-    return list(idle({"mute": describe(theory)}, {"mute": dialogues("mute", *rules)}))
+    return list(
+        unused_rules({"mute": described(theory)}, {"mute": dialogues("mute", *rules)})
+    )
 
 
 def test_a_rule_that_applied_is_not_told(tmp_path: Path) -> None:
@@ -49,11 +51,11 @@ def test_a_rule_that_never_applied_is_told(tmp_path: Path) -> None:
 
 
 def test_the_games_may_have_rules_that_were_not_needed() -> None:
-    usual = {"plain": describe(Theory("plain"))}
-    assert list(idle(usual, {"plain": dialogues("plain", "hear")})) == []
+    usual = {"plain": described(Theory("plain"))}
+    assert list(unused_rules(usual, {"plain": dialogues("plain", "hear")})) == []
 
 
 def test_nothing_is_told_where_rules_are_not_known() -> None:
     """Of a theory whose files are gone, or of dialogues with a person as the robot."""
     gone = {"gone": {"about": "It cannot be shown."}}
-    assert list(idle(gone, {"gone": dialogues("gone", "hear")})) == []
+    assert list(unused_rules(gone, {"gone": dialogues("gone", "hear")})) == []

@@ -14,21 +14,21 @@ from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.measures.measures import ACCURACY
 from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
 from kille.lab.reports import curves
-from kille.lab.reports.conditions import by_conditions
-from kille.lab.reports.contrasts import contrasted, corrected
-from kille.lab.reports.costs import costs
+from kille.lab.reports.conditions import compare_conditions
+from kille.lab.reports.contrasts import contrast_results, correct_by_family
+from kille.lab.reports.costs import cost_figures
 from kille.lab.reports.drawing import drawing
 from kille.lab.reports.findings import (
     Theories,
+    detail_tables,
     group_by_theory,
-    in_detail,
-    measures_of,
-    overall,
+    known_measures,
+    overall_table,
 )
 from kille.lab.reports.links import places_of
+from kille.lab.reports.repeated_tests import group_tests as asked_alike
 from kille.lab.reports.repeated_tests import phases_of
-from kille.lab.reports.repeated_tests import tests_of as asked_alike
-from kille.lab.reports.summary import in_short
+from kille.lab.reports.summary import summary_result
 from kille.lab.results import Estimate, Result, Table
 from kille.lab.study import Phase, Run
 
@@ -96,9 +96,9 @@ def theories() -> Theories:
 
 
 def test_all_measures_are_there_for_all_theories(theories: Theories) -> None:
-    measures = measures_of(theories)
+    measures = known_measures(theories)
     talks = [it for them in theories.values() for it in them]
-    table = overall(theories, measures, places_of(list(theories), talks, "talks"))
+    table = overall_table(theories, measures, places_of(list(theories), talks, "talks"))
     assert table.columns == ("", "driven", "autonomous")
     assert row(table, "dialogues") == (12, 12)
     assert row(table, "answers") == (96, 96)
@@ -112,7 +112,7 @@ def test_a_judge_who_always_agrees_with_the_tutor_is_no_ceiling() -> None:
         talk = asked("bold", ["assert"] * 3)
         first, *others = (it._replace(judge=judge) for it in talk.answers)
         answers = (first._replace(said="mug"), *others)
-        measures = measures_of({"bold": [replace(talk, answers=answers)]})
+        measures = known_measures({"bold": [replace(talk, answers=answers)]})
         return [it.name for it in measures if "judge" in it.name]
 
     assert judged("") == judged("cup") == []
@@ -122,7 +122,7 @@ def test_a_judge_who_always_agrees_with_the_tutor_is_no_ceiling() -> None:
 def test_parts_are_told_and_lead_to_their_answers(theories: Theories) -> None:
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "talks")
-    found = {it.title: it for it in in_detail(theories, places)}
+    found = {it.title: it for it in detail_tables(theories, places)}
     assert row(found["By phase"], "test 2") == (0.5, 0.625, 48)
     assert row(found["By how it was put"], "assert") == (1.0, 1.0)
     assert row(found["By how it was put: answers"], "assert") == (48, 60)
@@ -139,7 +139,7 @@ def test_answers_are_counted_for_each_theory_where_they_are_not_as_many() -> Non
     }
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "talks")
-    found = {it.title: it for it in in_detail(theories, places)}
+    found = {it.title: it for it in detail_tables(theories, places)}
     put = found["By how it was put: answers"]
     assert put.columns == ("way", "bold", "shy")
     assert row(put, "hedge") == (2, 8)
@@ -164,7 +164,7 @@ def test_things_are_not_counted_as_answers_with_words() -> None:
     things = asked("bold", ["point"] * 2, "reference").answers
     theories = {"bold": [replace(talk, answers=talk.answers + things)]}
     places = places_of(["bold"], theories["bold"], "talks")
-    table = overall(theories, measures_of(theories), places)
+    table = overall_table(theories, known_measures(theories), places)
     assert row(table, "answers") == (3,)
     assert row(table, "things asked for") == (2,)
     assert table.links[2, 1] == places.answers("bold")
@@ -178,8 +178,8 @@ def test_of_words_that_were_never_asked_for_nothing_is_said() -> None:
     }
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "")
-    measures = measures_of(theories)
-    (result,) = contrasted(theories, [("a", "b")], measures, places)
+    measures = known_measures(theories)
+    (result,) = contrast_results(theories, [("a", "b")], measures, places)
     assert "accuracy" not in result.text
     assert "Question by question" not in {it.title for it in result.tables}
 
@@ -187,7 +187,7 @@ def test_of_words_that_were_never_asked_for_nothing_is_said() -> None:
 def test_tutors_are_compared_with_the_first_one(theories: Theories) -> None:
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "talks")
-    (result,) = by_conditions(theories, measures_of(theories), places)
+    (result,) = compare_conditions(theories, known_measures(theories), places)
     found = {it.title: it for it in result.tables}
     assert "By scene" not in found
     assert row(found["By tutor"], "accuracy", "corrects") == (0.5, 1.0)
@@ -203,7 +203,7 @@ def test_several_scenes_are_told_with_the_tutors() -> None:
     theories = study(2, ("table", "floor"))
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "")
-    _, result = by_conditions(theories, measures_of(theories), places)
+    _, result = compare_conditions(theories, known_measures(theories), places)
     (both,) = result.tables
     assert both.title == "By tutor and scene"
     assert len(both.rows) == 8
@@ -214,7 +214,7 @@ def test_several_scenes_are_told_with_the_tutors() -> None:
 def test_each_phase_is_told_with_each_tutor(theories: Theories) -> None:
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "talks")
-    (result,) = by_conditions(theories, measures_of(theories), places)
+    (result,) = compare_conditions(theories, known_measures(theories), places)
     table = result.tables[0]
     assert table.title == "Accuracy, phase by phase"
     assert row(table, "test 2", "corrects") == (0.5, 1.0)
@@ -235,7 +235,7 @@ def test_two_people_who_never_quite_agree_are_drawn_as_the_ceiling() -> None:
     theories = {name: list(map(judged, of)) for name, of in study().items()}
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "")
-    (result,) = by_conditions(theories, measures_of(theories), places)
+    (result,) = compare_conditions(theories, known_measures(theories), places)
     (figure,) = result.figures
     assert list(figure.data["series"]) == [*theories, "tutor and judge: the ceiling"]
 
@@ -243,7 +243,7 @@ def test_two_people_who_never_quite_agree_are_drawn_as_the_ceiling() -> None:
 def test_of_one_theory_it_is_said_what_tutors_change() -> None:
     theories = {"autonomous": study()["autonomous"]}
     places = places_of(list(theories), theories["autonomous"], "")
-    (result,) = by_conditions(theories, measures_of(theories), places)
+    (result,) = compare_conditions(theories, known_measures(theories), places)
     assert result.text == (
         "The accuracy of autonomous with the tutor corrects differs from that with "
         "silent by 0.750 [0.750, 0.750] (p = 0.031)."
@@ -276,7 +276,9 @@ def test_of_tutors_who_ask_nothing_nothing_is_said() -> None:
         for it in theories["bold"]
     ]
     places = places_of(["bold"], mute, "")
-    (result,) = by_conditions({"bold": mute}, measures_of({"bold": mute}), places)
+    (result,) = compare_conditions(
+        {"bold": mute}, known_measures({"bold": mute}), places
+    )
     assert "–" not in result.text
     assert "tutor C differs" in result.text
     assert "tutor B" not in result.text
@@ -285,7 +287,7 @@ def test_of_tutors_who_ask_nothing_nothing_is_said() -> None:
 def test_how_p_is_found_is_said_where_no_theories_are_compared() -> None:
     theories = of_tutors(2, 4)
     places = places_of(["bold"], theories["bold"], "")
-    (result,) = by_conditions(theories, measures_of(theories), places)
+    (result,) = compare_conditions(theories, known_measures(theories), places)
     (against,) = (it for it in result.tables if it.title.startswith("Against"))
     assert "above" not in against.note
     assert "p: permutation test" in against.note
@@ -296,7 +298,7 @@ def test_of_many_tutors_those_are_told_that_differ() -> None:
     """Two of six are told as much as the first is but for one word, and one as much."""
     theories = of_tutors(2, 2, 8, 8, 2, 6, 2)
     places = places_of(["bold"], theories["bold"], "")
-    (result,) = by_conditions(theories, measures_of(theories), places)
+    (result,) = compare_conditions(theories, known_measures(theories), places)
     first, *others = result.text.splitlines()
     assert first == (
         "Of 6 tutors 3 differ from A in accuracy (p < 0.05 after Holm's correction)."
@@ -311,8 +313,8 @@ def test_in_short_tutors_and_scenes_are_both_told() -> None:
         for less, scene in enumerate(("table", "floor", "shelf"))
     ]
     places, theories = places_of(["bold"], talks, ""), {"bold": talks}
-    found = list(by_conditions(theories, measures_of(theories), places))
-    short = in_short(theories, measures_of(theories), found, places)
+    found = list(compare_conditions(theories, known_measures(theories), places))
+    short = summary_result(theories, known_measures(theories), found, places)
     told = [it.split(" differs ")[0] for it in short.text.splitlines()]
     assert told == [
         "The accuracy of bold with the tutor B",
@@ -338,15 +340,15 @@ def test_titles_say_which_phases_are_told(tutors: int, rows: int, title: str) ->
         for n in range(tutors)
     ]
     theories, places = {"bold": talks}, places_of(["bold"], talks, "")
-    (result,) = by_conditions(theories, measures_of(theories), places)
+    (result,) = compare_conditions(theories, known_measures(theories), places)
     assert result.tables[0].title == title
     assert len(result.tables[0].rows) == rows
-    figure, *_ = in_short(theories, measures_of(theories), [], places).figures
+    figure, *_ = summary_result(theories, known_measures(theories), [], places).figures
     assert figure.title.startswith("Accuracy in Test B, by tutor")
 
 
 def test_what_was_learned_is_drawn_against_what_it_cost(theories: Theories) -> None:
-    by_phase, by_tutor = costs(theories, TESTS)
+    by_phase, by_tutor = cost_figures(theories, TESTS)
     assert by_phase.title == "Accuracy against what it cost: test 1, test 2"
     driven = by_phase.data["series"]["driven"]
     assert driven["x"] == [4, 10]
@@ -358,7 +360,7 @@ def test_what_was_learned_is_drawn_against_what_it_cost(theories: Theories) -> N
 
 
 def test_learning_is_drawn_by_lessons(theories: Theories) -> None:
-    (figure,) = curves.learning(theories, TESTS)
+    (figure,) = curves.learning_curves(theories, TESTS)
     assert figure.title == "Learning curve"
     assert figure.data["series"]["driven"]["x"] == [2, 4]
     assert figure.data["series"]["autonomous"]["mean"] == [0.625, 0.625]
@@ -373,7 +375,11 @@ def test_learning_is_drawn_by_lessons(theories: Theories) -> None:
 )
 def test_bands_are_spoken_of_where_some_are_drawn(seeds: int, told: str) -> None:
     few = study(seeds)
-    figures = [*costs(few, TESTS), *curves.learning(few, TESTS), *curves.reliable(few)]
+    figures = [
+        *cost_figures(few, TESTS),
+        *curves.learning_curves(few, TESTS),
+        *curves.reliability_figures(few),
+    ]
     assert len(figures) == 4
     assert all(figure.note.endswith(told) for figure in figures)
 
@@ -394,7 +400,7 @@ def test_other_tests_are_no_points_of_the_same_curve() -> None:
     ]
     talk = score_dialogue(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
     tests = [["nouns 1", "nouns 2"], ["lessons"], ["colours 1", "colours 2"]]
-    nouns, colours = curves.learning({"a": [talk]}, tests)
+    nouns, colours = curves.learning_curves({"a": [talk]}, tests)
     assert nouns.title == "Learning curve: nouns 1, nouns 2"
     assert nouns.data["series"]["a"] | {"low": [], "high": []} == {
         "x": [0, 2],
@@ -412,7 +418,7 @@ def test_phases_that_ask_alike_are_one_test_however_they_say_so() -> None:
 
 
 def test_of_a_test_that_is_not_repeated_no_cost_is_drawn(theories: Theories) -> None:
-    (by_tutor,) = costs(theories, [["test 1"], ["test 2"]])
+    (by_tutor,) = cost_figures(theories, [["test 1"], ["test 2"]])
     assert by_tutor.title == "Accuracy in test 2 against what it cost, by tutor"
 
 
@@ -422,7 +428,7 @@ def test_tutors_who_say_as_much_are_not_drawn_by_what_they_cost() -> None:
         replace(it, run=replace(it.run, tutor=f"tutor {it.run.seed % 2}"))
         for it in talks
     ]
-    assert not list(costs({"driven": talks}, []))
+    assert not list(cost_figures({"driven": talks}, []))
 
 
 def test_where_one_tutor_cost_more_with_another_theory_he_is_not_named() -> None:
@@ -435,7 +441,7 @@ def test_where_one_tutor_cost_more_with_another_theory_he_is_not_named() -> None
         ]
         for name, tutor in (("a", "silent"), ("b", "corrects"))
     }
-    (figure,) = costs(theories, [])
+    (figure,) = cost_figures(theories, [])
     assert figure.title == "Accuracy in test 2 against what it cost"
     assert figure.data["series"]["a"]["labels"] == []
 
@@ -447,12 +453,12 @@ def test_places_on_a_learning_curve_have_as_much_room_as_each_other() -> None:
         for turn in range(5 * 14)
     ]
     talk = score_dialogue(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
-    (figure,) = curves.learning({"a": [talk]}, [["test"]])
+    (figure,) = curves.learning_curves({"a": [talk]}, [["test"]])
     assert figure.data["series"]["a"]["x"] == [0, 2, 4, 6, 8, 10, 12, 14]
 
 
 def test_degrees_are_drawn_against_shares(theories: Theories) -> None:
-    (figure,) = curves.reliable(theories)
+    (figure,) = curves.reliability_figures(theories)
     driven = figure.data["series"]["driven"]
     assert driven["x"] == [0.25, 0.75]
     assert driven["y"] == [0, 1]
@@ -460,7 +466,7 @@ def test_degrees_are_drawn_against_shares(theories: Theories) -> None:
 
 
 def test_what_is_taken_for_what_is_drawn_for_each_theory(theories: Theories) -> None:
-    first, second = curves.confusions(theories)
+    first, second = curves.confusion_figures(theories)
     assert (first.title, second.title) == ("driven: nouns", "autonomous: nouns")
     assert np.trace(np.array(first.data["counts"])) == 48
 
@@ -469,7 +475,7 @@ def test_a_sentence_says_what_was_found(theories: Theories) -> None:
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "")
     which = [("driven", "autonomous")]
-    (result,) = contrasted(theories, which, measures_of(theories), places)
+    (result,) = contrast_results(theories, which, known_measures(theories), places)
     told = "The accuracy of autonomous differs from that of driven by 0.125 ["
     assert result.text.startswith(told)
 
@@ -485,7 +491,7 @@ def test_sentences_have_the_p_that_is_corrected_for_how_many_they_are() -> None:
     ]
     places = places_of(list(theories), talks, "")
     which = [("driven", "autonomous"), ("autonomous", "third"), ("driven", "third")]
-    (result,) = contrasted(theories, which, measures_of(theories), places)
+    (result,) = contrast_results(theories, which, known_measures(theories), places)
     (table, *_) = (it for it in result.tables if it.title == "Paired differences")
     ps = [row[4] for row in table.rows if row[1] == "accuracy"]
     assert len(ps) == 2
@@ -496,8 +502,8 @@ def test_sentences_have_the_p_that_is_corrected_for_how_many_they_are() -> None:
 
 def test_the_main_measure_is_corrected_by_itself() -> None:
     ps = [("accuracy", 0.03), ("words", 0.01), ("accuracy", 0.04), ("turns", 0.02)]
-    assert corrected(ps) == [0.06, 0.02, 0.06, 0.02]
-    assert corrected([("accuracy", 0.03), ("words", 0.5)])[0] == 0.03
+    assert correct_by_family(ps) == [0.06, 0.02, 0.06, 0.02]
+    assert correct_by_family([("accuracy", 0.03), ("words", 0.5)])[0] == 0.03
 
 
 def test_differences_are_told_measure_by_measure_the_main_one_first() -> None:
@@ -505,7 +511,7 @@ def test_differences_are_told_measure_by_measure_the_main_one_first() -> None:
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "")
     which = [("driven", "third"), ("driven", "autonomous"), ("autonomous", "third")]
-    (result,) = contrasted(theories, which, measures_of(theories), places)
+    (result,) = contrast_results(theories, which, known_measures(theories), places)
     told = [row[:2] for row in result.tables[0].rows]
     assert told[:3] == [
         ("autonomous − driven", "accuracy"),
@@ -529,13 +535,13 @@ def test_of_many_pairs_of_theories_those_are_told_that_differ() -> None:
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "")
     which = list(combinations(theories, 2))
-    (result,) = contrasted(theories, which, measures_of(theories), places)
+    (result,) = contrast_results(theories, which, known_measures(theories), places)
     first, *others = result.text.splitlines()
     assert first.startswith("Of 10 pairs of theories 4 differ in accuracy (p < 0.05 ")
     assert [it.partition(" differs from that of ")[2][:2] for it in others] == [
         f"{name} " for name in "abcd"
     ]
-    short = in_short(theories, measures_of(theories), [result], places)
+    short = summary_result(theories, known_measures(theories), [result], places)
     assert short.text == first
 
 
@@ -549,7 +555,7 @@ def test_what_is_told_in_short(theories: Theories) -> None:
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "talks")
     found = [Result("How they differ", text="One line.\nAnd another.")]
-    short = in_short(theories, measures_of(theories), found, places)
+    short = summary_result(theories, known_measures(theories), found, places)
     assert short.text == found[0].text
     (table,) = short.tables
     assert table.columns == (
@@ -587,7 +593,7 @@ def test_the_last_phase_is_that_of_the_study() -> None:
 def test_in_short_things_are_told_where_no_words_were_asked_for() -> None:
     theories = {"bold": [asked("bold", ["point"] * 2, "reference")]}
     places = places_of(["bold"], theories["bold"], "")
-    (table,) = in_short(theories, measures_of(theories), [], places).tables
+    (table,) = summary_result(theories, known_measures(theories), [], places).tables
     assert row(table, "bold") == (1, 1.0)
     assert table.columns[2] == "reference"
 
@@ -595,7 +601,7 @@ def test_in_short_things_are_told_where_no_words_were_asked_for() -> None:
 def test_in_short_it_is_said_that_nothing_was_asked() -> None:
     theories = {"bold": [asked("bold", [])]}
     places = places_of(["bold"], theories["bold"], "")
-    short = in_short(theories, measures_of(theories), [], places)
+    short = summary_result(theories, known_measures(theories), [], places)
     assert short.text.startswith("Nothing was asked to which the tutor knew an answer")
     assert not short.figures
 
@@ -610,7 +616,7 @@ def test_thirty_words_of_six_theories_are_figures_that_fit_on_a_page() -> None:
         name: [score_dialogue(Run(name, "A", "t", 1), Played((), tuple(answers)), 0.1)]
         for name in names
     }
-    figures = list(curves.words(theories))
+    figures = list(curves.word_figures(theories))
     assert [it for one in figures for it in one.data["labels"]] == words
     assert figures[0].title == "Word by word (1 of 5)"
     for figure in figures:
@@ -623,14 +629,14 @@ def test_the_main_measure_and_the_contrasts_can_be_planned() -> None:
     theories = of_three()
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "")
-    measures = measures_of(theories)
+    measures = known_measures(theories)
     which = [("autonomous", "driven"), ("driven", "third")]
-    (result,) = contrasted(theories, which, measures, places, "κ robot–tutor")
+    (result,) = contrast_results(theories, which, measures, places, "κ robot–tutor")
     first, *_ = result.tables[0].rows
     assert first[:2] == ("driven − autonomous", "κ robot–tutor")
     assert first[3] == first[4], "nothing to correct for: the other two never differ"
     assert "The κ robot–tutor of driven differs from that of autonomous" in result.text
     assert "for the main measure (κ robot–tutor) over" in result.tables[0].note
     assert result.tables[0].links[0, 2] == places.against("driven", "autonomous")
-    cells = in_short(theories, measures, [], places, "turns").tables[0].columns
+    cells = summary_result(theories, measures, [], places, "turns").tables[0].columns
     assert "turns" in cells

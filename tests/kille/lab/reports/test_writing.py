@@ -18,7 +18,7 @@ import pytest
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.measures.comparison import Contrast, Difference, McNemar
 from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
-from kille.lab.reports.contrasts import out_of_reach
+from kille.lab.reports.contrasts import unreachable_significance
 from kille.lab.reports.drawing import MISSING
 from kille.lab.reports.findings import group_by_theory
 from kille.lab.reports.latex_tables import latex_table
@@ -339,15 +339,17 @@ def test_the_correction_for_many_theories_is_counted_among_what_is_out_of_reach(
         told = Difference(Estimate(0.1, 0.0, 0.2), 0.5, pairs, 0.1, np.zeros(pairs))
         return Contrast("a", "b", {"accuracy": told}, McNemar(0, 0, 1.0))
 
-    (line,) = out_of_reach([contrast(6), contrast(6), contrast(5)])
+    (line,) = unreachable_significance([contrast(6), contrast(6), contrast(5)])
     assert "p is 0.094 at best after Holm's correction for 3 tests. It takes 7" in line
-    (line,) = out_of_reach([contrast(20)] * 1000)
+    (line,) = unreachable_significance([contrast(20)] * 1000)
     assert line.endswith("Compare fewer theories.")
     assert not [
-        *out_of_reach([contrast(6), Contrast("a", "c", {}, McNemar(0, 0, 1.0))])
+        *unreachable_significance(
+            [contrast(6), Contrast("a", "c", {}, McNemar(0, 0, 1.0))]
+        )
     ]
-    assert not [*out_of_reach([contrast(0)])]
-    assert not [*out_of_reach([])]
+    assert not [*unreachable_significance([contrast(0)])]
+    assert not [*unreachable_significance([])]
 
 
 @pytest.mark.parametrize("seeds", range(1, 13))
