@@ -1,6 +1,6 @@
 """The paper's spatial lessons and questions, played with what may have gone wrong.
 
-A tutor says one of six words of 16 places around a landmark, three times each; then
+A tutor says one of six words for 16 places around a landmark, three times each; then
 two judges, one of them the tutor, and the robot each say a word for 32 more. The causes
 that may have made the robot's kappa .05 are switched on one at a time.
 Source: Dobnik and de Graaf 2017, section 4.2.
@@ -8,7 +8,7 @@ Source: Dobnik and de Graaf 2017, section 4.2.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 
@@ -43,10 +43,10 @@ _VIEWER = (0.0, 1.0, -0.5)  # from the viewer to the landmark
 class Cause:
     """What may have gone wrong, and how much of it.
 
-    noise: the deviation of every place, in metres; misplaced: the share of places that
-    are anywhere on the table; shift: how far the landmark has moved unnoticed between
-    teaching and asking, in metres; tutor, judges: how often they speak in the
-    landmark's own frame; habit: how people differ in speaking of closeness.
+    noise: the standard deviation of every place, in metres; misplaced: the share of
+    places that are anywhere on the table; shift: how far the landmark was moved
+    unnoticed between teaching and asking, in metres; tutor, judges: how often they
+    speak in the landmark's own frame; habit: how people differ in when they say near.
     """
 
     name: str
@@ -92,7 +92,7 @@ CAUSES = (
 
 @dataclass(frozen=True)
 class RunScores:
-    """What one run measured: kappas, and the share of the robot's answers accepted."""
+    """The kappas of one run, and the share of the robot's answers that is accepted."""
 
     people: float
     robot: float
@@ -101,7 +101,7 @@ class RunScores:
 
 @dataclass(frozen=True)
 class Placement:
-    """One placement: the place as it is, and as the robot sees it."""
+    """A place as it is, and as the robot sees it."""
 
     true: Place
     seen: Configuration
@@ -112,8 +112,8 @@ def play_protocol(
     cause: Cause,
     chance: np.random.Generator,
 ) -> RunScores:
-    """One run of the protocol: 48 lessons and 32 questions."""
-    tutor, other = draw_person(cause.habit, chance), draw_person(cause.habit, chance)
+    """Play one run of the protocol: 48 lessons and 32 questions."""
+    tutor, other = born(cause.habit, chance), born(cause.habit, chance)
     learner = make()
     for key, scene in enumerate(placements(cause, ROUNDS, chance, 0.0)):
         word = _word_said(tutor, scene.true, cause.tutor, chance)
@@ -144,9 +144,12 @@ def placements(
     shift: float,
     way: float = 0.0,
 ) -> Iterator[Placement]:
-    """Each place so often, when the landmark has moved by `shift` metres that `way`."""
+    """Each place so often, after the landmark was moved by `shift` metres.
+
+    `way` is the angle at which it was moved.
+    """
     for _ in range(rounds):
-        for place in _places():
+        for place in places_around(_RINGS, _POINTS):
             right, away = np.array(place) + chance.normal(0, _SPREAD, 2)
             seen = np.array([right, away]) + chance.normal(0, 1, 2) * cause.noise
             seen += shift * np.array([cos(way), sin(way)])
@@ -155,11 +158,11 @@ def placements(
             yield Placement((float(right), float(away)), configuration_at(*seen))
 
 
-def _places() -> Iterator[Place]:
-    """Eight places on each of two rings."""
-    for distance in _RINGS:
-        for point in range(_POINTS):
-            bearing = 2 * pi * point / _POINTS
+def places_around(rings: Sequence[float], points: int) -> Iterator[Place]:
+    """So many places on each of the rings around the landmark."""
+    for distance in rings:
+        for point in range(points):
+            bearing = 2 * pi * point / points
             yield distance * cos(bearing), distance * sin(bearing)
 
 
@@ -181,6 +184,6 @@ def _word_said(
 
 
 def _word_chance(person: Person, place: Place, own: float, word: str) -> float:
-    """How likely the person says the word there, in whichever frame."""
+    """How likely the person says the word there, in either frame."""
     viewed, headed = person.chances(place), person.chances(place, _FRONT)
     return (1 - own) * viewed.get(word, 0.0) + own * headed.get(word, 0.0)

@@ -1,11 +1,11 @@
 """How time and memory grow with what was learned: up to ten thousand views.
 
 The views are of the ten things of the simulated table, each seen once and then varied:
-half of its features, each with noise, and its traits with a little. A learner gets them
-one by one, and is asked about other such views each time the number of views has grown
-about threefold. Asking a method that compares with view after view takes longer and
-longer: when one question takes a second it is spared the rest, whose times follow from
-the time a view, and are marked so.
+half of its features, with noise, and its traits with a little noise. A learner gets
+them one by one, and is asked about other such views each time their number has grown
+about threefold. A method that compares with view after view takes longer and longer:
+when a question takes a second, the rest is extrapolated from the time for each view,
+and marked.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ _BEARABLE = 1.0  # seconds that a question may take
 _QUESTIONS = 5
 _NOISE = 12.0  # of each number of a descriptor, which are bytes
 _TRAIT_NOISE = 0.05  # of the length of a trait
-_KEPT = 40  # lessons that are written to see how large one is in a file
+_KEPT = 40  # lessons that are written to measure their size in a file
 _MEGA = 1e6
 _TIME = "2000-01-01T00:00:00"
 
 
 @dataclass(frozen=True)
 class _Point:
-    """What was measured of a method at a number of views; memory None if unknown."""
+    """The measurements of a method at a number of views; memory None if unknown."""
 
     views: int
     question: float  # seconds, the median
@@ -62,7 +62,7 @@ def growth(
     progress: Progress = silent,
     sizes: Sequence[int] = SIZES,
 ) -> Result:
-    """Time of a question and of a lesson, and memory, against the number of views."""
+    """The time of a question and of a lesson, and memory, by the number of views."""
     seen = _look_at_things(seed)
     steps = Steps(progress, len(methods) * len(sizes))
     kept = _stored_size(seen)
@@ -92,7 +92,7 @@ def _report_step(steps: Steps, name: str, views: int) -> None:
 
 
 def _look_at_things(seed: int) -> list[Percept]:
-    """Each of the ten things, seen once: features and traits are taken only here."""
+    """Look at each of the ten things once, and measure its features and traits."""
     table = OnTable(seed)
     looks = [table.look_at(name, scans=1) for name in TOY_NAMES]
     for percept in looks:
@@ -136,7 +136,7 @@ def _measure_growth(
     memory: ResidentMemory,
     step: Callable[[int], None],
 ) -> list[_Point]:
-    """The points of one method, as far as it is bearable."""
+    """Measure one method, until a question takes too long."""
     chance = np.random.default_rng(seed)
     course: list[_Point] = []
     learned = 0
@@ -170,7 +170,7 @@ def _point(
         first,
         float(np.median(lessons)),
         float(np.quantile(lessons, 0.99)),
-        memory.grown(),
+        memory.growth(),
     )
 
 
@@ -181,7 +181,7 @@ def _time_call(act: Callable[[], object]) -> float:
 
 
 def _stored_size(seen: Sequence[Percept]) -> float:
-    """The bytes that one lesson takes in a file, evidence and all."""
+    """The bytes that one lesson takes in a file, with its evidence."""
     chance = np.random.default_rng(0)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "growth.sqlite"
@@ -203,7 +203,7 @@ def _sighting_of(x: Percept) -> Sighting:
     return Sighting("synthetic", 0.0, scans, x.region.place, x.traits, picture)
 
 
-# --- telling -------------------------------------------------------------------------
+# --- tables and figures --------------------------------------------------------------
 
 
 def _table(
@@ -262,7 +262,7 @@ def _megabytes(size: float) -> float:
 
 
 def _round_number(number: float) -> float:
-    """Whole from 10 on, else with two digits."""
+    """Round to a whole number from 10 on, below that to two digits."""
     return round(number) if number >= 10 else float(f"{number:.2g}")
 
 

@@ -1,9 +1,9 @@
 """How well learners of spatial words agree with people who judged them.
 
-Some judgements of each word are taught and the others asked: a growing number drawn by
-chance, then four fifths of the scenes at a time. A learner that takes judgements is
-told them, also that a word does not fit; to one with two methods only, the words are
-said of what people held them to fit.
+Some judgements of each word are taught and the others asked: a growing number drawn at
+random, then four fifths of the scenes at a time. Learners that take judgements get
+them, also that a word does not fit; to those with two methods only, words are said of
+what people took them to fit.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ from kille.lab.protocols.scoring import (
     score_choices,
     teach_judgements,
 )
-from kille.lab.protocols.spatial import Methods, degrees_of
+from kille.lab.protocols.spatial import Methods
+from kille.lab.protocols.word_maps import map_figure
 from kille.lab.results import Cell, Figure, Progress, Result, Table, interval_series
 from kille.lab.scenes.published_judgements import Study
 from kille.perception.relations.angle import AngleRule
@@ -32,13 +33,13 @@ SIZES = (1, 2, 4, 8, 16, 24, 48)
 _DRAWS = 5
 _SPAN = 0.4  # metres: half the width of a map
 TOLD = "angle, told"
-"""The angle rule that is told beforehand which number each word is about."""
+"""The angle rule that knows beforehand which number each word is about."""
 
 
 def judgements(
     study: JudgementStudy, methods: Methods, *, seed: int, progress: Progress
 ) -> Result:
-    """Learners against people: by the number of lessons, by word, and by method."""
+    """Compare learners with people, by the number of lessons, word and method."""
     methods = {**methods, TOLD: partial(AngleRule, study.about)}
     lengths = [len(them) for them in study.words.values()]
     sizes = [it for it in SIZES if it <= np.median(lengths) / 2]
@@ -147,7 +148,7 @@ def _by_word(study: Study, rights: Mapping[str, Mapping[str, Agreement]]) -> Tab
 
 
 def _choice_tables(study: Study, methods: Methods, seed: int) -> list[Table]:
-    """How often the learner chooses what people chose as the best for a word."""
+    """How often learners choose the target that people chose as the best for a word."""
     if not study.choices:
         return []
     right = {name: score_choices(study, make, seed) for name, make in methods.items()}
@@ -200,27 +201,16 @@ def _map(study: JudgementStudy, name: str, make: Callable[[], Any]) -> Figure:
     """The words around a landmark after all lessons, on the plane that was judged."""
     learner = teach_judgements(make, study.words)
     upright = not any(it.x.offset[1] for it in study.every())
-    spots = np.linspace(-_SPAN, _SPAN, 21).tolist()
-    degrees = [
-        [degrees_of(learner, _at(right, other, upright)) for right in spots]
-        for other in spots
-    ]
-    return Figure(
-        kind="map",
-        title=f"What each word means after all lessons: {name}",
-        data={
-            "words": list(study.words),
-            "right": spots,
-            "away": spots,
-            "ylabel": "up" if upright else "away",
-            "degrees": {
-                word: [[cell.get(word, 0.0) for cell in row] for row in degrees]
-                for word in study.words
-            },
-        },
+
+    def at(right: float, other: float) -> Configuration:
+        offset = (right, 0.0, other) if upright else (right, other, 0.0)
+        return Configuration(offset, target_size=0.1, landmark_size=0.1)
+
+    return map_figure(
+        f"What each word means after all lessons: {name}",
+        list(study.words),
+        learner,
+        np.linspace(-_SPAN, _SPAN, 21).tolist(),
+        at,
+        "up" if upright else "away",
     )
-
-
-def _at(right: float, other: float, upright: bool) -> Configuration:
-    offset = (right, 0.0, other) if upright else (right, other, 0.0)
-    return Configuration(offset, target_size=0.1, landmark_size=0.1)

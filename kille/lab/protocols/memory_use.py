@@ -1,4 +1,4 @@
-"""How much memory the program takes, where the system tells it."""
+"""How much memory the program takes, on systems that say so."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from pathlib import Path
 
 
 class ResidentMemory:
-    """What the program takes more than before a method began.
+    """How much more memory the program takes than before a method began.
 
-    None where the system does not tell, or while what earlier methods had let go of is
-    enough.
+    Unknown where the system does not say, or as long as memory that earlier methods
+    have freed is enough.
     """
 
     def __init__(self) -> None:
         self._before = self._free = self._most = 0
 
     def begin(self) -> None:
-        """Another method begins."""
+        """Begin with another method."""
         gc.collect()
         self._before = resident_memory() or 0
         self._free = self._most = max(self._most, self._before)
 
-    def grown(self) -> float | None:
-        """The bytes that it takes more now; None if they cannot be told."""
+    def growth(self) -> float | None:
+        """The bytes that the program takes more now; None if unknown."""
         now = resident_memory()
         if now is None or now <= self._free:
             return None
@@ -33,7 +33,7 @@ class ResidentMemory:
 
 
 def resident_memory() -> int | None:
-    """The bytes of memory the program takes; None where the system does not tell."""
+    """The bytes of memory that the program takes; None where the system says none."""
     statm = Path("/proc/self/statm")
     if not statm.exists():
         return None

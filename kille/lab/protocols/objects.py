@@ -1,8 +1,8 @@
 """The paper's protocol for objects: ten things on a table, taught and asked for.
 
-There are four rounds. In each the robot is shown and told all things in a fixed order,
-then shown all again, each in another pose, and asked. Every time it takes ten scans,
-whose scores are averaged. What a thing is taken for is the word of the highest mean
+There are four rounds. In each, the robot is shown and taught all things in a fixed
+order, then shown all again, each in another pose, and asked. It takes ten scans each
+time, whose scores are averaged. A thing is taken for the word with the highest mean
 over the rounds; its margin, the mean of the right word less that of the best other,
 says how distinct it is. After the last round everything is asked once more, turned by
 45 degrees further.
@@ -54,7 +54,7 @@ _PAPERS = (
 
 @dataclass(frozen=True)
 class _MethodAnswers:
-    """What one method answered: by round, and turned after the last."""
+    """The answers of one method: round by round, and turned after the last round."""
 
     rounds: Sequence[Sequence[ObjectAnswer]]
     turned: Sequence[ObjectAnswer]
@@ -78,7 +78,7 @@ def paper(
     rounds: int = ROUNDS,
     meshes: str = "",
 ) -> Result:
-    """The rounds of lessons and questions, for each method with the same looks."""
+    """Rounds of lessons and questions, for all methods with the same looks."""
     table = OnTable(seed, meshes=meshes)
     steps = Steps(progress, (2 * rounds + 1) * len(things), 0, LOOKING)
     lessons, questions = [], []
@@ -209,7 +209,7 @@ def _mistakes(courses: Mapping[str, _MethodAnswers]) -> Table:
 def _figures(
     courses: Mapping[str, _MethodAnswers], questions: Sequence[Lesson]
 ) -> tuple[Figure, ...]:
-    """The answers and the margins of each method, and what was seen in a round."""
+    """The confusions and margins of each method, and the looks of the first round."""
     confusions = (
         answers_figure(f"Answers of {name}, all rounds", course.every)
         for name, course in courses.items()

@@ -3,11 +3,11 @@
 A study lists its phases; a protocol of the literature is such a list, and those that
 are shipped are short files in `examples/studies/protocols`, to be copied.
 
-teach: he says what is so. ask: he asks, and nobody learns from the answer. practise: he
-asks, and says what is right. talk: he shows things and leaves the robot the floor, as
-in Skočaj et al. 2011. find: he asks for a thing by its words. align: he says which way
-things face, and in whose frame he speaks. rest: another day begins. forget: he has
-words forgotten. change_tutor, or swap: another tutor goes on.
+teach: they say what is so. ask: they ask, and nobody learns from the answer. practise:
+they ask, and say what is right. talk: they show things and leave the robot the floor,
+as in Skočaj et al. 2011. find: they ask for a thing by its words. align: they say which
+way things face, and in whose frame they speak. rest: another day begins. forget: they
+have words forgotten. change_tutor, or swap: another tutor goes on.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from kille.lab.study import Named, Phase, Run, Study
 from kille.lab.tutors.tutor import Task
 
 MOST = 1000
-"""Rounds: a dialogue that has more of them is nobody's study, but a slip."""
+"""The most rounds: more of them are nobody's study, but a slip."""
 
 _WHAT = Setting(
     str, "nouns", among=tuple(KINDS), about="nouns, adjectives or relations"
@@ -58,7 +58,7 @@ SETTINGS: Mapping[str, Settings] = {
         "by": Setting(str, "both", among=("both", "noun", "colour")),
     },
     "align": {
-        "announce": Setting(bool, False, about="whether he says whose frame it is")
+        "announce": Setting(bool, False, about="whether they say whose frame it is")
     },
     "rest": {},
     "forget": {"what": _WHAT, "words": Setting(str, needed=True, several=True)},
@@ -67,7 +67,7 @@ SETTINGS: Mapping[str, Settings] = {
 """What may be set of phases, by what is done in them."""
 
 LOOKS = 16
-"""As many looks as a task may take are kept apart from those of others."""
+"""The most looks of one task; those of the next task have other numbers."""
 
 
 _LACKING = {
@@ -78,8 +78,8 @@ _LACKING = {
 """What cannot be talked of in front of scenes of a kind."""
 
 
-def faults(phase: Phase, study: Study) -> Iterator[Problem]:
-    """What is wrong with a phase in this study: its tutors and scenes do not fit."""
+def faults(phase: Phase, study: Study) -> Iterator[Wrong]:
+    """Why a phase does not fit the tutors and scenes of a study."""
     key = ("what",) if "what" in phase.settings else ("do",)
     for scene in study.scenes.values():
         yield from ((key, it) for it in _scene_faults(phase, scene))
@@ -116,7 +116,7 @@ def _successor_faults(phase: Phase, study: Study) -> Iterator[str]:
 
 
 def _has_one_kind(scene: Named) -> bool:
-    """Whether a table has things of one kind only: a cup stands beside no cup.
+    """Has a table things of one kind only?
 
     "The cup is to the left of the cup" says nothing, so that it is never said.
     """
@@ -142,7 +142,7 @@ def _count_things(scene: Named, of: str) -> int:
 
 
 def successor(study: Study, phase: Phase, now: str) -> str:
-    """Who goes on: the tutor who is named, or the one who comes after this one."""
+    """The tutor who goes on: the one named, or the one who comes after `now`."""
     to = str(phase.settings.get("to", ""))
     names = list(study.tutors)
     return to or names[(names.index(now) + 1) % len(names)]
@@ -163,9 +163,9 @@ def length(phase: Phase, scene: Scene) -> int:
 
 
 def tasks(study: Study, run: Run, scene: Scene) -> Iterator[tuple[Phase, Task]]:
-    """What is to be done in a run, phase by phase.
+    """The tasks of a run, phase by phase.
 
-    Rest, a change of tutors, and a word to be forgotten are tasks without an occasion.
+    A rest, a change of tutors, and a word to forget are tasks without an occasion.
     """
     number = count(1)
     for phase in study.phases:

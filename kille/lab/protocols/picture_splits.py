@@ -1,12 +1,14 @@
-"""One part of the pictures taught, the other asked: every other, or the second half.
+"""Teach a part of the pictures and ask for the rest: every other, or the second half.
 
-In many collections the second half are other things of the same kind.
+In many collections the second half shows other things of the same kind.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from pathlib import Path
+from typing import TypeAlias
 
 from kille.lab.measures.statistics import kappa
 from kille.lab.progress import Steps
@@ -27,26 +29,25 @@ from kille.lab.results import (
     Table,
     silent,
 )
-from kille.lab.scenes.galleries import LOOKING, Categories, Gallery
-from kille.lab.scenes.stills import Lesson
+from kille.lab.scenes.galleries import LOOKING, Gallery
+from kille.lab.scenes.lessons import Lesson
 from kille.lab.theories.candidates import Methods
 
 _SHOWN = 12  # wrong answers in a figure
+
+_Paths: TypeAlias = Sequence[Path]
 
 
 def every_other(
     gallery: Gallery, methods: Methods, *, seed: int, progress: Progress = silent
 ) -> Result:
     """The pictures with even places are taught, those with odd ones asked for."""
-    taught_of = {word: paths[0::2] for word, paths in gallery.categories.items()}
-    asked_of = {word: paths[1::2] for word, paths in gallery.categories.items()}
     return _teach_and_ask(
         "Even pictures taught, odd asked",
         gallery,
         methods,
         progress,
-        taught_of,
-        asked_of,
+        lambda paths: (paths[0::2], paths[1::2]),
     )
 
 
@@ -54,17 +55,13 @@ def halves(
     gallery: Gallery, methods: Methods, *, seed: int, progress: Progress = silent
 ) -> Result:
     """The first half of each category is taught, the second asked for."""
-    cut = {word: (len(paths) + 1) // 2 for word, paths in gallery.categories.items()}
-    taught_of = {w: paths[: cut[w]] for w, paths in gallery.categories.items()}
-    asked_of = {w: paths[cut[w] :] for w, paths in gallery.categories.items()}
-    return _teach_and_ask(
-        "First half taught, last half asked",
-        gallery,
-        methods,
-        progress,
-        taught_of,
-        asked_of,
-    )
+
+    def split(paths: _Paths) -> tuple[_Paths, _Paths]:
+        half = (len(paths) + 1) // 2
+        return paths[:half], paths[half:]
+
+    title = "First half taught, last half asked"
+    return _teach_and_ask(title, gallery, methods, progress, split)
 
 
 def _teach_and_ask(
@@ -72,9 +69,12 @@ def _teach_and_ask(
     gallery: Gallery,
     methods: Methods,
     progress: Progress,
-    taught_of: Categories,
-    asked_of: Categories,
+    split: Callable[[_Paths], tuple[_Paths, _Paths]],
 ) -> Result:
+    """Teach and ask the two parts into which each category is split."""
+    parts = {word: split(paths) for word, paths in gallery.categories.items()}
+    taught_of = {word: taught for word, (taught, _) in parts.items()}
+    asked_of = {word: asked for word, (_, asked) in parts.items()}
     if not any(asked_of.values()):
         raise ExperimentError(f"{gallery.name}: no category has a second picture")
     gallery.look(progress, LOOKING)

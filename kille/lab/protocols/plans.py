@@ -1,4 +1,4 @@
-"""Which protocols there are for some data, which is recognised by its content."""
+"""Which protocols there are for which data; data is recognised by its content."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from kille.lab.theories.candidates import Make, MethodFailedError, Methods
 
 
 class RunProtocol(Shape):
-    """A protocol whose data is settled: it measures these methods."""
+    """A protocol with its data, which measures methods."""
 
     def __call__(self, methods: Methods, *, seed: int, progress: Progress) -> Result:
-        """What it found out; the same seed, the same numbers."""
+        """The result; the same seed gives the same numbers."""
         ...
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A protocol under its name; what is `usual` is run when none is named.
+    """A protocol with its name; the `usual` ones are run when none is named.
 
-    `compares` names what it compares of its own, where it asks no learner.
+    `compares` are the names of what it compares instead of methods, if it does.
     """
 
     name: str
@@ -62,10 +62,10 @@ _KNOWN = (
 def object_plans(
     data: str | None, teach: Sequence[str] = (), ask: Sequence[str] = ()
 ) -> tuple[Plan, ...]:
-    """The protocols for objects that the data is for, the usual ones first.
+    """The protocols for objects with this data, the usual ones first.
 
-    Without data it is the simulated table with the paper's ten things. ExperimentError
-    and SensorError for data that nothing can be measured with.
+    No data means the simulated table with the paper's ten things. ExperimentError and
+    SensorError for data that nothing can be measured with.
     """
     kind = None if data is None else _plans_for_data(data)
     if (teach or ask) and kind is not _scene_plans:
@@ -110,9 +110,9 @@ def run_plan(
     progress: Progress,
     failed: Callable[[MethodFailedError], None],
 ) -> tuple[Result | None, dict[str, Make]]:
-    """The result, and the methods that came through; none, no result.
+    """The result, and the methods that did not fail; without any there is no result.
 
-    A method that fails is told to `failed`, and the protocol runs again without it.
+    `failed` hears of each method that fails; the protocol is run again without it.
     """
     able = dict(methods)
     while able:
@@ -141,7 +141,7 @@ def _plans_for_data(data: str) -> Callable[..., tuple[Plan, ...]]:
 
 
 def _plans_for(folder: Path) -> Callable[..., tuple[Plan, ...]] | None:
-    """What makes plans for what is in the folder, if it is known."""
+    """What makes the plans for the content of a folder; None if it is not known."""
     from kille.lab.scenes.galleries import is_gallery
     from kille.lab.scenes.labelled import is_scenes
     from kille.sensors.captures import description_of

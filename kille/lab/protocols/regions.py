@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
+from operator import add
 from pathlib import Path
 
 import numpy as np
@@ -37,7 +38,7 @@ from ttr.safety.inputs import parse_json, read_text
 from ttr.safety.limits import TABLE
 
 _HALF = 0.5  # the overlap at which a thing counts as found
-_LABELLED = 0.3  # a region with less of it labelled may be a thing nobody labelled
+_LABELLED = 0.3  # regions with a smaller labelled part may be things nobody labelled
 _SHOWN = 6  # scenes in the figure
 _WIDTH = 320  # pixels of a picture in the figure
 _INKS = np.array(
@@ -62,9 +63,9 @@ class SegmentationScore:
     """What was found in one frame, or in several of them together.
 
     found: things with a region; given: regions; there: things; likely: regions of which
-    a good part is labelled; exact: frames with neither a thing nor a region too many or
-    too few; overlaps: of the found things; errors: metres from the middle of the region
-    to the middle of the thing.
+    a good part is labelled; exact: frames in which things and regions are the same;
+    overlaps: of the found things; errors: metres from the middle of the region to the
+    middle of the thing.
     """
 
     found: int = 0
@@ -77,16 +78,7 @@ class SegmentationScore:
     errors: tuple[float, ...] = ()
 
     def __add__(self, other: SegmentationScore) -> SegmentationScore:
-        return SegmentationScore(
-            self.found + other.found,
-            self.given + other.given,
-            self.there + other.there,
-            self.likely + other.likely,
-            self.frames + other.frames,
-            self.exact + other.exact,
-            self.overlaps + other.overlaps,
-            self.errors + other.errors,
-        )
+        return SegmentationScore(*map(add, astuple(self), astuple(other)))
 
     @property
     def recall(self) -> float:
@@ -105,14 +97,14 @@ class SegmentationScore:
 
     @property
     def lenient(self) -> float:
-        """The same, but regions that are hardly labelled are left out."""
+        """The same, without regions that are hardly labelled."""
         return _ratio(2 * self.found, self.likely + self.there)
 
 
 def score(regions: Sequence[Region], frame: Frame) -> SegmentationScore:
-    """How well these regions are the labelled things of their frame.
+    """How well these regions match the labelled things of their frame.
 
-    A thing's middle is the median of the points that were read within its outline.
+    A thing's middle is the median of the points that were measured within its outline.
     """
     outlines = list(frame.outlines.values())
     overlaps, labelled = _overlaps(regions, outlines)
@@ -137,9 +129,9 @@ def score(regions: Sequence[Region], frame: Frame) -> SegmentationScore:
 
 
 def captures(folder: Path) -> tuple[LabelledCapture, ...]:
-    """The labelled captures in a folder, or in its folders, in order.
+    """The labelled captures in a folder and its folders, in order.
 
-    Their kind is what the description says, else the name of their folder.
+    Their kind is in the description, or else the name of their folder.
     ExperimentError if there are none; SensorError for a broken description.
     """
     folders = [folder, *sorted(it for it in folder.iterdir() if it.is_dir())]
@@ -216,7 +208,7 @@ def _captures(folder: Path) -> list[LabelledCapture]:
 def _overlaps(
     regions: Sequence[Region], outlines: Sequence[NDArray[np.bool_]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Overlaps (regions, outlines), and how much of each region is in any outline."""
+    """Overlaps (regions, outlines), and the share of each region in any outline."""
     if not regions or not outlines:
         return np.zeros((len(regions), len(outlines))), np.zeros(len(regions))
     found = np.stack([it.mask.ravel() for it in regions]).astype(np.float32)
@@ -228,7 +220,7 @@ def _overlaps(
 
 
 def _match_regions(overlaps: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Regions and things, each at most once, with the largest sum of overlaps."""
+    """Match regions and things, each at most once, by the largest sum of overlaps."""
     from scipy.optimize import linear_sum_assignment
 
     rows, columns = linear_sum_assignment(overlaps, maximize=True)

@@ -8,18 +8,17 @@ finger would. The people are simulated, see `kille.lab.tutors.spatial_judges`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from math import cos, pi, sin
 from typing import Any
 
 import numpy as np
 
 from kille.lab.measures.statistics import kappa
+from kille.lab.protocols.causes import Placement, places_around
 from kille.lab.results import Cell, Progress, Table
 from kille.lab.tutors.spatial_judges import ACCEPTED, Person, Place, likeliest_word
 from kille.perception.relations.configurations import configuration
 from kille.perception.segment import segment
-from kille.scene import Configuration, Frame, Region
+from kille.scene import Frame, Region
 from kille.sensors.sensor import At, SensorError
 from kille.sensors.synthetic.sensor import Synthetic, open_synthetic
 
@@ -31,18 +30,10 @@ _TURN = 20  # degrees
 _TRIES = 6
 
 
-@dataclass(frozen=True)
-class _SeenPlacement:
-    """A placement: where the book truly is, and what the robot saw."""
-
-    true: Place
-    seen: Configuration
-
-
 def play_rendered_scenes(
     methods: Mapping[str, Any], *, seed: int, progress: Progress
 ) -> Table:
-    """Two rounds of 16 lessons and one of 16 questions, for each of the methods."""
+    """Play two rounds of 16 lessons and one of 16 questions, with each method."""
     chance = np.random.default_rng([seed, 1])
     stage = open_synthetic(f"synthetic:empty?seed={seed}")
     progress(0.0, "rendered scenes")
@@ -72,32 +63,30 @@ def play_rendered_scenes(
 
 def _answers(
     learner: Any,
-    taught: Sequence[_SeenPlacement],
+    taught: Sequence[Placement],
     words: Sequence[str],
-    asked: Sequence[_SeenPlacement],
+    asked: Sequence[Placement],
 ) -> list[str]:
-    """What a learner says of the questions that was taught these words."""
+    """The answers of a learner that was taught these words."""
     for key, (it, word) in enumerate(zip(taught, words, strict=True)):
         learner.learn_one(it.seen, word, key=key)
     return [likeliest_word(learner.predict_proba_one(it.seen)) for it in asked]
 
 
-def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[_SeenPlacement]:
-    """The book at each of 16 places, where there is room and the robot sees both."""
-    for distance in _RINGS:
-        for point in range(_POINTS):
-            bearing = 2 * pi * point / _POINTS
-            seen = _place_book(stage, distance, bearing, chance)
-            if seen is not None:
-                yield seen
+def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[Placement]:
+    """The book at each of 16 places, if there is room and the robot sees both."""
+    for place in places_around(_RINGS, _POINTS):
+        seen = _place_book(stage, place, chance)
+        if seen is not None:
+            yield seen
 
 
 def _place_book(
-    stage: Synthetic, distance: float, bearing: float, chance: np.random.Generator
-) -> _SeenPlacement | None:
+    stage: Synthetic, place: Place, chance: np.random.Generator
+) -> Placement | None:
     for _ in range(_TRIES):
-        right, away = distance * cos(bearing), distance * sin(bearing)
-        right, away = right + chance.normal(0, 0.01), away + chance.normal(0, 0.01)
+        right = place[0] + chance.normal(0, 0.01)
+        away = place[1] + chance.normal(0, 0.01)
         try:
             stage.show(_LANDMARK)
             stage.place(_LANDMARK, _MIDDLE)
@@ -115,7 +104,7 @@ def _place_book(
     return None
 
 
-def _look(frame: Frame, true: Place) -> _SeenPlacement | None:
+def _look(frame: Frame, true: Place) -> Placement | None:
     scene = segment(frame)
     target = _region_pointed_at(frame, scene.regions, _TARGET)
     landmark = _region_pointed_at(frame, scene.regions, _LANDMARK)
@@ -123,19 +112,19 @@ def _look(frame: Frame, true: Place) -> _SeenPlacement | None:
         return None
     others = [it for it in scene.regions if it is not target and it is not landmark]
     seen = configuration(frame, target, landmark, others, scene.up)
-    return None if seen is None else _SeenPlacement(true, seen)
+    return None if seen is None else Placement(true, seen)
 
 
 def _region_pointed_at(
     frame: Frame, regions: tuple[Region, ...], name: str
 ) -> Region | None:
-    """The region that a finger on the thing would mean."""
+    """The region that a finger on the thing would point at."""
     outline = frame.outlines[name]
     shared = [int((it.mask & outline).sum()) for it in regions]
     return regions[int(np.argmax(shared))] if any(shared) else None
 
 
-def _median_error(seen: list[_SeenPlacement]) -> float:
-    """How far off the places on the table are, in centimetres: the median."""
+def _median_error(seen: list[Placement]) -> float:
+    """The median error of the places on the table, in centimetres."""
     off = [np.array(it.seen.offset[:2]) - it.true for it in seen]
     return float(np.median(np.linalg.norm(off, axis=1))) * 100 if off else 0.0

@@ -1,7 +1,7 @@
-"""Teach in some scenes, ask in another: known things from other sides, and strangers.
+"""Teach in some scenes, and ask in another for known things and for strangers.
 
-Every frame of a scene is one lesson, or one question, about each thing in it. Things of
-the asked scene that were in no taught one are strangers: the degrees of all words for
+Every frame of a scene is one lesson, or one question, about each thing in it. Things
+that are only in the scene that is asked are strangers: the degrees of all words for
 them should be low.
 """
 
@@ -47,7 +47,7 @@ def across(
     seed: int,
     progress: Progress = silent,
 ) -> Result:
-    """What is told apart of the taught things, and whether strangers are noticed."""
+    """How well taught things are told apart, and strangers noticed."""
     _look_at_scenes(scenes, chosen, progress)
     answers = _answers(scenes, chosen, methods, progress)
     known = {split: known_in(scenes, split) for split in chosen}
@@ -79,7 +79,7 @@ def across(
 def _look_at_scenes(
     scenes: Scenes, chosen: Sequence[Split], progress: Progress
 ) -> None:
-    """See every scene that is taught or asked."""
+    """Look at every scene that is taught or asked."""
     needed = dict.fromkeys(it for split in chosen for it in (*split.teach, split.ask))
     steps = Steps(progress, len(needed), 0, _SEEING)
     for scene in needed:
@@ -165,7 +165,7 @@ def _facts(answers: Sequence[ObjectAnswer], known: set[str]) -> dict[str, object
 
 
 def _open_set(split: Split, answers: Answers, known: set[str]) -> Table:
-    """Thing by thing: what it is taken for, and how sure."""
+    """Thing by thing, what it is taken for, and with which degree."""
     by_method = {
         name: {it.word: it for it in _by_thing(them)}
         for (of, name), them in answers.items()

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.lab.measures.statistics import kappa, spearman
-from kille.lab.protocols.spatial import degrees_of
-from kille.lab.scenes.published_judgements import Choice, Judged, JudgementStudy
+from kille.lab.protocols.word_maps import degrees_of
+from kille.lab.scenes.published_judgements import Choice, Judged, Study
 from kille.scene import Configuration
 
 _FOLDS = 5
@@ -24,8 +24,8 @@ Vector = NDArray[np.float64]
 class Agreement:
     """Agreement with people: of ranks, of yes and no, and of these beyond chance.
 
-    within: the mean agreement of ranks in each fold. Put together, folds cost a learner
-    that learns how usual a word is: where the high places are asked, low ones were
+    within: the mean agreement of ranks within each fold. Pooled folds are unfair to a
+    learner that learns how usual a word is: where high places are asked, low ones were
     taught (Forman and Scholz 2010).
     """
 
@@ -38,7 +38,7 @@ class Agreement:
 def teach_judgements(
     make: Callable[[], Any], lessons: Mapping[str, Sequence[Judged]]
 ) -> Any:
-    """A learner that was told these judgements, if it takes any, or lessons of them."""
+    """A new learner that got these judgements, or if it takes none, lessons of them."""
     learner = make()
     judge = getattr(learner, "judge_one", None)
     for word, them in lessons.items():
@@ -51,15 +51,16 @@ def teach_judgements(
 
 
 def _ask_word(learner: Any, word: str, them: Sequence[Judged]) -> tuple[Vector, Vector]:
-    """What people said, and the learner."""
+    """The degrees of a word by people, and by the learner."""
     said = [_degree(learner, word, it.x) for it in them]
     return np.array([it.degree for it in them]), np.array(said)
 
 
 def _degree(learner: Any, word: str, x: Configuration) -> float:
-    """To what degree the word fits; above .5 it is meant.
+    """To what degree the word fits; above .5 it does.
 
-    A learner that only shares out one choice means a word that has more than its share.
+    Of a learner that only shares out one choice, a word fits if it has more than its
+    even share.
     """
     degrees = degrees_of(learner, x)
     found = degrees.get(word, 0.0)
@@ -69,14 +70,14 @@ def _degree(learner: Any, word: str, x: Configuration) -> float:
 
 
 def _rescale(share: float, even: float) -> float:
-    """.5 for an even share, keeping 0, 1 and the order."""
+    """Rescale a share so that an even one is .5; 0, 1 and the order stay."""
     if share <= even:
         return 0.5 * share / even
     return 0.5 + 0.5 * (share - even) / (1 - even)
 
 
 def _agreement(people: Vector, learner: Vector) -> Agreement:
-    """Agreement; what people were evenly divided on counts for the ranks only."""
+    """Agreement; where people were evenly divided, only the ranks count."""
     told = people != 0.5
     ours, theirs = learner[told] > 0.5, people[told] > 0.5
     rank = spearman(people, learner)
@@ -90,7 +91,7 @@ def _agreement(people: Vector, learner: Vector) -> Agreement:
 def agreement_after(
     study: Study, make: Callable[[], Any], size: int, chance: np.random.Generator
 ) -> dict[str, Agreement]:
-    """Each word's score after so many lessons of each, drawn by chance."""
+    """The agreement on each word after so many lessons of each, drawn at random."""
     lessons, asked = {}, {}
     for word, them in study.words.items():
         order = chance.permutation(len(them))
@@ -101,8 +102,8 @@ def agreement_after(
     return {word: _agreement(*_ask_word(learner, word, asked[word])) for word in asked}
 
 
-def _folds(study: JudgementStudy, seed: int) -> Iterator[tuple[set[str], set[str]]]:
-    """Scenes to teach and to ask; where there is one scene only, places."""
+def _folds(study: Study, seed: int) -> Iterator[tuple[set[str], set[str]]]:
+    """The scenes to teach and to ask in each fold, or places, if there is one scene."""
     groups = sorted({_group(it) for it in study.every()})
     order = np.random.default_rng(seed).permutation(len(groups))
     for fold in range(_FOLDS):
@@ -124,7 +125,7 @@ def _judgements_of(study: Study, groups: set[str]) -> dict[str, list[Judged]]:
 def cross_validate(
     study: Study, make: Callable[[], Any], seed: int
 ) -> dict[str, Agreement]:
-    """Each word's score when all but a fifth of the scenes are taught."""
+    """The agreement on each word when all but a fifth of the scenes are taught."""
     said: dict[str, list[tuple[Vector, Vector]]] = {word: [] for word in study.words}
     for teach, ask in _folds(study, seed):
         learner = teach_judgements(make, _judgements_of(study, teach))
@@ -141,9 +142,9 @@ def _pool_folds(folds: Sequence[tuple[Vector, Vector]]) -> Agreement:
 
 
 def score_choices(study: Study, make: Callable[[], Any], seed: int) -> dict[int, float]:
-    """For each choice in a scene that was not taught: 1 if it is as people's.
+    """Score each choice in a scene that was not taught: 1 if it is that of people.
 
-    Ties of n targets count 1/n where the right one is among them.
+    A tie of n targets counts 1/n if the right one is among them.
     """
     found = {}
     for teach, _ in _folds(study, seed):

@@ -1,7 +1,7 @@
-"""How quickly the words for pictures are learned: from one, three, five, ten of each.
+"""How quickly words for pictures are learned: from one, three, five and ten of each.
 
 A run draws ten categories and shuffles the pictures of each; the last six are asked
-for (or a third, where a category has few), of the others the first are taught.
+for (or a third, where a category has few), and the first of the others are taught.
 Source: the k-shot protocol of Vinyals et al. 2016, Matching networks for one shot
 learning, with a fixed number of tutored examples.
 """
@@ -179,7 +179,7 @@ def _curve_row(name: str, curve: Curve) -> tuple[Cell, ...]:
 
 
 def _calibration(found: Answers, number: int) -> Table:
-    """Whether the degrees can be relied on, after the most lessons."""
+    """Are the degrees reliable, after the most lessons?"""
     rows = []
     for name, by_number in found.items():
         every = [answer for run in by_number[number] for answer in run]

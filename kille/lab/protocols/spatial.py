@@ -1,8 +1,8 @@
 """The paper's spatial protocol with simulated people, and why its kappa was so low.
 
 Agreement beyond chance is Cohen's kappa, between the judges and between judges and
-robot; an answer is accepted if the judge might well have said it (with a chance of .15
-or more). How lessons and questions go, and under which causes, is in
+robot; an answer is accepted if the judge might well have said it (with a probability of
+at least .15). The lessons, the questions and the causes are in
 `kille.lab.protocols.causes`.
 Source: Dobnik and de Graaf 2017, section 4.2.
 """
@@ -27,6 +27,7 @@ from kille.lab.protocols.causes import (
     play_protocol,
 )
 from kille.lab.protocols.rendered_scenes import play_rendered_scenes
+from kille.lab.protocols.word_maps import map_figure
 from kille.lab.results import Cell, Figure, Progress, Result, Table, interval_series
 from kille.lab.tutors.spatial_judges import WORDS, Person
 from kille.perception.learners import Learner
@@ -195,27 +196,5 @@ def _map(name: str, make: Callable[[], Learner[Any]], seed: int) -> Figure:
     for key, scene in enumerate(placements(CAUSES[0], ROUNDS, chance, 0.0)):
         learner.learn_one(scene.seen, tutor.says(scene.true, chance), key=key)
     spots = np.linspace(-TABLE, TABLE, 25).tolist()
-    degrees = [
-        [degrees_of(learner, configuration_at(right, away)) for right in spots]
-        for away in spots
-    ]
-    return Figure(
-        kind="map",
-        title=f"What each word means after 48 lessons: {name}",
-        data={
-            "words": list(WORDS),
-            "right": spots,
-            "away": spots,
-            "degrees": {
-                word: [[cell.get(word, 0.0) for cell in row] for row in degrees]
-                for word in WORDS
-            },
-        },
-    )
-
-
-def degrees_of(learner: Learner[Configuration], x: Configuration) -> dict[str, float]:
-    """How well each word fits by itself, if the learner can tell; else its share."""
-    tell = getattr(learner, "degrees", learner.predict_proba_one)
-    degrees: dict[str, float] = tell(x)
-    return degrees
+    title = f"What each word means after 48 lessons: {name}"
+    return map_figure(title, WORDS, learner, spots, configuration_at)

@@ -1,4 +1,4 @@
-"""Things that are turned, and other things of the same kind: what carries over to them.
+"""Does what was learned carry over to turned things, and to others of the same kind?
 
 "We also tested" both, says the paper, without numbers.
 Source: Dobnik and de Graaf 2017, section 4.1.
@@ -51,7 +51,7 @@ def rotation(
     things: Sequence[str] = TOY_NAMES,
     meshes: str = "",
 ) -> Result:
-    """Each thing is taught once, and asked for turned by ever more, up to its back."""
+    """Teach each thing once, and ask for it turned ever further, up to its back."""
     table = OnTable(seed, meshes=meshes)
     steps = Steps(progress, (1 + len(ANGLES)) * len(things), 0, LOOKING)
     lessons = show_each(table, things, steps, "lessons")
@@ -123,8 +123,8 @@ def _ask_at_angles(
 
 
 def specimens(methods: Methods, *, seed: int, progress: Progress = silent) -> Result:
-    """Two of each kind are taught, and others of the kind are asked for."""
-    count = (len(_TAUGHT) + len(_ASKED)) * len(TOY_NAMES)
+    """Teach two things of each kind, and ask for others of the same kind."""
+    count = (len(_TAUGHT) + len(_ASKED)) * len(NAMES)
     steps = Steps(progress, count, 0, LOOKING)
     lessons = _of_each_kind(_TAUGHT, seed, steps, "lessons")
     questions = _of_each_kind(_ASKED, seed, steps, "new things")
