@@ -19,7 +19,7 @@ from ttr.cli.command_line import Parser, Version
 from ttr.cli.consent_options import add_consent, consent_of
 
 if TYPE_CHECKING:
-    from kille.interfaces.experiment.running import Request
+    from kille.interfaces.experiment.running import StudyRequest
 
 FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
 
@@ -618,9 +618,14 @@ def _memory_check(options: argparse.Namespace) -> int:
 
 
 def _evaluate(options: argparse.Namespace) -> int:
-    from kille.interfaces.evaluate import Request, as_json, as_tables, evaluate
+    from kille.interfaces.evaluate import (
+        EvaluationRequest,
+        as_json,
+        as_tables,
+        evaluate,
+    )
 
-    request = Request(
+    request = EvaluationRequest(
         what=options.parser.prog.split()[-1],
         data=options.data,
         protocol=options.protocol,
@@ -654,12 +659,12 @@ def _experiment_resume(options: argparse.Namespace) -> int:
     return resume_study(options.folder, _request(options), first)
 
 
-def _request(options: argparse.Namespace) -> Request:
+def _request(options: argparse.Namespace) -> StudyRequest:
     """By whom a study is to be played, and what it may run."""
     from kille.interfaces.experiment.crews import scheduler_from
-    from kille.interfaces.experiment.running import Request
+    from kille.interfaces.experiment.running import StudyRequest
 
-    return Request(
+    return StudyRequest(
         options.workers,
         scheduler_from(options),
         _command(options),

@@ -12,11 +12,9 @@ from pathlib import Path
 from shlex import join
 from typing import Any
 
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.text import Text
 
-from kille.interfaces.grids import print_table
+from kille.interfaces.grids import print_result, results_console
 from kille.interfaces.terminal import FAILED, FINE, complain, console, print_json
 from kille.lab.protocols.plans import (
     OBJECTS,
@@ -41,7 +39,7 @@ _PACKAGES = ("kille", "numpy", "opencv-contrib-python-headless", "scikit-learn")
 
 
 @dataclass(frozen=True)
-class Request:
+class EvaluationRequest:
     """The measurement to make, as the user typed it."""
 
     what: str
@@ -69,10 +67,7 @@ class _Tables:
     """Prints each result as soon as it is there."""
 
     def result(self, plan: Plan, result: Result) -> None:
-        out = _console()
-        out.print(Text(f"\n{result.title}", style="bold"), soft_wrap=False)
-        for table in result.tables:
-            print_table(out, table)
+        print_result(results_console(), result)
 
     def end(
         self,
@@ -95,19 +90,16 @@ class _Json:
         found: Mapping[str, Result],
         failures: Sequence[str],
     ) -> None:
-        told = {
-            **about,
-            "failed": list(failures),
-            "results": [_facts(name, result) for name, result in found.items()],
-        }
-        print_json(_plain(told), allow_nan=False)
+        results = [_as_object(name, result) for name, result in found.items()]
+        report = {**about, "failed": list(failures), "results": results}
+        print_json(_plain(report), allow_nan=False)
 
 
 as_tables, as_json = _Tables, _Json
 """How results are printed: for people, or for machines."""
 
 
-def evaluate(request: Request, told: _Tables | _Json) -> int:
+def evaluate(request: EvaluationRequest, printer: _Tables | _Json) -> int:
     """Run the protocols; returns the exit code, 1 if a method failed."""
     failures: list[str] = []
 
@@ -123,37 +115,33 @@ def evaluate(request: Request, told: _Tables | _Json) -> int:
             if result is None:
                 break
             found[plan.name] = result
-            told.result(plan, result)
+            printer.result(plan, result)
         about = _about(request, plans)
-        told.end(about, found, failures)
+        printer.end(about, found, failures)
         _write(request, about, found, failures)
     except (ExperimentError, SensorError, TTRError) as error:
         return complain(error)
     return FAILED if failures else FINE
 
 
-def _prepare(request: Request) -> tuple[Methods, list[Plan]]:
+def _prepare(request: EvaluationRequest) -> tuple[Methods, list[Plan]]:
     """The methods and plans that take part; ExperimentError if they cannot be found."""
+    from kille.perception import methods as known
+
+    _check_report(request)
     try:
-        return _plan(request)
+        if request.what == "objects":
+            methods = candidates(request.who, known.OBJECTS)
+            plans = object_plans(request.data, request.teach, request.ask)
+            return methods, choose_plans(plans, request.protocol, OBJECTS)
+        methods = candidates(request.who, known.RELATIONS)
+        plans = relation_plans(request.data)
+        return methods, choose_plans(plans, request.protocol, RELATIONS)
     except OSError as error:
         raise ExperimentError(why_unread(error.filename, error)) from error
 
 
-def _plan(request: Request) -> tuple[Methods, list[Plan]]:
-    from kille.perception import methods as known
-
-    _check_report(request)
-    if request.what == "objects":
-        methods = candidates(request.who, known.OBJECTS)
-        plans = object_plans(request.data, request.teach, request.ask)
-        return methods, choose_plans(plans, request.protocol, OBJECTS)
-    methods = candidates(request.who, known.RELATIONS)
-    plans = relation_plans(request.data)
-    return methods, choose_plans(plans, request.protocol, RELATIONS)
-
-
-def _check_report(request: Request) -> None:
+def _check_report(request: EvaluationRequest) -> None:
     """Refuse a report that cannot be written before anything is measured."""
     if request.report is None:
         return
@@ -201,14 +189,14 @@ def _measure(
 
 
 def _write(
-    request: Request,
+    request: EvaluationRequest,
     about: Mapping[str, Any],
     found: Mapping[str, Result],
     failures: Sequence[str],
 ) -> None:
     if request.report is None or not found:
         return
-    lines = {key: _line(value) for key, value in about.items()}
+    lines = {key: _format_line(value) for key, value in about.items()}
     write_whole(
         request.report, page(request.title, list(found.values()), lines, failures)
     )
@@ -217,7 +205,7 @@ def _write(
     )
 
 
-def _about(request: Request, plans: Sequence[Plan]) -> dict[str, Any]:
+def _about(request: EvaluationRequest, plans: Sequence[Plan]) -> dict[str, Any]:
     """How the report was made, with the methods that took part in any plan."""
     took_part = dict.fromkeys(
         name for plan in plans for name in plan.compares or request.who
@@ -241,7 +229,7 @@ def _versions(packages: Iterable[str]) -> dict[str, str]:
     return found
 
 
-def _line(value: Any) -> str:
+def _format_line(value: Any) -> str:
     match value:
         case dict():
             return ", ".join(f"{key} {it}" for key, it in value.items())
@@ -253,7 +241,7 @@ def _line(value: Any) -> str:
 # --- for machines --------------------------------------------------------------------
 
 
-def _facts(name: str, result: Result) -> dict[str, Any]:
+def _as_object(name: str, result: Result) -> dict[str, Any]:
     return {
         "protocol": name,
         "title": result.title,
@@ -282,14 +270,3 @@ def _plain(value: Any) -> Any:
         case Iterable():
             return [_plain(it) for it in value]
     return _plain(value.item()) if hasattr(value, "item") else str(value)
-
-
-# --- for people ----------------------------------------------------------------------
-
-
-def _console() -> Console:
-    """The console for results; a pipe counts as 100 columns wide."""
-    out = console()
-    if not out.is_terminal and "COLUMNS" not in os.environ:
-        out.width = 100
-    return out

@@ -1,7 +1,8 @@
-"""Tables in a terminal: as they are, transposed, or in parts, whichever fits."""
+"""Results in a terminal: tables as they are, transposed, or in parts, as they fit."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import replace
 from textwrap import wrap
@@ -11,10 +12,33 @@ from rich.console import Console
 from rich.table import Table as Grid
 from rich.text import Text
 
-from kille.lab.results import Cell, Table, format_cell
+from kille.interfaces.terminal import COLUMNS_OF_A_PIPE, console
+from kille.lab.results import Cell, Result, Table, format_cell
 from ttr.escapes import terminal_line
 
 _GAP = 2  # columns between those of a table
+
+
+def results_console() -> Console:
+    """The console for results; a pipe is as wide as `COLUMNS` says, or 100 columns."""
+    out = console()
+    if not out.is_terminal and "COLUMNS" not in os.environ:
+        out.width = COLUMNS_OF_A_PIPE
+    return out
+
+
+def print_result(out: Console, result: Result) -> None:
+    """Print a result: its title, what there is to see, and its tables."""
+    out.print(Text(f"\n{result.title}", style="bold"), soft_wrap=False)
+    print_findings(out, result)
+    for table in result.tables:
+        print_table(out, table)
+
+
+def print_findings(out: Console, result: Result) -> None:
+    """Print what there is to see in a result, if it says so."""
+    if result.text:
+        out.print(Text(f"\n{result.text}"), soft_wrap=False)
 
 
 def print_table(out: Console, table: Table) -> None:

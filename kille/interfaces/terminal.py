@@ -25,7 +25,7 @@ from ttr.escapes import json_text, terminal_line, terminal_text
 
 FINE, FAILED, WRONG_USE = 0, 1, 2
 
-_COLUMNS_OF_A_PIPE = 100
+COLUMNS_OF_A_PIPE = 100
 _FIRM = "\N{NO-BREAK SPACE}"
 
 
@@ -131,5 +131,5 @@ def _fill(mark: str, text: str) -> str:
 
 def _columns() -> int:
     if not sys.stdout.isatty():
-        return _COLUMNS_OF_A_PIPE
+        return COLUMNS_OF_A_PIPE
     return shutil.get_terminal_size().columns

@@ -36,10 +36,10 @@ def bar() -> Iterator[Callable[[Progress], None]]:
     with shown:
         tasks: list[TaskID] = []
 
-        def told(it: Progress) -> None:
+        def show_progress(it: Progress) -> None:
             if not tasks:  # what was over before says nothing of the time left
                 tasks.append(shown.add_task("", total=it.planned, completed=it.over))
             broken = f", {it.broken:,} broke" if it.broken else ""
             shown.update(tasks[0], completed=it.over, description=broken)
 
-        yield told
+        yield show_progress

@@ -26,7 +26,7 @@ def study_of_log(folder: Path, consent: Consent, trusts: bool) -> Study:
         raise StudyError([f"{about}, {_unrun(study, consent)}"])
     check_allowed(study)
     for name in named:
-        _tell(study, name)
+        _announce(study, name)
     return study
 
 
@@ -45,6 +45,6 @@ def _unrun(study: Study, consent: Consent) -> str:
     )
 
 
-def _tell(study: Study, name: str) -> None:
+def _announce(study: Study, name: str) -> None:
     where = (study.folder / name).resolve() if name.endswith(".py") else name
     console().print(f"running {where}, which the log names", markup=False)

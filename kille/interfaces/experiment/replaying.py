@@ -9,15 +9,8 @@ from kille.interfaces.experiment.bars import bar
 from kille.interfaces.experiment.checking import MISTAKES
 from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.experiment.people import people_in
-from kille.interfaces.experiment.running import Request, study_for_folder
-from kille.interfaces.terminal import (
-    FAILED,
-    FINE,
-    complain,
-    complain_all,
-    console,
-    hang_text,
-)
+from kille.interfaces.experiment.running import StudyRequest, study_for_folder
+from kille.interfaces.terminal import FAILED, FINE, complain, console, hang_text
 from kille.lab import log
 from kille.lab.log import Broken, Outcome, RunError
 from kille.lab.log.sources import changed_sources, sources
@@ -25,7 +18,7 @@ from kille.lab.running import Difference, Progress, replay
 from kille.lab.study import Run
 
 
-def replay_all(folder: Path, names: Sequence[str], request: Request) -> int:
+def replay_all(folder: Path, names: Sequence[str], request: StudyRequest) -> int:
     """Replay dialogues of a folder, all if none is named; returns 1 if any differs."""
     try:
         befores = [log.find_outcome(folder, it) for it in names] or [
@@ -45,7 +38,7 @@ def replay_all(folder: Path, names: Sequence[str], request: Request) -> int:
 
 
 def _replay(
-    folder: Path, befores: Sequence[Outcome], request: Request
+    folder: Path, befores: Sequence[Outcome], request: StudyRequest
 ) -> dict[Run, Difference | None]:
     """The first difference of each dialogue when played again."""
     study = study_for_folder(folder, request)
@@ -60,10 +53,10 @@ def _replay(
     workers = 1 if len(befores) == 1 else request.workers
     by = choose_crew(workers, request.scheduler)
     found: dict[Run, Difference | None] = {}
-    with bar() as told:
+    with bar() as show_progress:
         for before, differs in replay(study, befores, by=by):
             found[before.run] = differs
-            told(Progress(len(found), len(befores)))
+            show_progress(Progress(len(found), len(befores)))
     return found
 
 

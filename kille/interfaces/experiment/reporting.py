@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console
-from rich.text import Text
-
-from kille.interfaces.experiment.checking import MISTAKES
-from kille.interfaces.grids import print_table
-from kille.interfaces.terminal import FINE, complain_all, console
+from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.grids import (
+    print_findings,
+    print_result,
+    print_table,
+    results_console,
+)
+from kille.interfaces.terminal import FINE, console
 from kille.lab import log, reports
 from kille.lab.log import write_tables
 from kille.lab.results import Result
@@ -51,31 +53,15 @@ def compare(
 
 def print_results(results: Sequence[Result]) -> None:
     """Print tables, and the findings in them."""
-    out = _wide_console()
+    out = results_console()
     for result in filter(lambda it: it.tables, results):
-        out.print(Text(f"\n{result.title}", style="bold"), soft_wrap=False)
-        _print_text(out, result)
-        for table in result.tables:
-            print_table(out, table)
+        print_result(out, result)
 
 
 def print_summary(results: Sequence[Result]) -> None:
     """Print the first table, and the findings in the others."""
-    out = _wide_console()
+    out = results_console()
     for table in results[0].tables[:1] if results else ():
         print_table(out, table)
     for result in results:
-        _print_text(out, result)
-
-
-def _print_text(out: Console, result: Result) -> None:
-    if result.text:
-        out.print(Text(f"\n{result.text}"), soft_wrap=False)
-
-
-def _wide_console() -> Console:
-    """A console; a pipe counts as 100 columns wide."""
-    out = console()
-    if not out.is_terminal:
-        out.width = 100
-    return out
+        print_findings(out, result)

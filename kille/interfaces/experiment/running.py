@@ -34,7 +34,7 @@ SHOWN = 10
 
 
 @dataclass(frozen=True)
-class Request:
+class StudyRequest:
     """Who is to play a study, and the options as the user gave them."""
 
     workers: int | None
@@ -54,7 +54,7 @@ def keep_as_is(study: Study, folder: Path) -> None:
     """Do nothing first: broken dialogues are not played again."""
 
 
-def run_study(path: Path, folder: Path | None, request: Request) -> int:
+def run_study(path: Path, folder: Path | None, request: StudyRequest) -> int:
     """Play a study into a folder, or go on with it; returns the exit code."""
     folder = folder or Path(f"{path.stem}.results")
     try:
@@ -65,7 +65,7 @@ def run_study(path: Path, folder: Path | None, request: Request) -> int:
         return complain_all(error)
 
 
-def resume_study(folder: Path, request: Request, first: First = keep_as_is) -> int:
+def resume_study(folder: Path, request: StudyRequest, first: First = keep_as_is) -> int:
     """Go on with the study in a folder, after calling `first` on it."""
     try:
         study = study_for_folder(folder, request)
@@ -77,7 +77,7 @@ def resume_study(folder: Path, request: Request, first: First = keep_as_is) -> i
         return complain_all(error)
 
 
-def study_for_folder(folder: Path, request: Request) -> Study:
+def study_for_folder(folder: Path, request: StudyRequest) -> Study:
     """The study that the user names for a folder, or else that of its log."""
     if request.study is not None:
         study = read(request.study, request.consent)
@@ -86,24 +86,24 @@ def study_for_folder(folder: Path, request: Request) -> Study:
     return study_of_log(folder, request.consent, request.trusts)
 
 
-def _run(study: Study, folder: Path, request: Request) -> int:
+def _run(study: Study, folder: Path, request: StudyRequest) -> int:
     console().print(f"{study.title}: {in_numbers(study)}", markup=False)
     by = crew_for(study, request.workers, request.scheduler)
-    shown = nullcontext(_untold) if has_people(study) else bar()
-    with shown as told, stoppable() as stop:
+    shown = nullcontext(_show_nothing) if has_people(study) else bar()
+    with shown as show_progress, stoppable() as stop:
 
-        def heard(it: Progress) -> None:
+        def check_and_show(it: Progress) -> None:
             stop.check()
-            told(it)
+            show_progress(it)
 
         try:
-            summary = run(study, folder, by=by, told=heard)
+            summary = run(study, folder, by=by, told=check_and_show)
         except KeyboardInterrupt:
             return _report_stop(study, folder, stop.code)
     write_tables(folder)
     page, results = reports.report(folder, command=request.command, study=study)
     print_summary(results)
-    _tell(study, folder, page, summary)
+    _report_end(study, folder, page, summary)
     return FAILED if summary.broken else FINE
 
 
@@ -123,13 +123,13 @@ def _resume_command(study: Study, folder: Path) -> str:
     return f"kille experiment run {quote(str(study.file))} --out {quote(str(folder))}"
 
 
-def _tell(study: Study, folder: Path, page: Path, summary: Summary) -> None:
+def _report_end(study: Study, folder: Path, page: Path, summary: Summary) -> None:
     out = console()
     before = summary.planned - summary.played
-    told = f"{summary.played:,} dialogue{'s' if summary.played != 1 else ''} played"
+    line = f"{summary.played:,} dialogue{'s' if summary.played != 1 else ''} played"
     if before:
-        told += f", {before:,} {'were' if before != 1 else 'was'} over before"
-    out.print(f"{told}: {folder}", markup=False)
+        line += f", {before:,} {'were' if before != 1 else 'was'} over before"
+    out.print(f"{line}: {folder}", markup=False)
     out.print(f"report: {page}", markup=False)
     if not summary.broken:
         return
@@ -146,5 +146,5 @@ def _tell(study: Study, folder: Path, page: Path, summary: Summary) -> None:
     )
 
 
-def _untold(it: Progress) -> None:
+def _show_nothing(it: Progress) -> None:
     """Ignore progress: where people type, nothing moves."""

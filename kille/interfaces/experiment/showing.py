@@ -9,16 +9,9 @@ from pathlib import Path
 from shlex import join
 from typing import Any, TypeAlias
 
-from kille.interfaces.experiment.checking import MISTAKES
-from kille.interfaces.grids import print_table
-from kille.interfaces.terminal import (
-    FAILED,
-    FINE,
-    complain_all,
-    console,
-    hang_text,
-    print_json,
-)
+from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.grids import print_table, results_console
+from kille.interfaces.terminal import FAILED, FINE, console, hang_text, print_json
 from kille.lab import log
 from kille.lab.dialogues import Answer, Turn
 from kille.lab.log.outcomes import Broken, Finished, Outcome
@@ -50,9 +43,7 @@ def show(folder: Path, name: str | None, report: Report) -> int:
 
 def _show_all(folder: Path) -> None:
     about = log.about(folder)
-    out = console()
-    if not out.is_terminal:
-        out.width = 100
+    out = results_console()
     rows = tuple(_count_by_theory(folder))
     over = sum(row[1] for row in rows)
     heads = "theory", "dialogues", "broken", "turns", "answers", "seconds each"
