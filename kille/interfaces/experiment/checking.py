@@ -30,8 +30,8 @@ def _check_file(path: Path, consent: Consent) -> int:
     except MISTAKES as error:
         return complain_all(error)
     tell_doubts(study)
-    told = f"{path}: fine, {in_numbers(study)}{people_summary(study)}"
-    console().print(told, markup=False)
+    line = f"{path}: fine, {in_numbers(study)}{people_summary(study)}"
+    console().print(line, markup=False)
     return FINE
 
 

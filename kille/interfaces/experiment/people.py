@@ -141,10 +141,10 @@ def _begin(study: Study, run: Run, number: int, count: int) -> None:
     steps = sum(1 for _ in tasks(study, run, open_scene(study, run)))
     who = ", and ".join(people_in(study, run))
     long = f"{steps:,} step{'s' * (steps != 1)}"
-    told = f"\nDialogue {number:,} of {count:,}, {long}: {who}."
+    text = f"\nDialogue {number:,} of {count:,}, {long}: {who}."
     if study.theories[run.theory].mode != PERSON:
-        told += f"\n{_FIRST if number == 1 else _NEXT}"
-    wait_until_ready(told)
+        text += f"\n{_FIRST if number == 1 else _NEXT}"
+    ready(text)
 
 
 def _number_outcome(outcome: Outcome, number: int) -> Outcome:

@@ -64,8 +64,8 @@ def _describe_difference(before: Outcome, found: Difference | None) -> str:
     if found is None:
         went = "breaks as it did" if isinstance(before, Broken) else _size(before)
         return f"{before.run}: the same, {went}"
-    told = f"{found.where} was {found.before!r} and is {found.now!r}"
-    return hang_text(f"{before.run}: ", told)
+    change = f"{found.where} was {found.before!r} and is {found.now!r}"
+    return hang_text(f"{before.run}: ", change)
 
 
 def _size(before: Outcome) -> str:

@@ -82,18 +82,18 @@ def _count_by_theory(folder: Path) -> Iterator[tuple[Any, ...]]:
 
 def as_json(it: Outcome) -> None:
     """Print the dialogue as an object, for machines."""
-    told: dict[str, Any] = {"run": str(it.run), "seconds": it.seconds}
+    shown: dict[str, Any] = {"run": str(it.run), "seconds": it.seconds}
     match it:
         case Broken(_, reason, trace, _):
-            told |= {"broken": reason, "trace": trace}
+            shown |= {"broken": reason, "trace": trace}
         case Finished(_, played, _):
-            told |= {
+            shown |= {
                 "lessons": played.lessons,
                 "facts": dict(played.facts),
                 "turns": [turn._asdict() for turn in played.turns],
                 "answers": [_plain(answer) for answer in played.answers],
             }
-    print_json(told, allow_nan=False)
+    print_json(shown, allow_nan=False)
 
 
 def _plain(answer: Answer) -> dict[str, Any]:
@@ -108,8 +108,8 @@ def as_text(it: Outcome) -> None:
         out.print(f"{it.run} broke: {it.reason}\n\n{it.trace.rstrip()}", markup=False)
         return
     played = it.played
-    told = f"{it.run}: {len(played.turns):,} turns, {played.lessons:,} lessons kept"
-    out.print(told, markup=False)
+    head = f"{it.run}: {len(played.turns):,} turns, {played.lessons:,} lessons kept"
+    out.print(head, markup=False)
     answers: dict[int, list[Answer]] = {}
     for answer in played.answers:
         answers.setdefault(answer.turn, []).append(answer)

@@ -90,11 +90,11 @@ def differences(
         second = tallies(measure, [other for _, other in pairs])
         if np.array_equal(first, second):
             continue
-        told = np.isfinite(measure.of(first)) & np.isfinite(measure.of(second))
-        first, second = first[told], second[told]
+        known = np.isfinite(measure.of(first)) & np.isfinite(measure.of(second))
+        first, second = first[known], second[known]
         found[measure.name] = Difference(
-            _difference(measure, first, second, draws[:, told]),
-            permutation_p(measure, first, second, stays[:, told]),
+            _difference(measure, first, second, draws[:, known]),
+            permutation_p(measure, first, second, stays[:, known]),
             len(first),
             *_apart(measure, first, second),
         )

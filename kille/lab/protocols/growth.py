@@ -228,7 +228,7 @@ def _table(
         ),
         "A question is about one scan whose features and traits are there already. The "
         "first question after lessons waits for trees to be built, which are built in "
-        "the background when the robot talks. Memory is told where the program had to "
+        "the background when the robot talks. Memory is given where the program had to "
         "grow. ~ is what follows from the time a view.",
     )
 

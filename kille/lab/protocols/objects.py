@@ -91,9 +91,9 @@ def paper(
         name: _run_rounds(make, lessons, questions, turned, partial(steps, name))
         for name, make in methods.items()
     }
-    told = f"{_count_in_words(len(things))} things, {_count_of(rounds, 'round')}"
+    size = f"{_count_in_words(len(things))} things, {_count_of(rounds, 'round')}"
     return Result(
-        f"{told} of lessons and questions",
+        f"{size} of lessons and questions",
         (
             _scores(courses),
             _by_round(courses),

@@ -85,8 +85,8 @@ def faults(phase: Phase, study: Study) -> Iterator[Wrong]:
         yield from ((key, it) for it in _scene_faults(phase, scene))
     yield from ((("to",), it) for it in _successor_faults(phase, study))
     if phase.settings.get("turns") and "rounds" in phase.settings:
-        told = "rounds and turns both say how much comes: write one of them"
-        yield Problem(("turns",), told)
+        problem = "rounds and turns both say how much comes: write one of them"
+        yield ("turns",), problem
 
 
 def _scene_faults(phase: Phase, scene: Named) -> Iterator[str]:
@@ -97,11 +97,13 @@ def _scene_faults(phase: Phase, scene: Named) -> Iterator[str]:
             yield f"{what} cannot be done with {scene.name}, which is {scene.kind}"
     asks = phase.do in ("ask", "practise")
     if asks and phase.settings.get("what") == "relations" and _has_one_kind(scene):
-        told = f"there is one kind of thing in {scene.name}, and the robot does not say"
-        yield f"{told} how it stands to its like: name two kinds"
+        problem = (
+            f"there is one kind of thing in {scene.name}, and the robot does not say"
+        )
+        yield f"{problem} how it stands to its like: name two kinds"
     if phase.do == "find" and (more := _settings_for_finding(phase, scene)):
-        told = f"one thing at a time is in view in {scene.name}, and is found"
-        yield f"{told} whatever is asked for: write {more}"
+        problem = f"one thing at a time is in view in {scene.name}, and is found"
+        yield f"{problem} whatever is asked for: write {more}"
 
 
 def _successor_faults(phase: Phase, study: Study) -> Iterator[str]:

@@ -78,8 +78,8 @@ def _rescale(share: float, even: float) -> float:
 
 def _agreement(people: Vector, learner: Vector) -> Agreement:
     """Agreement; where people were evenly divided, only the ranks count."""
-    told = people != 0.5
-    ours, theirs = learner[told] > 0.5, people[told] > 0.5
+    decided = people != 0.5
+    ours, theirs = learner[decided] > 0.5, people[decided] > 0.5
     rank = spearman(people, learner)
     return Agreement(
         0.0 if np.isnan(rank) and np.ptp(people) > 0 else rank,

@@ -80,14 +80,14 @@ def rotation(
 
 def _turned_table(answers: Answers, things: int) -> Table:
     """The share right at every third angle."""
-    told = ANGLES[::3]
+    angles = ANGLES[::3]
     rows: tuple[tuple[Cell, ...], ...] = tuple(
-        (name, *(share_right(them[angle]) for angle in told))
+        (name, *(share_right(them[angle]) for angle in angles))
         for name, them in answers.items()
     )
     return Table(
         "Share right of things that are turned",
-        ("method", *(f"{angle}°" for angle in told)),
+        ("method", *(f"{angle}°" for angle in angles)),
         rows,
         f"One lesson a thing, {things} things, {_FEW} scans a question.",
     )

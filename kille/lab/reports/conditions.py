@@ -54,12 +54,12 @@ def compare_conditions(
     heads = _varied_conditions(places)
     if not heads:
         return
-    told = [it for it in measures if it.name in _SHOWN]
+    shown = [it for it in measures if it.name in _SHOWN]
     tables = [*_by_phase(theories, measures, heads, places)]
     figures: list[Figure] = []
     for head in heads:
         parts = _parts(theories, head)
-        tables.append(_table(_by_heads(head), head, parts, told, places))
+        tables.append(_table(_by_heads(head), head, parts, shown, places))
         figures += _agreement_figures(_by_heads(head), parts, measures)
     against = list(compare_with_first(theories, measures, places))
     tables += [it.table for it in against]
@@ -167,8 +167,10 @@ def _by_phase(
         for key in keys:
             for column, name in enumerate(parts, start=1 + len(key)):
                 links[len(rows), column] = _place(places, name, heads, key)
-            told = (estimate_measure(main, of.get(key, ())) for of in parts.values())
-            rows.append((phase, *key, *told))
+            estimates = (
+                estimate_measure(main, of.get(key, ())) for of in parts.values()
+            )
+            rows.append((phase, *key, *estimates))
     yield Table(title, ("phase", *heads, *theories), tuple(rows), "", links)
 
 

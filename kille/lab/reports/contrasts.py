@@ -87,11 +87,11 @@ def contrast_results(
         _answers_table(asked, places),
         _power_table(found, main),
     )
-    told = tuple(it for it in tables if it.rows)
+    filled = tuple(it for it in tables if it.rows)
     text = "\n\n".join(
         [*unreachable_significance(mains, main), _summary_text(mains, main)]
     )
-    return [Result("How they differ", told, _figures(found), text=text)]
+    return [Result("How they differ", filled, _figures(found), text=text)]
 
 
 def _summary_text(found: Sequence[Contrast], main: str) -> str:
@@ -102,9 +102,9 @@ def _summary_text(found: Sequence[Contrast], main: str) -> str:
     mains = [it.differences.get(main) for it in found]
     ps = holm([float("nan") if it is None else it.p for it in mains])
     if len(found) <= FEW:
-        told = [_sentence(it, p, main) for it, p in zip(found, ps, strict=True)]
+        sentences = [_sentence(it, p, main) for it, p in zip(found, ps, strict=True)]
         several = np.isfinite(ps).sum() > 1
-        return "\n".join([*told, CORRECTED] if several else told)
+        return "\n".join([*sentences, CORRECTED] if several else sentences)
     with_p = zip(found, ps, strict=True)
     seen = [_sentence(it, p, main) for it, p in with_p if p < CHANCE]
     first = (
@@ -122,8 +122,8 @@ def _sentence(it: Contrast, p: float, measure: str) -> str:
         return f"{it.other} and {it.one} have the same {measure} in every pair."
     if not main.pairs:
         return f"{it.other} and {it.one} were never both asked for words."
-    told = format_difference(main, p)
-    return f"The {measure} of {it.other} differs from that of {it.one} by {told}."
+    difference = format_difference(main, p)
+    return f"The {measure} of {it.other} differs from that of {it.one} by {difference}."
 
 
 def format_difference(difference: Difference, p: float) -> str:
@@ -189,13 +189,13 @@ def _differences_table(
     found: Sequence[Contrast], measures: Sequence[Measure], places: Places, main: str
 ) -> Table:
     """The paired differences, measure by measure."""
-    told = [
+    shown = [
         (it, measure.name, it.differences[measure.name])
         for measure in measures
         for it in found
         if measure.name in it.differences
     ]
-    ps = correct_by_family([(name, d.p) for _, name, d in told], main)
+    ps = correct_by_family([(name, d.p) for _, name, d in shown], main)
     rows = tuple(
         (
             contrast_names(it),
@@ -205,12 +205,12 @@ def _differences_table(
             format_p(p),
             d.pairs,
         )
-        for (it, name, d), p in zip(told, ps, strict=True)
+        for (it, name, d), p in zip(shown, ps, strict=True)
     )
     columns = ("theories", "measure", "difference", "p", "p (Holm)", "pairs")
     links = {
         (row, 2): places.against(it.one, it.other)
-        for row, (it, _, _) in enumerate(told)
+        for row, (it, _, _) in enumerate(shown)
     }
     note = _NOTE.format(main=main)
     return Table("Paired differences", columns, rows, note, links)
@@ -251,8 +251,8 @@ def _side_cells(it: Contrast) -> tuple[Cell, ...]:
 
 
 def _power_table(found: Sequence[Contrast], main: str) -> Table:
-    told = [(it, it.differences[main]) for it in found if main in it.differences]
-    rows = tuple((contrast_names(it), *_power_cells(d)) for it, d in told)
+    known = [(it, it.differences[main]) for it in found if main in it.differences]
+    rows = tuple((contrast_names(it), *_power_cells(d)) for it, d in known)
     columns = (
         "theories",
         "pairs",
@@ -300,8 +300,8 @@ def _figures(found: Sequence[Contrast]) -> tuple[Figure, ...]:
     }
     called = shorten_names(name for it in pairs for name in (it.one, it.other))
     labels = [_on_two_lines(called[it.other], called[it.one]) for it in pairs]
-    told = {"xlabel": "difference", "zero": 0.0}
-    return tuple(row_figures("Differences", labels, series, told))
+    settings = {"xlabel": "difference", "zero": 0.0}
+    return tuple(row_figures("Differences", labels, series, settings))
 
 
 def _estimate(difference: Difference | None) -> Estimate:

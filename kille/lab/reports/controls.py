@@ -76,25 +76,25 @@ def _compare_names(
     places: Places,
 ) -> Iterator[Comparison]:
     first, *others = names
-    told = [
+    named = [
         one
         for theory, them in theories.items()
         for name in others
         for one in _differences_of(what, theory, them, (first, name), measures, places)
     ]
-    if not told:
+    if not named:
         return
-    ps = correct_by_family([(it.measure, it.difference.p) for it in told])
+    ps = correct_by_family([(it.measure, it.difference.p) for it in named])
     rows = tuple(
         (*it.name_cells, *_test_cells(it.difference, p))
-        for it, p in zip(told, ps, strict=True)
+        for it, p in zip(named, ps, strict=True)
     )
     columns = ("theory", "measure", what, "difference", "p", "p (Holm)", "pairs")
-    links = {(row, 3): it.place for row, it in enumerate(told)}
+    links = {(row, 3): it.place for row, it in enumerate(named)}
     table = Table(f"Against the {what} {first}", columns, rows, _NOTE, links)
     mains = [
         (it, p)
-        for it, p in zip(told, ps, strict=True)
+        for it, p in zip(named, ps, strict=True)
         if it.measure == _MAIN and it.difference.pairs
     ]
     yield Comparison(table, "\n".join(_summary_lines(what, names, mains)))
@@ -117,16 +117,16 @@ def _summary_lines(
 
 
 def _sentence(what: str, first: str, it: _NamedDifference, p: float) -> str:
-    told = format_difference(it.difference, p)
+    difference = format_difference(it.difference, p)
     return (
         f"The {_MAIN} of {it.theory} with the {what} {it.other} differs from that "
-        f"with {first} by {told}."
+        f"with {first} by {difference}."
     )
 
 
 def _test_cells(difference: Difference, p: float) -> tuple[Cell, ...]:
-    told = drop_contradicting_interval(difference.estimate, difference.p)
-    return told, format_p(difference.p), format_p(p), difference.pairs
+    estimate = drop_contradicting_interval(difference.estimate, difference.p)
+    return estimate, format_p(difference.p), format_p(p), difference.pairs
 
 
 def _differences_of(

@@ -72,10 +72,12 @@ def _tutor_figure(series: _Series, phase: str) -> Figure:
     title += ", by tutor" if len(tutors) > 1 else ""
     if len(tutors) < 2 or sum(len(it["x"]) for it in series.values()) > _LABELLED:
         series = {name: {**it, "labels": []} for name, it in series.items()}
-    told = interval_note(
+    intervals = interval_note(
         low for it in series.values() for low in (*it["x_low"], *it["y_low"])
     )
-    return Figure("points", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
+    return Figure(
+        "points", title, {"series": series, **_LABELS}, f"{_NOTE} {intervals}"
+    )
 
 
 def _phase_figure(theories: Theories, phases: Sequence[str]) -> Figure:
@@ -89,8 +91,10 @@ def _phase_figure(theories: Theories, phases: Sequence[str]) -> Figure:
             **interval_series(right, "mean"),
         }
     title = f"Accuracy against what it cost: {test_title(phases)}"
-    told = interval_note(low for it in series.values() for low in it["low"])
-    return Figure("curves", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
+    intervals = interval_note(low for it in series.values() for low in it["low"])
+    return Figure(
+        "curves", title, {"series": series, **_LABELS}, f"{_NOTE} {intervals}"
+    )
 
 
 def _tutor_points(

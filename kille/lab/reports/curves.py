@@ -39,8 +39,8 @@ def learning_curves(theories: Theories, tests: Tests) -> Iterator[Figure]:
     asked = [[phase for phase in test if phase in phases] for test in tests]
     several = sum(map(bool, asked)) > 1
     for test in filter(None, asked):
-        told = f": {test_title(test)}" if several else ""
-        yield from _learning_curve(f"Learning curve{told}", theories, test)
+        which = f": {test_title(test)}" if several else ""
+        yield from _learning_curve(f"Learning curve{which}", theories, test)
 
 
 def _learning_curve(
@@ -71,8 +71,8 @@ def _learning_curve(
             "xlabel": "lessons",
             "ylabel": "accuracy",
         }
-        told = interval_note(low for it in series.values() for low in it["low"])
-        yield Figure("curves", title, data, f"{_note(wide)} {told}")
+        intervals = interval_note(low for it in series.values() for low in it["low"])
+        yield Figure("curves", title, data, f"{_note(wide)} {intervals}")
 
 
 def nearest_place(lessons: int, wide: int) -> int:
@@ -127,8 +127,8 @@ def reliability_figures(theories: Theories) -> Iterator[Figure]:
         "xlabel": "degree of the word that was said",
         "ylabel": "share that is right",
     }
-    told = interval_note(low for it in series.values() for low in it["low"])
-    note = f"On the dashed line degrees are what they say. {told}"
+    intervals = interval_note(low for it in series.values() for low in it["low"])
+    note = f"On the dashed line degrees are what they say. {intervals}"
     yield Figure("reliability", "Reliability", data, note)
 
 

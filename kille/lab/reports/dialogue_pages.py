@@ -1,4 +1,4 @@
-"""Pages of dialogues: what all theories were told and said, and lists that lead to it.
+"""Pages of dialogues: what all theories were told and said, and lists that lead there.
 
 Each number of a report leads to one of them. They need nothing but the report's folder.
 """

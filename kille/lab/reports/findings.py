@@ -94,8 +94,8 @@ def known_measures(theories: Theories) -> list[Measure]:
     found: list[tuple[Measure, Vector]] = []
     for measure in known:
         rows = tallies(measure, everything)
-        is_told = np.isfinite(measure.of(rows.sum(axis=0)))
-        if is_told and not any(np.array_equal(rows, its) for _, its in found):
+        is_known = np.isfinite(measure.of(rows.sum(axis=0)))
+        if is_known and not any(np.array_equal(rows, its) for _, its in found):
             found.append((measure, rows))
     return [measure for measure, _ in found]
 
@@ -130,8 +130,8 @@ def overall_table(
     rows += _answer_counts(theories)
     answers = range(1, len(rows))
     for measure in measures:
-        told = (estimate_measure(measure, them) for them in theories.values())
-        rows.append((measure.name, *told))
+        estimates = (estimate_measure(measure, them) for them in theories.values())
+        rows.append((measure.name, *estimates))
     links = {
         (row, column): places.answers(name) if row in answers else places.theory(name)
         for row in range(len(rows))

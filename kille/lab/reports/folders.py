@@ -153,7 +153,7 @@ def _describe_theory(theory: Theory) -> Described:
 def _about(folder: Path, study: Study, command: str, count: int) -> Mapping[str, str]:
     about = log.about(folder)
     versions = ", ".join(f"{name} {it}" for name, it in about.versions.items())
-    told = {
+    lines = {
         "command": command,
         "to repeat it": f"kille experiment run {quote(study.file.name)}",
         "theories": ", ".join(study.theories),
@@ -164,7 +164,7 @@ def _about(folder: Path, study: Study, command: str, count: int) -> Mapping[str,
         "begun": about.began,
         "versions": versions,
     }
-    return {head: text for head, text in told.items() if text}
+    return {head: text for head, text in lines.items() if text}
 
 
 def _format_seeds(seeds: tuple[int, ...]) -> str:

@@ -49,8 +49,8 @@ def summary_result(
 
 def _summary_lines(found: Iterable[Result]) -> str:
     parts = (part.splitlines() for it in found for part in it.text.split("\n\n"))
-    told = (part if len(part) <= _LINES else part[:1] for part in parts)
-    return "\n".join(chain.from_iterable(told))
+    shown = (part if len(part) <= _LINES else part[:1] for part in parts)
+    return "\n".join(chain.from_iterable(shown))
 
 
 def _theory_table(
@@ -85,10 +85,10 @@ def _columns(
             last = restrict_to_phase(theories, main, phases[-1])
             yield f"{main.name} in {phases[-1]}", _estimates(main, last)
     for measure in measures:
-        told = _estimates(measure, theories)
-        is_told = measure.name in beside and measure is not main
-        if is_told and any(it.value for it in told):
-            yield measure.name, told
+        estimates = _estimates(measure, theories)
+        is_shown = measure.name in beside and measure is not main
+        if is_shown and any(it.value for it in estimates):
+            yield measure.name, estimates
 
 
 def _estimates(measure: Measure, theories: Theories) -> list[Estimate]:
