@@ -16,10 +16,10 @@ __all__ = ["Answer", "Played", "Turn"]
 class Turn(NamedTuple):
     """What the tutor said or did, and what the robot answered, sentence by sentence.
 
-    `act` is his move (`instruct`, `ask_name`, …), or `shows` where something happened;
-    then `given` is the look or the command, from which it can be played again. `words`
-    are how many he said; `asks` is whether the robot asked something of its own accord,
-    `corrects` whether he set the robot right.
+    `act` is their move (`instruct`, `ask_name`, …), or `shows` where something
+    happened; then `given` is the look or the command, from which it can be played
+    again. `words` are how many they said; `asks` says whether the robot asked something
+    of its own accord, `corrects` whether they corrected the robot.
     """
 
     number: int
@@ -38,11 +38,11 @@ class Answer(NamedTuple):
     """What the robot answered to a question to which the tutor knows the answer.
 
     `kind` is that of the word asked for: noun, adjective, relation; or `reference`,
-    where a thing was to be found. `right` is what the tutor holds to be so, `said` what
-    the robot said, nothing where it did not say; `way` is how it put it (`assert`,
+    where a thing was to be found. `right` is what the tutor holds to be right, `said`
+    what the robot said, empty where it said nothing; `way` is how it put it (`assert`,
     `think`, `hedge`, `admit`). `degrees` are those of all words that it could have
-    said. `accepted` is whether the tutor might well have said it, too; `judge` what
-    another person would have said, if one was asked.
+    said. `accepted` says whether the tutor might well have said it, too; `judge` is
+    what another person would have said, if one was asked.
     """
 
     turn: int
@@ -64,14 +64,23 @@ class Answer(NamedTuple):
 
     @property
     def is_right(self) -> bool:
-        """Whether the robot said what the tutor holds to be so."""
+        """Did it say what the tutor holds to be right?"""
         return self.said == self.right
 
     @property
     def margin(self) -> float:
         """The degree of the right word less that of the best other."""
-        others = [p for word, p in self.degrees.items() if word != self.right]
-        return self.degrees.get(self.right, 0.0) - max(others, default=0.0)
+        return margin(self.degrees, self.right)
+
+
+def margin(degrees: Mapping[str, float], word: str) -> float:
+    """The degree of the word less that of the best other: above 0 where it wins.
+
+    >>> round(margin({"cup": 0.5, "car": 0.2, "cap": 0.3}, "cup"), 3)
+    0.2
+    """
+    others = [degree for it, degree in degrees.items() if it != word]
+    return degrees.get(word, 0.0) - max(others, default=0.0)
 
 
 @dataclass(frozen=True)

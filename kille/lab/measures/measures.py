@@ -29,6 +29,13 @@ Those count in which the measure is known.
 """
 
 
+def ratio(sums: Vector) -> Vector:
+    """The first number divided by the second; NaN where that is 0."""
+    over = np.where(sums[..., 1] > 0, sums[..., 1], np.nan)
+    found: Vector = sums[..., 0] / over
+    return found
+
+
 @dataclass(frozen=True)
 class Measure:
     """A measure: its name and meaning, its tally, and its value of summed tallies.
@@ -41,7 +48,7 @@ class Measure:
     name: str
     meaning: str
     tally: Callable[[ScoredDialogue], Vector]
-    of: Callable[[Vector], Vector]
+    of: Callable[[Vector], Vector] = ratio
     better: int = 1
     decimals: int = 3
 
@@ -105,122 +112,110 @@ def percentile_estimate(
 # --- shares and means ----------------------------------------------------------------
 
 
-def ratio(sums: Vector) -> Vector:
-    """The first number divided by the second; NaN where that is 0."""
-    over = np.where(sums[..., 1] > 0, sums[..., 1], np.nan)
-    found: Vector = sums[..., 0] / over
-    return found
-
-
-def _mean_of(
+def _mean_over_answers(
+    name: str,
+    meaning: str,
     of: Callable[[ScoredAnswer], float | None],
-) -> Callable[[ScoredDialogue], Vector]:
-    """The tally of a mean over those answers that have such a number."""
+    better: int = 1,
+) -> Measure:
+    """The measure that is the mean over those answers that have such a number."""
 
     def tally(dialogue: ScoredDialogue) -> Vector:
         found = [it for it in map(of, dialogue.answers) if it is not None]
         return np.array([sum(found), len(found)], np.float64)
 
-    return tally
+    return Measure(name, meaning, tally, better=better)
 
 
-def _per_dialogue(
-    of: Callable[[ScoredDialogue], float],
-) -> Callable[[ScoredDialogue], Vector]:
-    return lambda dialogue: np.array([of(dialogue), 1.0])
-
-
-def _word(
+def _mean_over_words(
+    name: str,
+    meaning: str,
     of: Callable[[ScoredAnswer], float | None],
-) -> Callable[[ScoredDialogue], Vector]:
-    return _mean_of(lambda answer: of(answer) if answer.is_word else None)
+    better: int = 1,
+) -> Measure:
+    """The same, of answers to questions for words only."""
+    return _mean_over_answers(
+        name, meaning, lambda answer: of(answer) if answer.is_word else None, better
+    )
 
 
-ACCURACY = Measure(
+def _mean_over_dialogues(
+    name: str,
+    meaning: str,
+    of: Callable[[ScoredDialogue], float],
+    better: int = 0,
+    decimals: int = 1,
+) -> Measure:
+    """The measure that is the mean of a number of each dialogue."""
+    return Measure(
+        name, meaning, lambda it: np.array([of(it), 1.0]), ratio, better, decimals
+    )
+
+
+ACCURACY = _mean_over_words(
     "accuracy",
     "the share of answers with the word that the tutor holds to be right",
-    _word(lambda it: it.is_right),
-    ratio,
+    lambda it: it.is_right,
 )
-ACCEPTED = Measure(
+ACCEPTED = _mean_over_words(
     "accepted",
     "the share of answers that the tutor might well have given, too",
-    _word(lambda it: it.accepted),
-    ratio,
+    lambda it: it.accepted,
 )
-BRIER = Measure(
+BRIER = _mean_over_words(
     "Brier score",
     "the squared distance of the degrees from 1 for the right word and 0 for all "
     "others, what they lack to 1 being one more, for none of these; 0 is best and 2 is "
     "worst (Brier 1950)",
-    _word(lambda it: it.brier),
-    ratio,
+    lambda it: it.brier,
     better=-1,
 )
-MARGIN = Measure(
+MARGIN = _mean_over_words(
     "margin",
     "the degree of the right word less that of the best other",
-    _word(lambda it: it.margin),
-    ratio,
+    lambda it: it.margin,
 )
-DEGREE = Measure(
+DEGREE = _mean_over_words(
     "degree",
     "the degree of the word that was said",
-    _word(lambda it: it.degree if it.said and it.degree == it.degree else None),
-    ratio,
+    lambda it: it.degree if it.said and it.degree == it.degree else None,
     better=0,
 )
-REFERENCES = Measure(
+REFERENCES = _mean_over_answers(
     "reference",
     "the share of things that were found when they were described",
-    _mean_of(lambda it: it.is_right if it.kind == REFERENCE else None),
-    ratio,
+    lambda it: it.is_right if it.kind == REFERENCE else None,
 )
-TURNS = Measure(
+TURNS = _mean_over_dialogues(
     "turns",
     "turns of a dialogue in which the tutor said something",
-    _per_dialogue(lambda it: sum(one.turns for one in it.efforts)),
-    ratio,
+    lambda it: sum(one.turns for one in it.efforts),
     better=-1,
-    decimals=1,
 )
-WORDS = Measure(
+WORDS = _mean_over_dialogues(
     "words",
     "words that the tutor said in a dialogue",
-    _per_dialogue(lambda it: sum(one.words for one in it.efforts)),
-    ratio,
+    lambda it: sum(one.words for one in it.efforts),
     better=-1,
-    decimals=1,
 )
-CORRECTIONS = Measure(
+CORRECTIONS = _mean_over_dialogues(
     "corrections",
     "how often the tutor said in a dialogue that the robot was wrong, or what is right "
     "instead",
-    _per_dialogue(lambda it: sum(one.corrections for one in it.efforts)),
-    ratio,
+    lambda it: sum(one.corrections for one in it.efforts),
     better=-1,
-    decimals=1,
 )
-QUESTIONS = Measure(
+QUESTIONS = _mean_over_dialogues(
     "questions",
     "questions that the robot asked in a dialogue",
-    _per_dialogue(lambda it: sum(one.questions for one in it.efforts)),
-    ratio,
-    better=0,
-    decimals=1,
+    lambda it: sum(one.questions for one in it.efforts),
 )
-LESSONS = Measure(
-    "lessons",
-    "lessons that the robot kept of a dialogue",
-    _per_dialogue(lambda it: it.lessons),
-    ratio,
-    better=0,
-    decimals=1,
+LESSONS = _mean_over_dialogues(
+    "lessons", "lessons that the robot kept of a dialogue", lambda it: it.lessons
 )
-SECONDS = Measure(
+SECONDS = _mean_over_dialogues(
     "seconds",
     "how long a dialogue took to play, which differs from machine to machine",
-    _per_dialogue(lambda it: it.seconds),
-    ratio,
-    better=0,
+    lambda it: it.seconds,
+    decimals=3,
 )

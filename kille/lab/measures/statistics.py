@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from kille.lab.dialogues import margin
 from kille.lab.results import Estimate
 from ttr.aliases import former_names
 
@@ -107,16 +108,6 @@ def confusion(
     for word, answer in zip(right, answers, strict=True):
         counts[index[word], index[answer]] += 1
     return counts
-
-
-def margin(degrees: Degrees, word: str) -> float:
-    """The degree of the word less that of the best other: above 0 where it wins.
-
-    >>> round(margin({"cup": 0.5, "car": 0.2, "cap": 0.3}, "cup"), 3)
-    0.2
-    """
-    others = [degree for it, degree in degrees.items() if it != word]
-    return degrees.get(word, 0.0) - max(others, default=0.0)
 
 
 def distinctness(margins: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
