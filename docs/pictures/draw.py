@@ -7,10 +7,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from kille.demo import OBJECTS
 from kille.perception.look import look
 from kille.perception.picture_sheet import picture_sheet, write_picture
 from kille.scene import Colour
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 from kille.sensors.synthetic.sensor import Synthetic, open_synthetic
 
 HERE = Path(__file__).parent
@@ -20,7 +20,7 @@ COLUMNS, WIDTH, HEIGHT, TITLE = 5, 140, 120, 22
 
 def objects(sensor: Synthetic) -> Colour:
     """The ten objects as the camera sees them, with their names below."""
-    cells = [_named(name, _close_up(sensor, name)) for name in OBJECTS]
+    cells = [_named(name, _close_up(sensor, name)) for name in TOY_NAMES]
     rows = [cells[i : i + COLUMNS] for i in range(0, len(cells), COLUMNS)]
     return np.vstack([np.hstack(row) for row in rows])
 

@@ -144,7 +144,7 @@ def _begin(study: Study, run: Run, number: int, count: int) -> None:
     text = f"\nDialogue {number:,} of {count:,}, {long}: {who}."
     if study.theories[run.theory].mode != PERSON:
         text += f"\n{_FIRST if number == 1 else _NEXT}"
-    ready(text)
+    wait_until_ready(text)
 
 
 def _number_outcome(outcome: Outcome, number: int) -> Outcome:

@@ -10,7 +10,14 @@ from kille.interfaces.experiment.checking import MISTAKES
 from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.experiment.people import people_in
 from kille.interfaces.experiment.running import StudyRequest, study_for_folder
-from kille.interfaces.terminal import FAILED, FINE, complain, console, hang_text
+from kille.interfaces.terminal import (
+    FAILED,
+    FINE,
+    complain,
+    complain_all,
+    console,
+    hang_text,
+)
 from kille.lab import log
 from kille.lab.log import Broken, Outcome, RunError
 from kille.lab.log.sources import changed_sources, sources

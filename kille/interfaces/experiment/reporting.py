@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.experiment.checking import MISTAKES
 from kille.interfaces.grids import (
     print_findings,
     print_result,
     print_table,
     results_console,
 )
-from kille.interfaces.terminal import FINE, console
+from kille.interfaces.terminal import FINE, complain_all, console
 from kille.lab import log, reports
 from kille.lab.log import write_tables
 from kille.lab.results import Result

@@ -9,9 +9,16 @@ from pathlib import Path
 from shlex import join
 from typing import Any, TypeAlias
 
-from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.experiment.checking import MISTAKES
 from kille.interfaces.grids import print_table, results_console
-from kille.interfaces.terminal import FAILED, FINE, console, hang_text, print_json
+from kille.interfaces.terminal import (
+    FAILED,
+    FINE,
+    complain_all,
+    console,
+    hang_text,
+    print_json,
+)
 from kille.lab import log
 from kille.lab.dialogues import Answer, Turn
 from kille.lab.log.outcomes import Broken, Finished, Outcome

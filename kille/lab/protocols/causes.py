@@ -113,14 +113,14 @@ def play_protocol(
     chance: np.random.Generator,
 ) -> RunScores:
     """Play one run of the protocol: 48 lessons and 32 questions."""
-    tutor, other = born(cause.habit, chance), born(cause.habit, chance)
+    tutor, other = draw_person(cause.habit, chance), draw_person(cause.habit, chance)
     learner = make()
     for key, scene in enumerate(placements(cause, ROUNDS, chance, 0.0)):
         word = _word_said(tutor, scene.true, cause.tutor, chance)
         learner.learn_one(scene.seen, word, key=key)
     way = chance.uniform(-pi, pi)
     asked = list(placements(cause, _TESTS, chance, cause.shift, way))
-    answers = [answer(learner.predict_proba_one(it.seen)) for it in asked]
+    answers = [likeliest_word(learner.predict_proba_one(it.seen)) for it in asked]
     judged = [
         [_word_said(judge, it.true, cause.judges, chance) for it in asked]
         for judge in (tutor, other)

@@ -145,7 +145,7 @@ def _measure_growth(
             lessons = []
             for number in range(learned, size):
                 place = number % len(seen)
-                x, word = _vary(seen[place], chance), NAMES[place]
+                x, word = _vary(seen[place], chance), TOY_NAMES[place]
                 teach = partial(learner.learn_one, x, word, key=number)
                 lessons.append(_time_call(teach))
             learned = size

@@ -25,7 +25,7 @@ from kille.lab.protocols.scoring import (
 from kille.lab.protocols.spatial import Methods
 from kille.lab.protocols.word_maps import map_figure
 from kille.lab.results import Cell, Figure, Progress, Result, Table, interval_series
-from kille.lab.scenes.published_judgements import Study
+from kille.lab.scenes.published_judgements import JudgementStudy
 from kille.perception.relations.angle import AngleRule
 from kille.scene import Configuration
 
@@ -80,7 +80,7 @@ def _ranks(
 
 
 def _draw_scores(
-    study: Study, make: Callable[[], Any], size: int, seed: int
+    study: JudgementStudy, make: Callable[[], Any], size: int, seed: int
 ) -> list[dict[str, Agreement]]:
     """The scores after so many lessons of each word, for each draw."""
     return [
@@ -122,7 +122,9 @@ def _by_size(
     )
 
 
-def _by_word(study: Study, rights: Mapping[str, Mapping[str, Agreement]]) -> Table:
+def _by_word(
+    study: JudgementStudy, rights: Mapping[str, Mapping[str, Agreement]]
+) -> Table:
     columns = ["word", "judged"]
     for name in rights:
         columns += [f"{name}: Spearman", f"{name}: accuracy", f"{name}: kappa"]
@@ -147,7 +149,7 @@ def _by_word(study: Study, rights: Mapping[str, Mapping[str, Agreement]]) -> Tab
     )
 
 
-def _choice_tables(study: Study, methods: Methods, seed: int) -> list[Table]:
+def _choice_tables(study: JudgementStudy, methods: Methods, seed: int) -> list[Table]:
     """How often learners choose the target that people chose as the best for a word."""
     if not study.choices:
         return []

@@ -78,15 +78,15 @@ _LACKING = {
 """What cannot be talked of in front of scenes of a kind."""
 
 
-def faults(phase: Phase, study: Study) -> Iterator[Wrong]:
+def faults(phase: Phase, study: Study) -> Iterator[Problem]:
     """Why a phase does not fit the tutors and scenes of a study."""
     key = ("what",) if "what" in phase.settings else ("do",)
     for scene in study.scenes.values():
-        yield from ((key, it) for it in _scene_faults(phase, scene))
-    yield from ((("to",), it) for it in _successor_faults(phase, study))
+        yield from (Problem(key, it) for it in _scene_faults(phase, scene))
+    yield from (Problem(("to",), it) for it in _successor_faults(phase, study))
     if phase.settings.get("turns") and "rounds" in phase.settings:
         problem = "rounds and turns both say how much comes: write one of them"
-        yield ("turns",), problem
+        yield Problem(("turns",), problem)
 
 
 def _scene_faults(phase: Phase, scene: Named) -> Iterator[str]:

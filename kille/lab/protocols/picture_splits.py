@@ -30,7 +30,7 @@ from kille.lab.results import (
     silent,
 )
 from kille.lab.scenes.galleries import LOOKING, Gallery
-from kille.lab.scenes.lessons import Lesson
+from kille.lab.scenes.stills import Lesson
 from kille.lab.theories.candidates import Methods
 
 _SHOWN = 12  # wrong answers in a figure

@@ -77,7 +77,7 @@ def across(
 
 
 def _look_at_scenes(
-    scenes: Scenes, chosen: Sequence[Split], progress: Progress
+    scenes: LabelledScenes, chosen: Sequence[Split], progress: Progress
 ) -> None:
     """Look at every scene that is taught or asked."""
     needed = dict.fromkeys(it for split in chosen for it in (*split.teach, split.ask))

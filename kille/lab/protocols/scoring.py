@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from kille.lab.measures.statistics import kappa, spearman
 from kille.lab.protocols.word_maps import degrees_of
-from kille.lab.scenes.published_judgements import Choice, Judged, Study
+from kille.lab.scenes.published_judgements import Choice, Judged, JudgementStudy
 from kille.scene import Configuration
 
 _FOLDS = 5
@@ -89,7 +89,10 @@ def _agreement(people: Vector, learner: Vector) -> Agreement:
 
 
 def agreement_after(
-    study: Study, make: Callable[[], Any], size: int, chance: np.random.Generator
+    study: JudgementStudy,
+    make: Callable[[], Any],
+    size: int,
+    chance: np.random.Generator,
 ) -> dict[str, Agreement]:
     """The agreement on each word after so many lessons of each, drawn at random."""
     lessons, asked = {}, {}
@@ -102,7 +105,7 @@ def agreement_after(
     return {word: _agreement(*_ask_word(learner, word, asked[word])) for word in asked}
 
 
-def _folds(study: Study, seed: int) -> Iterator[tuple[set[str], set[str]]]:
+def _folds(study: JudgementStudy, seed: int) -> Iterator[tuple[set[str], set[str]]]:
     """The scenes to teach and to ask in each fold, or places, if there is one scene."""
     groups = sorted({_group(it) for it in study.every()})
     order = np.random.default_rng(seed).permutation(len(groups))
@@ -115,7 +118,7 @@ def _group(it: Judged) -> str:
     return it.scene or str(it.x.offset)
 
 
-def _judgements_of(study: Study, groups: set[str]) -> dict[str, list[Judged]]:
+def _judgements_of(study: JudgementStudy, groups: set[str]) -> dict[str, list[Judged]]:
     return {
         word: [it for it in them if _group(it) in groups]
         for word, them in study.words.items()
@@ -123,7 +126,7 @@ def _judgements_of(study: Study, groups: set[str]) -> dict[str, list[Judged]]:
 
 
 def cross_validate(
-    study: Study, make: Callable[[], Any], seed: int
+    study: JudgementStudy, make: Callable[[], Any], seed: int
 ) -> dict[str, Agreement]:
     """The agreement on each word when all but a fifth of the scenes are taught."""
     said: dict[str, list[tuple[Vector, Vector]]] = {word: [] for word in study.words}
@@ -141,7 +144,9 @@ def _pool_folds(folds: Sequence[tuple[Vector, Vector]]) -> Agreement:
     return replace(score, within=float(np.mean(known)) if known else float("nan"))
 
 
-def score_choices(study: Study, make: Callable[[], Any], seed: int) -> dict[int, float]:
+def score_choices(
+    study: JudgementStudy, make: Callable[[], Any], seed: int
+) -> dict[int, float]:
     """Score each choice in a scene that was not taught: 1 if it is that of people.
 
     A tie of n targets counts 1/n if the right one is among them.

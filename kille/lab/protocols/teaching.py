@@ -11,7 +11,7 @@ import numpy as np
 from kille.lab.measures.confusion_figures import confusion_figure
 from kille.lab.measures.statistics import accuracy, margin, wilson
 from kille.lab.results import Estimate, Figure
-from kille.lab.scenes.lessons import Lesson
+from kille.lab.scenes.stills import Lesson
 from kille.lab.theories.candidates import Make
 
 NOTHING = "nothing known"

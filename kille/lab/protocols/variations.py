@@ -29,8 +29,8 @@ from kille.lab.results import (
     interval_series,
     silent,
 )
-from kille.lab.scenes.lessons import Lesson
-from kille.lab.scenes.shown_things import LOOKING, OnTable, each_shown
+from kille.lab.scenes.shown_things import LOOKING, OnTable, show_each
+from kille.lab.scenes.stills import Lesson
 from kille.lab.theories.candidates import Make, Methods
 from kille.sensors.synthetic.catalogue import TOY_NAMES
 
@@ -124,7 +124,7 @@ def _ask_at_angles(
 
 def specimens(methods: Methods, *, seed: int, progress: Progress = silent) -> Result:
     """Teach two things of each kind, and ask for others of the same kind."""
-    count = (len(_TAUGHT) + len(_ASKED)) * len(NAMES)
+    count = (len(_TAUGHT) + len(_ASKED)) * len(TOY_NAMES)
     steps = Steps(progress, count, 0, LOOKING)
     lessons = _of_each_kind(_TAUGHT, seed, steps, "lessons")
     questions = _of_each_kind(_ASKED, seed, steps, "new things")

@@ -40,7 +40,7 @@ def group_tests(phases: Iterable[Phase]) -> tuple[tuple[str, ...], ...]:
     """
     found: dict[object, list[str]] = {}
     for phase in phases:
-        set_ = filled(phase.settings, SETTINGS[phase.do])
+        set_ = fill_settings(phase.settings, SETTINGS[phase.do])
         settings = sorted((key, str(it)) for key, it in set_.items() if key not in _ANY)
         found.setdefault((phase.do, *settings), []).append(phase.name)
     return tuple(map(tuple, found.values()))

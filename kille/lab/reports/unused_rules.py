@@ -18,7 +18,7 @@ def unused_rules(
     A state may have more fields than its type says. So a misspelt label in what a rule
     waits for cannot be found before a study is played.
     """
-    usual = _rules_of(described(Theory("usual")))
+    usual = _rules_of(describe(Theory("usual")))
     for name, them in dialogues.items():
         applied = {rule for it in them for turn in it.turns for rule in turn.rules}
         rules = _rules_of(theories[name])

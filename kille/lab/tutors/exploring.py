@@ -21,7 +21,7 @@ from kille.dialogue.meanings import (
     value_at,
     word_of,
 )
-from kille.dialogue.tutoring import heard
+from kille.dialogue.tutoring import hear_sentences
 from kille.lab.tutors.leading_topics import (
     Situation,
     leading_topics,
@@ -295,7 +295,7 @@ def _either(mumbled: tuple[Saying, Saying, tuple[float, float]]) -> object:
         understand(one.text, one.words.language, types=one.words.types)[0]
         for one in both
     ]
-    return heard(*sentences, p=p)
+    return hear_sentences(*sentences, p=p)
 
 
 def _sample_misspelt(

@@ -228,7 +228,10 @@ def test_more_things_in_heaps_are_found_than_plainly() -> None:
     """Heaps of seeds that the merge was not fitted to; there are no meshes in them."""
     frames = [pile(seed) for seed in range(5000, 5004)]
     found = sum((score(segment(it).regions, it) for it in frames), SegmentationScore())
-    plain = sum((score(plainly(it).regions, it) for it in frames), SegmentationScore())
+    plain = sum(
+        (score(segment_by_contact(it).regions, it) for it in frames),
+        SegmentationScore(),
+    )
     assert found.recall > 0.6
     assert found.f > plain.f
 

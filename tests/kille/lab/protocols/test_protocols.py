@@ -69,9 +69,9 @@ def test_the_papers_protocol(colour: Make, mute: Make) -> None:
 
 
 def test_the_papers_own_ranking_stands_beside_ours(mute: Make) -> None:
-    answers = [ObjectAnswer(thing, {}) for thing in NAMES]
+    answers = [ObjectAnswer(thing, {}) for thing in TOY_NAMES]
     course = objects._MethodAnswers([answers], answers)
-    ranking = objects._rank_table({"mute": course}, NAMES)
+    ranking = objects._rank_table({"mute": course}, TOY_NAMES)
     assert ranking.columns == ("", "KILLE's robot", "mute")
     assert [row[1] for row in ranking.rows][:3] == ["book", "car", "shoe"]
 

@@ -34,7 +34,7 @@ def told(folder: Path, *rules: str, label: str = "latest") -> list[str]:
     (folder / "own.ttr").write_text(own, encoding="utf-8")
     theory = Theory("mute", rules=str(folder / "own.ttr"))
     return list(
-        unused_rules({"mute": described(theory)}, {"mute": dialogues("mute", *rules)})
+        unused_rules({"mute": describe(theory)}, {"mute": dialogues("mute", *rules)})
     )
 
 
@@ -51,7 +51,7 @@ def test_a_rule_that_never_applied_is_told(tmp_path: Path) -> None:
 
 
 def test_the_games_may_have_rules_that_were_not_needed() -> None:
-    usual = {"plain": described(Theory("plain"))}
+    usual = {"plain": describe(Theory("plain"))}
     assert list(unused_rules(usual, {"plain": dialogues("plain", "hear")})) == []
 
 
