@@ -93,7 +93,7 @@ def _subject(folder: Path, command: str, study: Study) -> Subject:
         lead=study.about,
         numbers=_summarise_numbers(study, len(dialogues), log.about(folder).planned),
         source=study.source,
-        broken=[(str(it.run), it.reason) for it in log.broken(folder)],
+        broken=[(str(it.run), it.reason) for it in log.broken_runs(folder)],
         warnings=[
             *_cut_short_lines(theories, study.turns),
             *unused_rules(shown, theories),
