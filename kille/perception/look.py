@@ -1,10 +1,9 @@
 """A look: some consecutive frames, and the things that stay in view throughout.
 
-Features are extracted, and traits measured, when they are first asked for, so that a
-look takes no longer than its segmentation, and only things attended to are described.
-But while a camera's frames come there is nothing else to do: a thread then segments
-the first of them, and measures the traits of the things in them, the nearest first.
-What is not begun when the last frame has come is left until it is asked for.
+Features are extracted when they are first asked for, so that a look takes no longer
+than its segmentation. While a camera's frames come there is nothing else to do: a
+thread then segments the first of them, and measures the traits of the things in them,
+the nearest first. In a still picture traits, too, are measured when they are asked for.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache, partial
-from typing import NamedTuple, TypeVar, overload
+from typing import NamedTuple, overload
 
 import cv2
 import numpy as np
@@ -28,9 +27,6 @@ SCANS = 10
 """How many consecutive frames the paper's robot looks at."""
 
 Sighting = tuple[Frame, Region]
-
-K = TypeVar("K")
-V = TypeVar("V")
 
 _SAME = 0.3  # overlap of a region with itself one frame later
 _LASTING = 0.5  # of the frames a thing must be in, or it is a flicker
@@ -84,9 +80,7 @@ def look(
         raise ValueError(f"a look takes at least one scan, not {scans}")
     captured = _capture(sensor, scans)
     frames = captured.frames
-    scenes = cache(
-        lambda number: captured.scenes.get(frames[number]) or segment(frames[number])
-    )
+    scenes = cache(captured.scene)
     first = scenes(0)
     tracks = [_track(region, frames, scenes) for region in first.regions]
     lasting = [track for track in tracks if len(track) >= _LASTING * len(frames)]
@@ -96,21 +90,27 @@ def look(
     return Look(frames[0], percepts, first.up)
 
 
-def _percept(track: Sequence[Sighting], traits: Mapping[Region, Traits]) -> Percept:
+def _percept(
+    track: Sequence[Sighting], traits: Mapping[Region, Future[Traits]]
+) -> Percept:
     """The percept of a thing from its sightings, the first of which is measured."""
     frame, region = track[0]
-    if region in traits:
-        known = traits[region]
-        return Percept(region, Scans(track), lambda: known, frame)
-    return Percept(region, Scans(track), partial(measure_cues, frame, region), frame)
+    begun = traits.get(region)
+    measure = partial(measured, frame, region) if begun is None else begun.result
+    return Percept(region, Scans(track), measure, frame)
 
 
 class _Captured(NamedTuple):
-    """The frames of a look, and what was made out in the first ones meanwhile."""
+    """The frames of a look, and what a thread makes out in the first ones."""
 
     frames: Sequence[Frame]
-    scenes: Mapping[Frame, SegmentedFrame]
-    traits: Mapping[Region, Traits]
+    scenes: Mapping[Frame, Future[Scene]]
+    traits: Mapping[Region, Future[Traits]]
+
+    def scene(self, number: int) -> Scene:
+        """The scene in this frame, segmented here if the thread does not do it."""
+        begun = self.scenes.get(self.frames[number])
+        return segment(self.frames[number]) if begun is None else begun.result()
 
 
 def _capture(sensor: Sensor, scans: int) -> _Captured:
@@ -119,25 +119,37 @@ def _capture(sensor: Sensor, scans: int) -> _Captured:
     if not second or second[0].colour is first.colour:
         others = (sensor.frame() for _ in range(scans - 2))
         return _Captured(_distinct([first, *second, *others]), {}, {})
-    frames = [first, *second]
+    worker = ThreadPoolExecutor(1, "kille-look")
+    try:
+        return _capture_with(worker, sensor, [first, *second], scans)
+    except BaseException:
+        worker.shutdown(wait=False, cancel_futures=True)
+        raise
+    finally:
+        worker.shutdown(wait=False)
+
+
+def _capture_with(
+    worker: ThreadPoolExecutor, sensor: Sensor, frames: list[Frame], scans: int
+) -> _Captured:
+    """Take the frames that are missing; the worker goes on when they have come."""
+    first = frames[0]
+    scenes = {frame: worker.submit(segment, frame) for frame in frames}
     traits: dict[Region, Future[Traits]] = {}
-    with ThreadPoolExecutor(1, "kille-look") as worker:
-        scenes = {frame: worker.submit(segment, frame) for frame in frames}
-        for number in range(2, scans):
-            frames.append(frame := sensor.frame())
-            if number < _DOUBTED:
-                scenes[frame] = worker.submit(segment, frame)
-            if not traits and (scene := _results(scenes).get(first)):
-                regions = scene.regions
-                traits = {it: worker.submit(measure_cues, first, it) for it in regions}
-        worker.shutdown(cancel_futures=True)
-    return _Captured(_distinct(frames), _results(scenes), _results(traits))
 
+    def begin_traits() -> None:
+        for region in scenes[first].result().regions:
+            traits[region] = worker.submit(measured, first, region)
 
-def _results(begun: Mapping[K, Future[V]]) -> dict[K, V]:
-    """What is done of what was begun. What failed fails again when it is needed."""
-    ended = {key: it for key, it in begun.items() if it.done() and not it.cancelled()}
-    return {key: it.result() for key, it in ended.items() if it.exception() is None}
+    for number in range(len(frames), scans):
+        frames.append(frame := sensor.frame())
+        if number < _DOUBTED:
+            scenes[frame] = worker.submit(segment, frame)
+        if not traits and scenes[first].done():
+            begin_traits()
+    if not traits:
+        begin_traits()
+    return _Captured(_distinct(frames), scenes, traits)
 
 
 def _distinct(frames: Sequence[Frame]) -> list[Frame]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
@@ -13,14 +14,16 @@ import numpy as np
 import pytest
 from tabletop import UP, Camera, Card, frame_of, share
 
-from kille.lab.scenes.shown_things import OnTable
+from kille.experiments.table import OnTable
+from kille.perception.cues import measured
 from kille.perception.features import features_of
 from kille.perception.look import look
 from kille.perception.pointing import region_at
 from kille.perception.segment import SegmentedFrame, region_of, segment
 from kille.scene import Frame
 from kille.sensors.recordings import open_recording
-from kille.sensors.synthetic.catalogue import TOY_NAMES
+from kille.sensors.sensor import SensorError
+from kille.sensors.synthetic.catalogue import NAMES
 
 LEFT, RIGHT = Card(-0.12, 0.8, seed=1), Card(0.12, 0.9, seed=2)
 
@@ -53,15 +56,6 @@ def test_a_still_is_scanned_once() -> None:
     assert percept.region.place is None
 
 
-class Idle(ThreadPoolExecutor):
-    """A thread that finds no time to do anything."""
-
-    def submit(self, *_: Any) -> Future[Any]:
-        future = Future[Any]()
-        future.cancel()
-        return future
-
-
 class Quick(ThreadPoolExecutor):
     """A thread that has done everything at once."""
 
@@ -78,18 +72,18 @@ def test_what_is_done_while_the_frames_come_makes_no_difference(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     shown = frames(10, LEFT, RIGHT)
-    looks = [look(Camera(*shown))]
-    for worker in (Idle, Quick):
-        monkeypatch.setattr("kille.perception.look.ThreadPoolExecutor", worker)
-        looks.append(look(Camera(*shown)))
-    for percepts in zip(*(it.percepts for it in looks), strict=True):
-        first, *others = percepts
-        for other in others:
-            assert np.array_equal(other.region.mask, first.region.mask)
-            assert other.region.place == first.region.place
-            assert other.traits.keys() == first.traits.keys()
-            for cue, vector in first.traits.items():
-                assert np.array_equal(other.traits[cue], vector)
+    late = look(Camera(*shown))
+    monkeypatch.setattr("kille.perception.look.ThreadPoolExecutor", Quick)
+    early = look(Camera(*shown))
+    for one, other in zip(late.percepts, early.percepts, strict=True):
+        assert np.array_equal(one.region.mask, other.region.mask)
+        assert one.region.place == other.region.place
+        assert one.frame is not None
+        now = measured(one.frame, one.region)
+        assert one.traits.keys() == other.traits.keys() == now.keys()
+        for cue, vector in now.items():
+            assert np.array_equal(one.traits[cue], vector)
+            assert np.array_equal(other.traits[cue], vector)
 
 
 def test_traits_are_measured_while_the_frames_come(
@@ -99,6 +93,23 @@ def test_traits_are_measured_while_the_frames_come(
     seen = look(Camera(*frames(10, LEFT, RIGHT)))
     monkeypatch.setattr("kille.perception.look.measured", None)
     assert all(percept.traits for percept in seen.percepts)
+
+
+def test_a_sensor_that_fails_in_the_middle_leaves_no_thread_behind() -> None:
+    camera = Camera(*frames(3, LEFT))
+
+    def fail_later() -> Frame:
+        if camera.given == 2:
+            raise SensorError("it is gone")
+        return Camera.frame(camera)
+
+    camera.frame = fail_later  # type: ignore[method-assign]
+    with pytest.raises(SensorError, match="it is gone"):
+        look(camera)
+    for thread in threading.enumerate():
+        if thread.name.startswith("kille-look"):
+            thread.join(60)
+            assert not thread.is_alive()
 
 
 def test_what_fails_in_a_frame_that_nobody_needs_is_no_failure(
