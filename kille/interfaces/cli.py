@@ -636,7 +636,7 @@ def _evaluate(options: argparse.Namespace) -> int:
         ask=tuple(options.ask),
         words=options.words,
     )
-    return evaluate(request, as_json() if options.json else as_tables())
+    return evaluate(request, as_json if options.json else as_tables)
 
 
 def _experiment_check(options: argparse.Namespace) -> int:

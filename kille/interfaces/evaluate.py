@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from shlex import join
-from typing import Any
+from typing import Any, NamedTuple
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -63,43 +63,31 @@ class EvaluationRequest:
         return f"How well are {self.what} learned?"
 
 
-class _Tables:
-    """Prints each result as soon as it is there."""
+class Printer(NamedTuple):
+    """How results are printed: each as soon as it is there, and all at the end."""
 
-    def result(self, plan: Plan, result: Result) -> None:
-        print_result(results_console(), result)
-
-    def end(
-        self,
-        about: Mapping[str, Any],
-        found: Mapping[str, Result],
-        failures: Sequence[str],
-    ) -> None:
-        pass
+    result: Callable[[Result], None]
+    end: Callable[[Mapping[str, Any], Mapping[str, Result], Sequence[str]], None]
 
 
-class _Json:
-    """Prints all results at the end as one object."""
-
-    def result(self, plan: Plan, result: Result) -> None:
-        pass
-
-    def end(
-        self,
-        about: Mapping[str, Any],
-        found: Mapping[str, Result],
-        failures: Sequence[str],
-    ) -> None:
-        results = [_as_object(name, result) for name, result in found.items()]
-        report = {**about, "failed": list(failures), "results": results}
-        print_json(_plain(report), allow_nan=False)
+def _print_json(
+    about: Mapping[str, Any], found: Mapping[str, Result], failures: Sequence[str]
+) -> None:
+    results = [_as_object(name, result) for name, result in found.items()]
+    report = {**about, "failed": list(failures), "results": results}
+    print_json(_plain(report), allow_nan=False)
 
 
-as_tables, as_json = _Tables, _Json
-"""How results are printed: for people, or for machines."""
+as_tables = Printer(
+    lambda result: print_result(results_console(), result), lambda *_: None
+)
+"""For people."""
+
+as_json = Printer(lambda result: None, _print_json)
+"""For machines: one object."""
 
 
-def evaluate(request: EvaluationRequest, printer: _Tables | _Json) -> int:
+def evaluate(request: EvaluationRequest, printer: Printer) -> int:
     """Run the protocols; returns the exit code, 1 if a method failed."""
     failures: list[str] = []
 
@@ -115,7 +103,7 @@ def evaluate(request: EvaluationRequest, printer: _Tables | _Json) -> int:
             if result is None:
                 break
             found[plan.name] = result
-            printer.result(plan, result)
+            printer.result(result)
         about = _about(request, plans)
         printer.end(about, found, failures)
         _write(request, about, found, failures)

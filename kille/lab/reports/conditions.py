@@ -88,8 +88,10 @@ def _cross_conditions(
 
 def _varied_conditions(places: Places) -> list[_Heads]:
     """Tutors if there are several, and scenes if there are."""
-    of = ((_TUTOR, places.tutors), (_SCENE, places.scenes))
-    return [heads for heads, names in of if len(names) > 1]
+    conditions = (_TUTOR, _SCENE)
+    return [
+        it for it in conditions if all(len(places.numbers[name]) > 1 for name in it)
+    ]
 
 
 def _by_heads(heads: _Heads) -> str:
@@ -116,29 +118,37 @@ def _table(
     by: str, heads: _Heads, parts: _Parts, measures: Sequence[Measure], places: Places
 ) -> Table:
     """The table of these measures, without those that are the same everywhere."""
-    rows: list[tuple[Cell, ...]] = []
-    links = {}
-    keys = _keys(parts)
+    rows = []
     for measure in measures:
-        found = {
-            key: [estimate_measure(measure, of.get(key, ())) for of in parts.values()]
-            for key in keys
-        }
-        if len({it.value for of in found.values() for it in of}) == 1:
-            continue
-        for key, estimates in found.items():
-            for column, name in enumerate(parts, start=1 + len(key)):
-                links[len(rows), column] = _place(places, name, heads, key)
-            rows.append((measure.name, *key, *estimates))
-    columns = ("measure", *heads, *parts)
-    return Table(by.capitalize(), columns, tuple(rows), "", links)
+        found = _estimates(parts, measure)
+        if len({it.value for of in found.values() for it in of.values()}) > 1:
+            rows += [(measure.name, key, found) for key in _keys(parts)]
+    columns = ("measure", *heads)
+    return _estimate_table(by.capitalize(), columns, list(parts), rows, places)
 
 
-def _place(places: Places, theory: str, heads: _Heads, key: _Key) -> str:
-    named = dict(zip(heads, key, strict=True))
-    if "scene" in named:
-        return places.scene(theory, named["scene"])
-    return places.tutor(theory, named["tutor"])
+_Row: TypeAlias = tuple[str, _Key, "_Estimates"]
+"""What a row is of, the condition, and the estimates of all theories."""
+
+
+def _estimate_table(
+    title: str,
+    heads: Sequence[str],
+    theories: Sequence[str],
+    rows: Sequence[_Row],
+    places: Places,
+) -> Table:
+    """A table with a column for each theory, in which numbers lead to dialogues."""
+    cells: tuple[tuple[Cell, ...], ...] = tuple(
+        (first, *key, *(found[name][key] for name in theories))
+        for first, key, found in rows
+    )
+    links = {
+        (row, column): places.dialogues(name, heads[-1], key[-1])
+        for row, (_, key, _) in enumerate(rows)
+        for column, name in enumerate(theories, start=len(heads))
+    }
+    return Table(title, (*heads, *theories), cells, "", links)
 
 
 def _by_phase(
@@ -160,18 +170,12 @@ def _by_phase(
     if len(phases) * len(keys) > _ROWS:
         phases = phases[-1:]
         title = f"{main.name.capitalize()} in {phases[-1]}"
-    rows: list[tuple[Cell, ...]] = []
-    links = {}
+    rows = []
     for phase in phases:
         parts = _parts(restrict_to_phase(theories, main, phase), heads)
-        for key in keys:
-            for column, name in enumerate(parts, start=1 + len(key)):
-                links[len(rows), column] = _place(places, name, heads, key)
-            estimates = (
-                estimate_measure(main, of.get(key, ())) for of in parts.values()
-            )
-            rows.append((phase, *key, *estimates))
-    yield Table(title, ("phase", *heads, *theories), tuple(rows), "", links)
+        found = _estimates(parts, main, keys)
+        rows += [(phase, key, found) for key in keys]
+    yield _estimate_table(title, ("phase", *heads), list(theories), rows, places)
 
 
 # --- figures -------------------------------------------------------------------------
@@ -194,8 +198,10 @@ def last_phase_figures(
 _Estimates: TypeAlias = Mapping[str, Mapping[_Key, Estimate]]
 
 
-def _estimates(parts: _Parts, measure: Measure) -> _Estimates:
-    keys = _keys(parts)
+def _estimates(
+    parts: _Parts, measure: Measure, keys: Sequence[_Key] | None = None
+) -> _Estimates:
+    keys = _keys(parts) if keys is None else keys
     return {
         name: {key: estimate_measure(measure, of.get(key, ())) for key in keys}
         for name, of in parts.items()

@@ -17,13 +17,12 @@ from kille.lab.reports.contrasts import (
     FEW,
     TESTED,
     correct_by_family,
-    drop_contradicting_interval,
     format_difference,
-    format_p,
+    test_cells,
 )
 from kille.lab.reports.findings import Theories
 from kille.lab.reports.links import Places
-from kille.lab.results import Cell, Table
+from kille.lab.results import Table
 from kille.lab.study import Run
 
 _SEED = 3  # of the chance by which pairs are resampled and exchanged
@@ -64,18 +63,14 @@ def compare_with_first(
 ) -> Iterator[Comparison]:
     """Compare all tutors with the first tutor, and all scenes with the first scene."""
     tested = [it for it in measures if it.name in _TESTED]
-    yield from _compare_names("tutor", list(places.tutors), theories, tested, places)
-    yield from _compare_names("scene", list(places.scenes), theories, tested, places)
+    for what in ("tutor", "scene"):
+        yield from _compare_names(what, theories, tested, places)
 
 
 def _compare_names(
-    what: str,
-    names: Sequence[str],
-    theories: Theories,
-    measures: Sequence[Measure],
-    places: Places,
+    what: str, theories: Theories, measures: Sequence[Measure], places: Places
 ) -> Iterator[Comparison]:
-    first, *others = names
+    first, *others = names = list(places.numbers[what])
     named = [
         one
         for theory, them in theories.items()
@@ -86,7 +81,7 @@ def _compare_names(
         return
     ps = correct_by_family([(it.measure, it.difference.p) for it in named])
     rows = tuple(
-        (*it.name_cells, *_test_cells(it.difference, p))
+        (*it.name_cells, *test_cells(it.difference, p))
         for it, p in zip(named, ps, strict=True)
     )
     columns = ("theory", "measure", what, "difference", "p", "p (Holm)", "pairs")
@@ -124,11 +119,6 @@ def _sentence(what: str, first: str, it: _NamedDifference, p: float) -> str:
     )
 
 
-def _test_cells(difference: Difference, p: float) -> tuple[Cell, ...]:
-    estimate = drop_contradicting_interval(difference.estimate, difference.p)
-    return estimate, format_p(difference.p), format_p(p), difference.pairs
-
-
 def _differences_of(
     what: str,
     theory: str,
@@ -142,12 +132,10 @@ def _differences_of(
     pairs = in_pairs(*sides)
     if not pairs:
         return
-    place = places.tutor if what == "tutor" else places.scene
+    place = places.dialogues(theory, what, names[1])
     found = differences(measures, pairs, np.random.default_rng(_SEED))
     for measure, difference in found.items():
-        yield _NamedDifference(
-            theory, measure, *names, difference, place(theory, names[1])
-        )
+        yield _NamedDifference(theory, measure, *names, difference, place)
 
 
 def _without(

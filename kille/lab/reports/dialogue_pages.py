@@ -5,7 +5,7 @@ Each number of a report leads to one of them. They need nothing but the report's
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import combinations, cycle
 
 from kille.lab.dialogues import Turn
@@ -166,8 +166,8 @@ def _dialogue_lists(
 ) -> Iterator[Markup]:
     """The dialogues of a theory, tutor by tutor and scene by scene."""
     yield element("p", link("all answers", _beside(places.answers(name))))
-    for what, numbers in (("tutor", places.tutors), ("scene", places.scenes)):
-        for one, number in numbers.items():
+    for what in ("tutor", "scene"):
+        for one, number in places.numbers[what].items():
             those = [it for it in dialogues if getattr(it.run, what) == one]
             yield element("h3", f"{what} {one}", id=f"{what}-{number}")
             yield _linked_rows(_HEADS, those, map(_counts, those), places)
@@ -212,26 +212,22 @@ def _answer_lists(
     yield element("p", link("all dialogues", _beside(places.theory(name))))
     yield element("p", _LINKS, class_="note")
     given = [(it, answer) for it in dialogues for answer in it.answers]
-    for kind, number in places.kinds.items():
+    for kind, number in places.numbers["kind"].items():
         of_kind = [it for it in given if it[1].kind == kind]
         yield element("h2", kind, id=f"kind-{number}")
-        for (of, word), place in places.words.items():
+        for (of, word), place in places.numbers["word"].items():
             if of == kind:
                 some = [it for it in of_kind if it[1].right == word]
                 yield element("h3", word, id=f"word-{place}")
                 yield _answer_table(some, places)
-    yield from _answers_by("phase", "in", places.phases, given, places)
-    yield from _answers_by("way", "as", places.ways, given, places)
+    yield from _answers_by("phase", "in", given, places)
+    yield from _answers_by("way", "as", given, places)
 
 
 def _answers_by(
-    what: str,
-    preposition: str,
-    numbers: Mapping[str, int],
-    given: Sequence[_Given],
-    places: Places,
+    what: str, preposition: str, given: Sequence[_Given], places: Places
 ) -> Iterator[Markup]:
-    for one, number in numbers.items():
+    for one, number in places.numbers[what].items():
         some = [it for it in given if getattr(it[1], what) == one]
         if some:
             yield element("h2", f"{preposition} {one}", id=f"{what}-{number}")

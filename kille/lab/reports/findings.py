@@ -5,7 +5,7 @@ Numbers lead to the dialogues behind them, whose places are `places`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import chain
 from typing import TypeAlias
@@ -33,7 +33,6 @@ from kille.lab.measures.measures import (
     tallies,
 )
 from kille.lab.measures.scored_dialogues import (
-    ScoredAnswer,
     ScoredDialogue,
     dialogues_of,
     split_dialogues,
@@ -159,31 +158,14 @@ def measure_meanings(measures: Sequence[Measure]) -> Result:
 def detail_tables(theories: Theories, places: Places) -> Iterator[Table]:
     """How many answers are right: by kind of word, phase, way of saying and word."""
     words = _words_only(theories)
-
-    def to_kind(name: str, key: Sequence[str]) -> str:
-        return places.kind(name, key[0])
-
-    def to_phase(name: str, key: Sequence[str]) -> str:
-        return places.phase(name, key[0])
-
-    def to_way(name: str, key: Sequence[str]) -> str:
-        return places.way(name, key[0])
-
-    def to_word(name: str, key: Sequence[str]) -> str:
-        return places.word(name, key[0], key[1])
-
-    yield from _tables_by(
-        "By kind of word", ("kind",), words, lambda it: (it.kind,), to_kind
-    )
-    yield from _tables_by(
-        "By phase", ("phase",), words, lambda it: (it.phase,), to_phase
-    )
-    yield from _tables_by(
-        "By how it was put", ("way",), words, lambda it: (it.way,), to_way
-    )
-    yield from _tables_by(
-        "By word", ("kind", "word"), words, lambda it: (it.kind, it.right), to_word
-    )
+    for title, what, key in (
+        ("By kind of word", "kind", lambda it: (it.kind,)),
+        ("By phase", "phase", lambda it: (it.phase,)),
+        ("By how it was put", "way", lambda it: (it.way,)),
+        ("By word", "word", lambda it: (it.kind, it.right)),
+    ):
+        parts = {name: split_dialogues(them, key) for name, them in words.items()}
+        yield from _accuracy_tables(title, what, parts, places)
 
 
 _Key: TypeAlias = tuple[str, ...]
@@ -197,29 +179,19 @@ def _words_only(theories: Theories) -> Theories:
     }
 
 
-def _tables_by(
-    title: str,
-    heads: _Key,
-    theories: Theories,
-    key: Callable[[ScoredAnswer], _Key],
-    to: Callable[[str, _Key], str],
-) -> Iterator[Table]:
-    parts = {name: split_dialogues(them, key) for name, them in theories.items()}
-    yield from _accuracy_tables(title, heads, parts, to)
-
-
 def _accuracy_tables(
     title: str,
-    heads: _Key,
+    what: str,
     parts: Mapping[str, Mapping[_Key, Sequence[ScoredDialogue]]],
-    to: Callable[[str, _Key], str],
+    places: Places,
 ) -> Iterator[Table]:
     """The accuracy of each theory in each part, and the numbers of answers.
 
     These have a table of their own where they differ between theories.
     """
+    heads = ("kind", "word") if what == "word" else (what,)
     keys = dict.fromkeys(key for them in parts.values() for key in them)
-    ordered = sorted(keys) if len(heads) > 1 else list(keys)
+    ordered = sorted(keys) if what == "word" else list(keys)
     counts = [[_count(of.get(key, ())) for of in parts.values()] for key in ordered]
     alike = all(len({*row}) == 1 for row in counts)
     rows: list[tuple[Cell, ...]] = []
@@ -227,7 +199,8 @@ def _accuracy_tables(
     for row, (key, count) in enumerate(zip(ordered, counts, strict=True)):
         cells: list[Cell] = [*key]
         for name, of in parts.items():
-            links[row, len(cells)] = to(name, key)
+            one = key if what == "word" else key[0]
+            links[row, len(cells)] = places.answers(name, what, one)
             cells.append(estimate_measure(ACCURACY, of[key]) if key in of else None)
         rows.append((*cells, *count[:1]) if alike else tuple(cells))
     columns = (*heads, *parts, "answers") if alike else (*heads, *parts)

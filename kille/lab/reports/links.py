@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from kille.lab.measures.scored_dialogues import ScoredDialogue
 from kille.lab.study import Run
@@ -22,50 +22,30 @@ _Name = TypeVar("_Name")
 class Places:
     """The addresses of dialogues; what they are of has numbers from 1.
 
-    `folder` is the address of their folder, as seen from the report.
+    `folder` is the address of their folder, as seen from the report. `numbers` are
+    those of each tutor, scene, phase, way, kind and word, under these names.
     """
 
     folder: str
     theories: Mapping[str, int]
-    tutors: Mapping[str, int]
-    scenes: Mapping[str, int]
-    phases: Mapping[str, int]
-    words: Mapping[tuple[str, str], int]
-    kinds: Mapping[str, int]
-    ways: Mapping[str, int]
     pairs: Mapping[Pair, int]
+    numbers: Mapping[str, Mapping[Any, int]]
 
     def theory(self, name: str) -> str:
         """All dialogues of a theory."""
         return f"{self.folder}/theory-{self.theories[name]}.html"
 
-    def tutor(self, name: str, tutor: str) -> str:
-        """The dialogues of a theory with a tutor."""
-        return f"{self.theory(name)}#tutor-{self.tutors[tutor]}"
+    def dialogues(self, name: str, what: str, one: str) -> str:
+        """The dialogues of a theory with a `tutor`, or in front of a `scene`."""
+        return f"{self.theory(name)}#{what}-{self.numbers[what][one]}"
 
-    def scene(self, name: str, scene: str) -> str:
-        """The dialogues of a theory in front of a scene."""
-        return f"{self.theory(name)}#scene-{self.scenes[scene]}"
+    def answers(self, name: str, what: str = "", one: object = None) -> str:
+        """The answers of a theory: all, or those in a `phase`, put in a `way`, …
 
-    def answers(self, name: str) -> str:
-        """All answers of a theory."""
-        return f"{self.folder}/theory-{self.theories[name]}-answers.html"
-
-    def word(self, name: str, kind: str, word: str) -> str:
-        """The answers of a theory where this word was right."""
-        return f"{self.answers(name)}#word-{self.words[kind, word]}"
-
-    def kind(self, name: str, kind: str) -> str:
-        """The answers of a theory where a word of this kind was right."""
-        return f"{self.answers(name)}#kind-{self.kinds[kind]}"
-
-    def phase(self, name: str, phase: str) -> str:
-        """The answers of a theory in a phase."""
-        return f"{self.answers(name)}#phase-{self.phases[phase]}"
-
-    def way(self, name: str, way: str) -> str:
-        """The answers of a theory that were put in this way."""
-        return f"{self.answers(name)}#way-{self.ways[way]}"
+        A `kind` and a `word` (a kind and a word of it) are those of the right answer.
+        """
+        page = f"{self.folder}/theory-{self.theories[name]}-answers.html"
+        return f"{page}#{what}-{self.numbers[what][one]}" if what else page
 
     def against(self, one: str, other: str) -> str:
         """Where two theories differ most."""
@@ -98,16 +78,19 @@ def places_of(
         *(one.phase for it in dialogues for one in it.efforts),
         *(it.phase for it in answers),
     ]
+    names: Mapping[str, Sequence[object]] = {
+        "tutor": [it.run.tutor for it in dialogues],
+        "scene": [it.run.scene for it in dialogues],
+        "phase": phases,
+        "word": sorted({(it.kind, it.right) for it in answers}),
+        "kind": sorted({it.kind for it in answers}),
+        "way": sorted({it.way for it in answers}),
+    }
     return Places(
         folder,
         theories=_number(theories),
-        tutors=_number([it.run.tutor for it in dialogues]),
-        scenes=_number([it.run.scene for it in dialogues]),
-        phases=_number(phases),
-        words=_number(sorted({(it.kind, it.right) for it in answers})),
-        kinds=_number(sorted({it.kind for it in answers})),
-        ways=_number(sorted({it.way for it in answers})),
         pairs=_number([it.pair for it in dialogues]),
+        numbers={what: _number(them) for what, them in names.items()},
     )
 
 

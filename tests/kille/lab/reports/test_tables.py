@@ -144,7 +144,7 @@ def test_answers_are_counted_for_each_theory_where_they_are_not_as_many() -> Non
     assert put.columns == ("way", "bold", "shy")
     assert row(put, "hedge") == (2, 8)
     assert row(put, "assert") == (6, 0)
-    assert put.links[0, 1] == places.way("bold", "assert")
+    assert put.links[0, 1] == places.answers("bold", "way", "assert")
     assert row(found["By kind of word"], "noun")[-1] == 8
     assert "By kind of word: answers" not in found
 
@@ -219,7 +219,7 @@ def test_each_phase_is_told_with_each_tutor(theories: Theories) -> None:
     assert table.title == "Accuracy, phase by phase"
     assert row(table, "test 2", "corrects") == (0.5, 1.0)
     assert len(table.rows) == 4
-    assert table.links[1, 3] == places.tutor("autonomous", "corrects")
+    assert table.links[1, 3] == places.dialogues("autonomous", "tutor", "corrects")
 
 
 def test_two_people_who_never_quite_agree_are_drawn_as_the_ceiling() -> None:
