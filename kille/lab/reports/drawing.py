@@ -11,22 +11,22 @@ import re
 import warnings
 from collections.abc import Callable, Mapping
 from importlib.util import find_spec
-from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from kille.lab.reports.figure_styles import (
     FAINT,
-    HUES,
     INK,
-    MARKERS,
     RIGHT,
     WIDTH,
     WRONG,
+    add_grid,
     add_legend,
     blank_drawing,
+    hide_vertical_axis,
     name_axes,
+    styled,
 )
 from kille.lab.reports.interval_figures import (
     draw_intervals,
@@ -178,9 +178,7 @@ def _draw_curves(data: Mapping[str, Any]) -> Drawing:
     drawn, axes = blank_drawing(WIDTH, 3.8)
     series = data["series"]
     top = 0.0
-    for (name, it), hue, marker in zip(
-        series.items(), cycle(HUES), cycle(MARKERS), strict=False
-    ):
+    for name, it, hue, marker in styled(series):
         x = it.get("x", data.get("x"))
         axes.plot(x, it["mean"], color=hue, marker=marker, ms=5, lw=1.8, label=name)
         if it.get("low") is not None and it.get("high") is not None:
@@ -198,7 +196,7 @@ def _draw_curves(data: Mapping[str, Any]) -> Drawing:
         axes.set_xticks(list(data["x"]), [f"{it:,g}" for it in data["x"]])
         axes.set_xticks([], minor=True)
     name_axes(axes, data)
-    axes.grid(color=FAINT, alpha=0.25, lw=0.6)
+    add_grid(axes)
     add_legend(axes)
     return drawn
 
@@ -227,9 +225,7 @@ def _draw_bars(data: Mapping[str, Any]) -> Drawing:
     high = max(*values, *(data.get("high") or [0.0]), 0.0)
     axes.set_xlim(low * 1.05, 1.03 if 0.5 < high <= 1 else high * 1.05 or 1)
     axes.set_xlabel(data.get("ylabel", ""))
-    axes.tick_params(axis="y", length=0)
-    axes.spines["left"].set_visible(False)
-    axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.6)
+    hide_vertical_axis(axes)
     return drawn
 
 

@@ -6,8 +6,9 @@ series differ in their markers too.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Mapping
+from itertools import cycle
+from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,6 +37,28 @@ def blank_drawing(width: float, height: float) -> tuple[Drawing, Axes]:
 
     drawn = Drawing(figsize=(width, height), layout="constrained")
     return drawn, drawn.subplots()
+
+
+def styled(
+    series: Mapping[str, Mapping[str, Any]],
+) -> Iterator[tuple[str, Mapping[str, Any], str, str]]:
+    """Each series by its name, with its hue and its marker."""
+    for (name, it), hue, marker in zip(
+        series.items(), cycle(HUES), cycle(MARKERS), strict=False
+    ):
+        yield name, it, hue, marker
+
+
+def add_grid(axes: Axes, axis: Literal["x", "both"] = "both") -> None:
+    """Draw faint lines at the ticks."""
+    axes.grid(axis=axis, color=FAINT, alpha=0.25, lw=0.6)
+
+
+def hide_vertical_axis(axes: Axes) -> None:
+    """Leave only the labels of the vertical axis."""
+    axes.tick_params(axis="y", length=0)
+    axes.spines["left"].set_visible(False)
+    add_grid(axes, "x")
 
 
 def add_legend(axes: Axes, width: float = WIDTH) -> None:

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from kille.lab.reports.figure_styles import (
     FAINT,
-    HUES,
     INK,
-    MARKERS,
     WIDTH,
+    add_grid,
     add_legend,
     blank_drawing,
+    hide_vertical_axis,
     name_axes,
+    styled,
 )
 from kille.lab.reports.point_labels import label_points
 
@@ -33,9 +33,7 @@ def draw_intervals(data: Mapping[str, Any]) -> Drawing:
     high = 1.1 + (_ROW + _SERIES * len(series)) * len(labels)
     drawn, axes = blank_drawing(WIDTH, high)
     apart = 0.62 / max(len(series), 1)
-    for number, ((name, it), hue, marker) in enumerate(
-        zip(series.items(), cycle(HUES), cycle(MARKERS), strict=False)
-    ):
+    for number, (name, it, hue, marker) in enumerate(styled(series)):
         places = np.arange(len(labels)) + (number - (len(series) - 1) / 2) * apart
         axes.hlines(places, it["low"], it["high"], color=hue, lw=1.6)
         axes.plot(
@@ -48,9 +46,7 @@ def draw_intervals(data: Mapping[str, Any]) -> Drawing:
     axes.set_xlabel(data.get("xlabel", ""))
     axes.locator_params(axis="x", nbins=6)
     axes.ticklabel_format(axis="x", style="plain", useOffset=False)
-    axes.tick_params(axis="y", length=0)
-    axes.spines["left"].set_visible(False)
-    axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.6)
+    hide_vertical_axis(axes)
     if len(series) > 1:
         add_legend(axes)
     return drawn
@@ -68,9 +64,7 @@ def draw_reliability(data: Mapping[str, Any]) -> Drawing:
         2, 1, sharex=True, gridspec_kw={"height_ratios": (4, 1)}
     )
     axes.plot([0, 1], [0, 1], color=FAINT, lw=1, ls=(0, (4, 3)))
-    for (name, it), hue, marker in zip(
-        data["series"].items(), cycle(HUES), cycle(MARKERS), strict=False
-    ):
+    for name, it, hue, marker in styled(data["series"]):
         axes.vlines(it["x"], it["low"], it["high"], color=hue, lw=1.2)
         axes.plot(it["x"], it["y"], color=hue, marker=marker, ms=5, lw=1.4, label=name)
         below.plot(it["x"], it["counts"], color=hue, marker=marker, ms=3.5, lw=1)
@@ -79,7 +73,7 @@ def draw_reliability(data: Mapping[str, Any]) -> Drawing:
     name_axes(below, {"xlabel": data.get("xlabel", ""), "ylabel": "answers"})
     below.set_ylim(bottom=0)
     for it in (axes, below):
-        it.grid(color=FAINT, alpha=0.25, lw=0.6)
+        add_grid(it)
     add_legend(axes, _SQUARE)
     return drawn
 
@@ -88,9 +82,7 @@ def draw_points(data: Mapping[str, Any]) -> Drawing:
     """Points of each series, with intervals both ways and labels if there are any."""
     drawn, axes = blank_drawing(WIDTH, 3.6)
     series = data["series"]
-    for (name, it), hue, marker in zip(
-        series.items(), cycle(HUES), cycle(MARKERS), strict=False
-    ):
+    for name, it, hue, marker in styled(series):
         axes.scatter(
             it["x"], it["y"], s=16, color=hue, marker=marker, alpha=0.75, label=name
         )
@@ -99,7 +91,7 @@ def draw_points(data: Mapping[str, Any]) -> Drawing:
             axes.vlines(it["x"], it["y_low"], it["y_high"], color=hue, lw=1.2)
     name_axes(axes, data)
     axes.margins(0.12, 0.08)
-    axes.grid(color=FAINT, alpha=0.25, lw=0.6)
+    add_grid(axes)
     add_legend(axes)
     label_points(drawn, axes, series.values())
     return drawn
