@@ -36,8 +36,8 @@ def _check_file(path: Path, consent: Consent) -> int:
 
 
 def tell_doubts(study: Study) -> None:
-    """Report what is no mistake, but probably not intended."""
-    for it in warnings_of(study):
+    """Warn of what is no mistake, but probably not intended."""
+    for it in doubts(study):
         complain(f"{it} (this can be played)")
 
 

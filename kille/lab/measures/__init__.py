@@ -1,4 +1,4 @@
-"""What is measured of dialogues, and whether two theories differ in it."""
+"""Measures of dialogues, and tests of whether two theories differ in them."""
 
 from kille.lab.measures.agreement import kappas, vocabulary
 from kille.lab.measures.comparison import (

@@ -116,7 +116,7 @@ def _apart(measure: Measure, first: Vector, second: Vector) -> tuple[float, Vect
 
 
 def exchanges(pairs: int, chance: np.random.Generator) -> NDArray[np.bool_]:
-    """Ways to exchange the two of some pairs: for each, a row of which pairs stay.
+    """Ways to exchange the two of some pairs: a row says which pairs stay.
 
     The first row exchanges none. For few pairs the rows are all ways that there are.
     """
@@ -155,7 +155,7 @@ def permutation_p(
 
 
 def least_p(pairs: int) -> float:
-    """The smallest p that so many pairs can give: all of them differ the same way.
+    """The smallest p that this many pairs can give, if all differ in one direction.
 
     >>> least_p(2), least_p(5)
     (0.5, 0.0625)
@@ -164,9 +164,9 @@ def least_p(pairs: int) -> float:
 
 
 def pairs_needed(tests: int, alpha: float) -> int | None:
-    """How many pairs the best of so many tests needs for p < alpha, after Holm.
+    """How many pairs it takes that the best of several tests has p < alpha after Holm.
 
-    None where no number of pairs would do.
+    None if no number of pairs is enough.
 
     >>> pairs_needed(1, 0.05), pairs_needed(3, 0.05)
     (6, 7)

@@ -39,7 +39,7 @@ def runs_needed(
 def least_difference(
     spread: float, runs: int, power: float = POWER, alpha: float = ALPHA
 ) -> float:
-    """The smallest difference that so many pairs of dialogues show with this power.
+    """The smallest difference that this many pairs of dialogues show with this power.
 
     The inverse of `runs_needed`; NaN for too few.
 
@@ -60,7 +60,7 @@ def power_of(
     rounds: int = 400,
     alpha: float = ALPHA,
 ) -> float:
-    """How often so many pairs show a difference of d, found by simulation.
+    """How often this many pairs show a difference of d, by simulation.
 
     Differences are drawn from those observed, shifted to the mean d, and tested by
     flipping their signs, as theories are compared. NaN for fewer than two differences.

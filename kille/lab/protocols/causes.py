@@ -159,7 +159,7 @@ def placements(
 
 
 def places_around(rings: Sequence[float], points: int) -> Iterator[Place]:
-    """So many places on each of the rings around the landmark."""
+    """Evenly spaced places on each of some rings around the landmark."""
     for distance in rings:
         for point in range(points):
             bearing = 2 * pi * point / points

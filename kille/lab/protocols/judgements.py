@@ -82,7 +82,7 @@ def _ranks(
 def _draw_scores(
     study: JudgementStudy, make: Callable[[], Any], size: int, seed: int
 ) -> list[dict[str, Agreement]]:
-    """The scores after so many lessons of each word, for each draw."""
+    """The agreement on each word after `size` lessons of each, draw by draw."""
     return [
         agreement_after(study, make, size, np.random.default_rng([seed, size, draw]))
         for draw in range(_DRAWS)

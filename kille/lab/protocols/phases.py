@@ -1,4 +1,4 @@
-"""Protocols: what the phases of a study have a tutor do, task by task.
+"""The phases of a study: what each has a tutor do, task by task.
 
 A study lists its phases; a protocol of the literature is such a list, and those that
 are shipped are short files in `examples/studies/protocols`, to be copied.

@@ -94,7 +94,7 @@ def agreement_after(
     size: int,
     chance: np.random.Generator,
 ) -> dict[str, Agreement]:
-    """The agreement on each word after so many lessons of each, drawn at random."""
+    """The agreement on each word after `size` lessons of each, drawn at random."""
     lessons, asked = {}, {}
     for word, them in study.words.items():
         order = chance.permutation(len(them))

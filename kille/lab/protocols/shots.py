@@ -48,7 +48,7 @@ Curve = Mapping[int, Estimate]
 def shots(
     gallery: Gallery, methods: Methods, *, seed: int, progress: Progress = silent
 ) -> Result:
-    """The learning curve: the share right after so many lessons a category."""
+    """The learning curve: the share right by the number of lessons of each category."""
     count = min(_ASKED, max(1, gallery.least // 3))
     numbers = [shot for shot in SHOTS if shot <= gallery.least - count]
     if not numbers:

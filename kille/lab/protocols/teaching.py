@@ -34,12 +34,12 @@ class ObjectAnswer:
 
     @property
     def best(self) -> float:
-        """The degree of what is said."""
+        """The degree of the word that is said."""
         return max(self.degrees.values(), default=0.0)
 
     @property
     def right(self) -> bool:
-        """Is what is said the right word?"""
+        """Is the word that is said the right one?"""
         return self.said == self.word
 
     @property

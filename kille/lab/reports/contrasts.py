@@ -197,7 +197,7 @@ def _differences_table(
     ]
     ps = correct_by_family([(name, d.p) for _, name, d in shown], main)
     rows = tuple(
-        (contrast_names(it), name, *test_cells(d, p))
+        (contrast_names(it), name, *difference_cells(d, p))
         for (it, name, d), p in zip(shown, ps, strict=True)
     )
     columns = ("theories", "measure", "difference", "p", "p (Holm)", "pairs")
@@ -209,7 +209,7 @@ def _differences_table(
     return Table("Paired differences", columns, rows, note, links)
 
 
-def test_cells(difference: Difference, p: float) -> tuple[Cell, ...]:
+def difference_cells(difference: Difference, p: float) -> tuple[Cell, ...]:
     """The cells of a difference: its estimate, its p, its corrected p, its pairs."""
     estimate = drop_contradicting_interval(difference.estimate, difference.p)
     return estimate, format_p(difference.p), format_p(p), difference.pairs

@@ -17,8 +17,8 @@ from kille.lab.reports.contrasts import (
     FEW,
     TESTED,
     correct_by_family,
+    difference_cells,
     format_difference,
-    test_cells,
 )
 from kille.lab.reports.findings import Theories
 from kille.lab.reports.links import Places
@@ -43,7 +43,7 @@ class Comparison(NamedTuple):
 
 
 class _NamedDifference(NamedTuple):
-    """A difference: in which measure of which theory, between whom, and its link."""
+    """A difference of a theory in a measure between two tutors or scenes."""
 
     theory: str
     measure: str
@@ -81,7 +81,7 @@ def _compare_names(
         return
     ps = correct_by_family([(it.measure, it.difference.p) for it in named])
     rows = tuple(
-        (*it.name_cells, *test_cells(it.difference, p))
+        (*it.name_cells, *difference_cells(it.difference, p))
         for it, p in zip(named, ps, strict=True)
     )
     columns = ("theory", "measure", what, "difference", "p", "p (Holm)", "pairs")

@@ -10,7 +10,7 @@ import numpy as np
 from kille.lab.measures.measures import ACCURACY, Measure, Vector, ratio
 from kille.lab.measures.scored_dialogues import ScoredDialogue, split_dialogues
 from kille.lab.reports.findings import Theories, estimate_measure
-from kille.lab.reports.repeated_tests import Tests, phases_of, test_title
+from kille.lab.reports.repeated_tests import Tests, phases_of, title_of_test
 from kille.lab.reports.row_figures import interval_note
 from kille.lab.reports.short_names import shorten_names
 from kille.lab.results import Figure, interval_series
@@ -72,9 +72,7 @@ def _tutor_figure(series: _Series, phase: str) -> Figure:
     title += ", by tutor" if len(tutors) > 1 else ""
     if len(tutors) < 2 or sum(len(it["x"]) for it in series.values()) > _LABELLED:
         series = {name: {**it, "labels": []} for name, it in series.items()}
-    intervals = interval_note(
-        low for it in series.values() for low in (*it["x_low"], *it["y_low"])
-    )
+    intervals = interval_note(series.values())
     return Figure(
         "points", title, {"series": series, **_LABELS}, f"{_NOTE} {intervals}"
     )
@@ -90,8 +88,8 @@ def _phase_figure(theories: Theories, phases: Sequence[str]) -> Figure:
             "x": [estimate_measure(words_before(phase), them).value for phase in known],
             **interval_series(right, "mean"),
         }
-    title = f"Accuracy against what it cost: {test_title(phases)}"
-    intervals = interval_note(low for it in series.values() for low in it["low"])
+    title = f"Accuracy against what it cost: {title_of_test(phases)}"
+    intervals = interval_note(series.values())
     return Figure(
         "curves", title, {"series": series, **_LABELS}, f"{_NOTE} {intervals}"
     )

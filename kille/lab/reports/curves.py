@@ -16,7 +16,7 @@ from kille.lab.measures.scored_dialogues import (
 )
 from kille.lab.measures.statistics import reliability_bin
 from kille.lab.reports.findings import Theories, estimate_measure
-from kille.lab.reports.repeated_tests import Tests, phases_of, test_title
+from kille.lab.reports.repeated_tests import Tests, phases_of, title_of_test
 from kille.lab.reports.row_figures import interval_note, row_figures
 from kille.lab.results import Figure, interval_series
 
@@ -39,7 +39,7 @@ def learning_curves(theories: Theories, tests: Tests) -> Iterator[Figure]:
     asked = [[phase for phase in test if phase in phases] for test in tests]
     several = sum(map(bool, asked)) > 1
     for test in filter(None, asked):
-        which = f": {test_title(test)}" if several else ""
+        which = f": {title_of_test(test)}" if several else ""
         yield from _learning_curve(f"Learning curve{which}", theories, test)
 
 
@@ -71,7 +71,7 @@ def _learning_curve(
             "xlabel": "lessons",
             "ylabel": "accuracy",
         }
-        intervals = interval_note(low for it in series.values() for low in it["low"])
+        intervals = interval_note(series.values())
         yield Figure("curves", title, data, f"{_note(wide)} {intervals}")
 
 
@@ -127,7 +127,7 @@ def reliability_figures(theories: Theories) -> Iterator[Figure]:
         "xlabel": "degree of the word that was said",
         "ylabel": "share that is right",
     }
-    intervals = interval_note(low for it in series.values() for low in it["low"])
+    intervals = interval_note(series.values())
     note = f"On the dashed line degrees are what they say. {intervals}"
     yield Figure("reliability", "Reliability", data, note)
 

@@ -119,7 +119,7 @@ def _summary(dialogue: ScoredDialogue) -> str:
 
 
 def _turns(dialogue: ScoredDialogue, phase: str, anchor: str) -> Iterator[Markup]:
-    """The turns of a phase; it is said who of several tutors speaks in them."""
+    """The turns of a phase, with the names of the tutors if there are several."""
     answers: dict[int, list[ScoredAnswer]] = {}
     for answer in dialogue.answers:
         answers.setdefault(answer.turn, []).append(answer)
@@ -190,7 +190,7 @@ def _linked_rows(
     rows: Iterable[tuple[Cell, ...]],
     places: Places,
 ) -> Markup:
-    """A table of which each row leads to a dialogue."""
+    """A table whose rows lead to dialogues."""
     cells = tuple((_title(it), *row) for it, row in zip(dialogues, rows, strict=True))
     links = {
         (row, 0): _beside(places.dialogue(it.run)) for row, it in enumerate(dialogues)

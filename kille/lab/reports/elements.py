@@ -63,7 +63,7 @@ def scrolling_table(
 
 
 def description_list(entries: Iterable[tuple[str, str]]) -> Markup:
-    """A list of heads and what is said of each."""
+    """A list of heads, each with its description."""
     return element("dl", *(element("dt", a) + element("dd", b) for a, b in entries))
 
 

@@ -32,7 +32,7 @@ _COLUMNS = 3
 
 
 def blank_drawing(width: float, height: float) -> tuple[Drawing, Axes]:
-    """An empty drawing of so many inches, with its axes."""
+    """An empty drawing, whose size is in inches, with its axes."""
     from matplotlib.figure import Figure as Drawing
 
     drawn = Drawing(figsize=(width, height), layout="constrained")

@@ -83,7 +83,7 @@ def _group_elements(
 def _common_parts(
     parts: Mapping[str, object], theories: Mapping[str, Described]
 ) -> Iterator[Markup]:
-    """What is the same in all theories, folded; what they are about is shown."""
+    """The parts that are the same in all theories, folded except for `about`."""
     about = parts.get("about")
     if about:
         yield element("p", str(about))

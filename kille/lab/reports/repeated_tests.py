@@ -46,10 +46,10 @@ def group_tests(phases: Iterable[Phase]) -> tuple[tuple[str, ...], ...]:
     return tuple(map(tuple, found.values()))
 
 
-def test_title(test: Sequence[str]) -> str:
+def title_of_test(test: Sequence[str]) -> str:
     """The name of a test: its phases.
 
-    >>> test_title(["test 1", "test 2"]), test_title(["a", "b", "c", "d"])
+    >>> title_of_test(["test 1", "test 2"]), title_of_test(["a", "b", "c", "d"])
     ('test 1, test 2', 'a to d')
     """
     return ", ".join(test) if len(test) <= _NAMED else f"{test[0]} to {test[-1]}"

@@ -128,7 +128,7 @@ def ending(about: Mapping[str, str]) -> Iterator[str]:
 
 
 def warnings(texts: Iterable[str]) -> Iterator[Markup]:
-    """What is wrong, and that there are no figures if there are none."""
+    """Warnings, and a note if there are no figures since matplotlib is missing."""
     yield from (element("p", text, class_="wrong") for text in texts)
     if not can_draw():
         yield element("p", MISSING, class_="note")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 from kille.lab.reports.short_names import shorten_names
@@ -18,13 +19,16 @@ _AROUND, _ROW, _SERIES = 1.1, 0.2, 0.16
 """Inches taken by what is around the rows, by each row, and by each series."""
 
 
-def interval_note(lows: Iterable[float]) -> str:
-    """Say which intervals a figure shows, given their lower ends, NaN where missing.
+def interval_note(series: Iterable[Mapping[str, Any]]) -> str:
+    """Say whether a figure of these series shows intervals; missing ends are NaN.
 
-    >>> interval_note([math.nan, 0.25]), interval_note([math.nan])
-    ('95 % confidence intervals.', 'Too few dialogues for confidence intervals.')
+    >>> interval_note([{"mean": [0.5], "low": [math.nan]}, {"mean": [1], "low": [0.2]}])
+    '95 % confidence intervals.'
+    >>> interval_note([{"mean": [0.5], "low": [math.nan]}])
+    'Too few dialogues for confidence intervals.'
     """
-    if any(map(math.isfinite, lows)):
+    lows = (it[key] for it in series for key in it if key.endswith("low"))
+    if any(map(math.isfinite, chain.from_iterable(lows))):
         return "95 % confidence intervals."
     return "Too few dialogues for confidence intervals."
 
@@ -46,13 +50,13 @@ def row_figures(
     slices = list(_page_slices(len(labels), len(series)))
     for number, rows in enumerate(slices, start=1):
         shown = {short_name[name]: list(them[rows]) for name, them in series.items()}
-        data = {
+        data: dict[str, Any] = {
             "labels": list(labels[rows]),
             "series": {name: interval_series(them) for name, them in shown.items()},
             **settings,
         }
         which = f" ({number} of {len(slices)})" if len(slices) > 1 else ""
-        note = interval_note(it.low for them in shown.values() for it in them)
+        note = interval_note(data["series"].values())
         yield Figure("intervals", f"{title}{which}", data, note)
 
 
