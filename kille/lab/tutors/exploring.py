@@ -36,11 +36,7 @@ from kille.lab.worlds.sayings import (
     THIS,
     Claim,
     Saying,
-    acts,
-    phrases_of,
-    sayings,
-    true_claims,
-    without_glance,
+    WorldTalk,
 )
 from kille.lab.worlds.vocabulary import Vocabulary, vocabulary
 from kille.lab.worlds.worlds import World
@@ -72,7 +68,7 @@ CERTAINTIES = ((0.9, 0.05), (0.5, 0.4), (0.2, 0.1), (0.05, 0.02))
 """How probable it is that the one, and the other, of two things was said."""
 
 Options = Sequence[object]
-Talk = Sequence[Saying]
+Sayings = Sequence[Saying]
 Look = tuple[Callable[[World, World], Record], World]
 
 
@@ -90,24 +86,22 @@ def exploring_tutor(
 
 def _moves(words: Vocabulary, s: Record, model: Model) -> Options:
     """All that may be said or done, each kind of thing as often as any other."""
-    world = world_of(s)
-    return [
-        *_all_options(words, without_glance(world)),
-        *[_sample_happenings(world)] * OTHERS,
-    ]
+    talk = WorldTalk(words, world_of(s))
+    happening = _sample_happenings(talk.world)
+    return [*_all_options(talk.without_glance()), *[happening] * OTHERS]
 
 
 @lru_cache(256)
-def _all_options(words: Vocabulary, world: World) -> Options:
+def _all_options(talk: WorldTalk) -> Options:
     """All that may be said, clearly or not."""
-    everything = _all(words, world)
+    everything = _all(talk)
     unclear = [_sample_unclear(everything)] * OTHERS
     return [*map(_sample_texts, everything), *unclear, st.sampled_from(NONSENSE)]
 
 
-def _all(words: Vocabulary, world: World) -> Sequence[Talk]:
+def _all(talk: WorldTalk) -> Sequence[Sayings]:
     """All that may be said, move by move."""
-    said = (sayings(words, act, world) for act in acts(words))
+    said = (talk.sayings(act) for act in talk.acts)
     return [one for one in said if one]
 
 
@@ -116,18 +110,16 @@ def _replies(words: Vocabulary, s: Record, model: Model) -> Options:
 
     Half of what needs no answer is what leads on from the state.
     """
-    world = world_of(s)
+    talk = WorldTalk(words, world_of(s))
     if s.shared.qud:
-        return _choice_options(words, world, s.shared.qud[0].ask)
+        return _choice_options(talk, s.shared.qud[0].ask)
     now = situation(words, s)
-    leading = [*_leading_strategies(now), _sample_idle_looks(world)]
+    leading = [*_leading_strategies(now), _sample_idle_looks(talk.world)]
     if s.shared.pending:
-        judging = _verdict_options(words, world, s.shared.pending)
+        judging = _verdict_options(talk, s.shared.pending)
         return [*judging, *judging, st.one_of(leading)]
-    said = [
-        *_free_options(words, now.world, now.known),
-        *[_sample_happenings(world)] * OTHERS,
-    ]
+    happening = _sample_happenings(talk.world)
+    said = [*_free_options(now.talk, now.known), *[happening] * OTHERS]
     return [*said, *leading * (len(said) // len(leading))]
 
 
@@ -138,49 +130,47 @@ def _leading_strategies(now: Situation) -> Sequence[st.SearchStrategy[object]]:
 
 
 @lru_cache(256)
-def _free_options(words: Vocabulary, world: World, known: frozenset[Pred]) -> Options:
+def _free_options(talk: WorldTalk, known: frozenset[Pred]) -> Options:
     """What a tutor may say who was not asked anything, clearly or not."""
-    free = _free(words, world, known)
+    free = _free(talk, known)
     unclear = [_sample_unclear(free), _sample_misspelt(free, known)]
     return [*map(_sample_texts, free), *unclear * OTHERS]
 
 
-def _free(words: Vocabulary, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
+def _free(talk: WorldTalk, known: frozenset[Pred]) -> Sequence[Sayings]:
     """What a tutor may say who was not asked anything, mostly in words that are known.
 
     Half of it are lessons.
     """
     everything = [
         [it for it in said if known.issuperset(map(word_of, it.about.signs))] or said
-        for said in _all(words, world)
+        for said in _all(talk)
     ]
-    if world.attended_thing is None:
+    if talk.world.attended_thing is None:
         return everything
     lessons = [
-        Saying(words, _lesson_act(claim), claim)
-        for phrase in phrases_of(words, world, world.attended_thing)
-        for claim in true_claims(words, world, world.attended_thing, phrase)
+        talk.say(_lesson_act(claim), claim)
+        for phrase in talk.phrases(talk.world.attended_thing)
+        for claim in talk.true_claims(talk.world.attended_thing, phrase)
         if known.issuperset(map(word_of, (*phrase.signs, *claim.landmark.signs)))
     ]
     return [*everything, *[lessons] * len(everything)]
 
 
-def _verdict_options(
-    words: Vocabulary, world: World, pending: Sequence[RecordType]
-) -> Options:
+def _verdict_options(talk: WorldTalk, pending: Sequence[RecordType]) -> Options:
     """Judgements of what the robot claims: yes if it is true, no if it is not.
 
     What is not so is mostly corrected. Now and then they err.
     """
-    true = [claim for claim in pending if is_true(words, world, claim)]
-    agreeing = _sample_texts(_worldless_sayings(words, "affirm" if true else "deny"))
-    erring = _sample_texts(_worldless_sayings(words, "deny" if true else "affirm"))
-    asking = [_sample_texts(_worldless_sayings(words, act)) for act in _WONDERING]
+    true = [claim for claim in pending if is_true(talk, claim)]
+    agreeing = _sample_texts(_worldless_sayings(talk, "affirm" if true else "deny"))
+    erring = _sample_texts(_worldless_sayings(talk, "deny" if true else "affirm"))
+    asking = [_sample_texts(_worldless_sayings(talk, act)) for act in _WONDERING]
     if _label(pending[0]) == "rel":
-        asking.append(_sample_texts(perspectives_by_side(words, world)))
+        asking.append(_sample_texts(perspectives_by_side(talk)))
     if true and len(pending) == 1:
         return [agreeing, agreeing, erring, *asking]
-    right = list(_corrections(words, world, pending[0]))
+    right = list(_corrections(talk, pending[0]))
     return [agreeing, erring, *asking, *[_sample_texts(right)] * (3 if right else 0)]
 
 
@@ -188,34 +178,32 @@ _WONDERING = ("ask_certainty", "ask_why")
 """What one may ask about a claim."""
 
 
-def _corrections(
-    words: Vocabulary, world: World, content: RecordType
-) -> Iterator[Saying]:
+def _corrections(talk: WorldTalk, content: RecordType) -> Iterator[Saying]:
     """What is true instead of a claim, as a correction or as a lesson."""
     x = number_of(str(value_at(_part_of(content, "target"), "x")))
-    if x not in world:
+    if x not in talk.world:
         return
     label = _label(content)
     shortly = [] if label == "rel" else [NOTHING]
-    for phrase in (THIS, *phrases_of(words, world, x), *shortly):
-        for claim in true_claims(words, world, x, phrase):
-            if _label(claim.content(words.types)) == label:
-                yield Saying(words, "correct", claim)
+    for phrase in (THIS, *talk.phrases(x), *shortly):
+        for claim in talk.true_claims(x, phrase):
+            if _label(claim.content(talk.words.types)) == label:
+                yield talk.say("correct", claim)
                 if phrase is not NOTHING:
-                    yield Saying(words, _lesson_act(claim), claim)
+                    yield talk.say(_lesson_act(claim), claim)
 
 
-def is_true(words: Vocabulary, world: World, content: RecordType) -> bool:
+def is_true(talk: WorldTalk, content: RecordType) -> bool:
     """Whether a claim is true of the world, as the tutor sees it."""
     x = number_of(str(value_at(_part_of(content, "target"), "x")))
-    if x not in world:
+    if x not in talk.world:
         return False
     label = _label(content)
-    signs: Iterable[Record | None] = words.words_of(world, x)
+    signs: Iterable[Record | None] = talk.words_of(x)
     if label == "rel":
         y = number_of(str(value_at(_part_of(content, "landmark"), "x")))
         front = str(value_at(content, "frame"))
-        signs = [words.relation_of(world, x, y, front)] if y in world else []
+        signs = [talk.relation(x, y, front)] if y in talk.world else []
     claim = content[label]
     said = claim.body if isinstance(claim, Negation) else claim
     assert isinstance(said, PType)
@@ -240,44 +228,44 @@ def _lesson_act(claim: Claim) -> str:
     return LESSON_ACTS[claim.sign.kind]
 
 
-def _choice_options(words: Vocabulary, world: World, asked: str) -> Options:
+def _choice_options(talk: WorldTalk, asked: str) -> Options:
     """Which of several moves was meant: in words, by pointing, or none of them."""
-    agreeing = [it for act in _YES_OR_NO for it in _worldless_sayings(words, act)]
-    settling = _plain_answers(words, world, asked)
-    mentions = sayings(words, "mention", world)
-    pointing = [(glance_event, world.point_at(x)) for x in world.in_view]
+    agreeing = [it for act in _YES_OR_NO for it in _worldless_sayings(talk, act)]
+    settling = _plain_answers(talk, asked)
+    mentions = talk.sayings("mention")
+    pointing = [(glance_event, talk.world.point_at(x)) for x in talk.world.in_view]
     return [
         _sample_texts(agreeing),
         _sample_texts(settling),
         _sample_texts(settling),
         _sample_texts([it for it in mentions if len(it.about.signs) == 1]),
-        *([_sample_looks(world, pointing)] if pointing else []),
+        *([_sample_looks(talk.world, pointing)] if pointing else []),
     ]
 
 
 _YES_OR_NO = ("affirm", "deny")
 
 
-def _plain_answers(words: Vocabulary, world: World, asked: str) -> Talk:
+def _plain_answers(talk: WorldTalk, asked: str) -> Sayings:
     """What plainly answers a question of the robot's."""
     match asked:
         case "AskFrame":
-            return perspectives_by_side(words, world)
+            return perspectives_by_side(talk)
         case "OfferWord" | "AskHeard":
-            return [it for act in _YES_OR_NO for it in _worldless_sayings(words, act)]
-    return sayings(words, "mention", world)
+            return [it for act in _YES_OR_NO for it in _worldless_sayings(talk, act)]
+    return talk.sayings("mention")
 
 
-def _worldless_sayings(words: Vocabulary, act: str) -> Talk:
-    return sayings(words, act, World())
+def _worldless_sayings(talk: WorldTalk, act: str) -> Sayings:
+    return WorldTalk(talk.words, World()).sayings(act)
 
 
-def _sample_texts(options: Talk) -> st.SearchStrategy[str]:
+def _sample_texts(options: Sayings) -> st.SearchStrategy[str]:
     """Sample one of these, as a text."""
     return st.sampled_from(options).map(lambda one: one.text)
 
 
-def _sample_unclear(said: Sequence[Talk]) -> st.SearchStrategy[object]:
+def _sample_unclear(said: Sequence[Sayings]) -> st.SearchStrategy[object]:
     """Sample events in which one of two texts was heard."""
     random = Random(len(said))
     pairs = [
@@ -299,11 +287,11 @@ def _either(mumbled: tuple[Saying, Saying, tuple[float, float]]) -> object:
 
 
 def _sample_misspelt(
-    said: Sequence[Talk], known: frozenset[Pred]
+    said: Sequence[Sayings], known: frozenset[Pred]
 ) -> st.SearchStrategy[str]:
     """Sample questions with a word that is nearly one that the robot knows."""
     asked = [
-        one for talk in said for one in talk if one.act in ("ask_place", "ask_find")
+        one for them in said for one in them if one.act in ("ask_place", "ask_find")
     ]
     pairs = [
         (one, sign.form)

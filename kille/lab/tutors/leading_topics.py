@@ -18,22 +18,11 @@ from kille.dialogue.reference import thing_at
 from kille.dialogue.state import words as words_of
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import number_of
-from kille.lab.worlds.sayings import (
-    Claim,
-    Matter,
-    Phrase,
-    Saying,
-    acts,
-    colour_phrase,
-    phrases_of,
-    sayings,
-    without_glance,
-)
+from kille.lab.worlds.sayings import Claim, Matter, Phrase, Saying, WorldTalk
 from kille.lab.worlds.vocabulary import Vocabulary
-from kille.lab.worlds.worlds import World
 from ttr import Pred, Record
 
-Talk = Sequence[Saying]
+Sayings = Sequence[Saying]
 
 OF_PLACES = ("relate", "correct", "reject", "ask_whether")
 """The moves that claim a relation, or ask for one."""
@@ -47,8 +36,7 @@ class Situation(NamedTuple):
     something is beside one of these, `is_new` that the robot has said nothing yet.
     """
 
-    words: Vocabulary
-    world: World
+    talk: WorldTalk
     known: frozenset[Pred]
     untold: tuple[int, ...]
     fronts: tuple[tuple[int, str], ...]
@@ -60,8 +48,7 @@ def situation(words: Vocabulary, s: Record) -> Situation:
     """The situation of a tutor who speaks this language."""
     told = {thing_at(it, "target") for it in s.shared.here}
     return Situation(
-        words,
-        without_glance(world_of(s)),
+        WorldTalk(words, world_of(s)).without_glance(),
         frozenset(word_of(sign) for sign in words_of(s)),
         tuple(number_of(x) for x in s.view.things if x not in told),
         tuple((number_of(it.x), str(it.front)) for it in s.shared.turned),
@@ -70,130 +57,120 @@ def situation(words: Vocabulary, s: Record) -> Situation:
     )
 
 
-def leading_topics(now: Situation) -> Sequence[Talk]:
+def leading_topics(now: Situation) -> Sequence[Sayings]:
     """What leads on from a situation, topic by topic."""
-    words, world = now.words, now.world
+    talk = now.talk
     if now.is_taught:
-        return [perspectives_by_side(words, world)]
-    untold = [_name_questions(words, world, now.untold)] if now.untold else []
-    unsaid = [sayings(words, "ask_repeat", world)] if now.is_new else []
+        return [perspectives_by_side(talk)]
+    untold = [_name_questions(talk, now.untold)] if now.untold else []
+    unsaid = [talk.sayings("ask_repeat")] if now.is_new else []
     return [
-        *_word_topics(words, world, now.known),
-        *_front_topics(words, world, now.fronts),
+        *_word_topics(talk, now.known),
+        *_front_topics(talk, now.fronts),
         *untold * 2,
         *unsaid,
     ]
 
 
-def _word_topics(
-    words: Vocabulary, world: World, known: frozenset[Pred]
-) -> Sequence[Talk]:
+def _word_topics(talk: WorldTalk, known: frozenset[Pred]) -> Sequence[Sayings]:
     """What can be talked of in the words that are known, and in one that is not."""
     found = [
-        *_empty_table_topics(words, world, known),
-        _knowledge_questions(words, world, known),
-        _about_the_last(words, world),
-        _name_questions(words, world, world.in_view),
-        _questions_of_others(words, world),
-        _reflexive_lessons(words, world),
-        *_wrong_nouns(words, world, known),
-        *_flat_place_topics(words, world),
-        *_unknown_word_topics(words, world, known),
+        *_empty_table_topics(talk, known),
+        _knowledge_questions(talk, known),
+        _about_the_last(talk),
+        _name_questions(talk, talk.world.in_view),
+        _questions_of_others(talk),
+        _reflexive_lessons(talk),
+        *_wrong_nouns(talk, known),
+        *_flat_place_topics(talk),
+        *_unknown_word_topics(talk, known),
     ]
-    return [talk for talk in found if talk]
+    return [said for said in found if said]
 
 
 SEVERAL = ("ask_places", "instruct_several")
 """The moves about all things of a kind."""
 
 
-def _empty_table_topics(
-    words: Vocabulary, world: World, known: frozenset[Pred]
-) -> Iterator[Talk]:
+def _empty_table_topics(talk: WorldTalk, known: frozenset[Pred]) -> Iterator[Sayings]:
     """What one may ask and say when nothing is in view."""
-    if world.in_view:
+    if talk.world.in_view:
         return
-    yield sayings(words, "ask_view", world)
+    yield talk.sayings("ask_view")
     for act in SEVERAL:
-        said = sayings(words, act, world)
+        said = talk.sayings(act)
         yield [it for it in said if known.issuperset(map(word_of, it.about.signs))]
 
 
-def _knowledge_questions(
-    words: Vocabulary, world: World, known: frozenset[Pred]
-) -> Talk:
+def _knowledge_questions(talk: WorldTalk, known: frozenset[Pred]) -> Sayings:
     """What one may ask who knows nothing."""
-    return () if known else sayings(words, "ask_knowledge", world)
+    return () if known else talk.sayings("ask_knowledge")
 
 
 BARE = ("ask_certainty", "ask_why", "forget_that")
 """The moves that may be about what was said last, without saying so."""
 
 
-def _about_the_last(words: Vocabulary, world: World) -> Talk:
+def _about_the_last(talk: WorldTalk) -> Sayings:
     """Sayings about what was said last."""
-    said = (one for act in BARE for one in sayings(words, act, world))
+    said = (one for act in BARE for one in talk.sayings(act))
     return [one for one in said if isinstance(one.about, Matter)]
 
 
-def _name_questions(words: Vocabulary, world: World, things: Sequence[int]) -> Talk:
+def _name_questions(talk: WorldTalk, things: Sequence[int]) -> Sayings:
     """Questions what each of these things is."""
-    phrases = (phrases_of(words, world, x)[0] for x in things)
-    return [Saying(words, "ask_name", Claim(None, phrase)) for phrase in phrases]
+    phrases = (talk.phrases(x)[0] for x in things)
+    return [talk.say("ask_name", Claim(None, phrase)) for phrase in phrases]
 
 
-def _questions_of_others(words: Vocabulary, world: World) -> Talk:
+def _questions_of_others(talk: WorldTalk) -> Sayings:
     """Questions about the other things than the one that was talked of."""
     other = Claim(None, Phrase("Other"))
-    acts_ = ("ask_name", "ask_place") if len(world.in_view) > 1 else ()
-    return [Saying(words, act, other) for act in acts_]
+    acts_ = ("ask_name", "ask_place") if len(talk.world.in_view) > 1 else ()
+    return [talk.say(act, other) for act in acts_]
 
 
-def _reflexive_lessons(words: Vocabulary, world: World) -> Talk:
+def _reflexive_lessons(talk: WorldTalk) -> Sayings:
     """Lessons that something stands beside itself."""
-    left = words.relations["left"]
-    ways = (phrases_of(words, world, x) for x in world.in_view)
+    left = talk.words.relations["left"]
+    ways = (talk.phrases(x) for x in talk.world.in_view)
     claims = (Claim(left, one, other) for one, *_, other in ways)
-    return [Saying(words, "relate", claim) for claim in claims]
+    return [talk.say("relate", claim) for claim in claims]
 
 
-def _wrong_nouns(
-    words: Vocabulary, world: World, known: frozenset[Pred]
-) -> Iterator[Talk]:
+def _wrong_nouns(talk: WorldTalk, known: frozenset[Pred]) -> Iterator[Sayings]:
     """Sayings that call a thing by a known noun of another kind."""
-    nouns = [it for it in words.nouns.values() if word_of(it) in known]
+    nouns = [it for it in talk.words.nouns.values() if word_of(it) in known]
     claims = [
-        Claim(noun, colour_phrase(words, world, x))
-        for x, noun in product(world.in_view, nouns)
-        if noun != words.noun_of(world, x)
+        Claim(noun, talk.colour_phrase(x))
+        for x, noun in product(talk.world.in_view, nouns)
+        if noun != talk.words.noun_of(talk.world, x)
     ]
     for act in ("instruct", "ask_whether"):
-        yield [Saying(words, act, claim) for claim in claims]
+        yield [talk.say(act, claim) for claim in claims]
 
 
-def _flat_place_topics(words: Vocabulary, world: World) -> Iterator[Talk]:
+def _flat_place_topics(talk: WorldTalk) -> Iterator[Sayings]:
     """What may be said of places in a picture that does not show them."""
-    if world.deep:
+    if talk.world.deep:
         return
-    relations = words.relations.values()
+    relations = talk.words.relations.values()
     claims = [
-        Claim(relation, *_colour_phrases(words, world, x, y))
+        Claim(relation, *_colour_phrases(talk, x, y))
         for relation in relations
-        for x, y in permutations(world.in_view, 2)
+        for x, y in permutations(talk.world.in_view, 2)
     ]
     for act in OF_PLACES:
-        yield [_place_saying(words, act, claim) for claim in claims]
+        yield [_place_saying(talk, act, claim) for claim in claims]
 
 
-def _colour_phrases(
-    words: Vocabulary, world: World, x: int, y: int
-) -> tuple[Phrase, Phrase]:
-    return colour_phrase(words, world, x), colour_phrase(words, world, y)
+def _colour_phrases(talk: WorldTalk, x: int, y: int) -> tuple[Phrase, Phrase]:
+    return talk.colour_phrase(x), talk.colour_phrase(y)
 
 
-def _place_saying(words: Vocabulary, act: str, claim: Claim) -> Saying:
+def _place_saying(talk: WorldTalk, act: str, claim: Claim) -> Saying:
     """What is said of places by way of a move; who rejects something denies it."""
-    return Saying(words, act, replace(claim, denies=act == "reject"))
+    return talk.say(act, replace(claim, denies=act == "reject"))
 
 
 STRANGE = (
@@ -207,13 +184,11 @@ STRANGE = (
 """The moves in which one may ask for a word that is not known."""
 
 
-def _unknown_word_topics(
-    words: Vocabulary, world: World, known: frozenset[Pred]
-) -> Iterator[Talk]:
+def _unknown_word_topics(talk: WorldTalk, known: frozenset[Pred]) -> Iterator[Sayings]:
     """Sayings with an unknown word, of things that can be told apart."""
     for act in STRANGE:
-        if act in acts(words):
-            said = sayings(words, act, world)
+        if act in talk.acts:
+            said = talk.sayings(act)
             yield [it for it in said if _has_one_unknown(it, known)]
 
 
@@ -231,46 +206,46 @@ def _has_one_unknown(one: Saying, known: frozenset[Pred]) -> bool:
 
 
 def _front_topics(
-    words: Vocabulary, world: World, fronts: Sequence[tuple[int, str]]
-) -> Sequence[Talk]:
+    talk: WorldTalk, fronts: Sequence[tuple[int, str]]
+) -> Sequence[Sayings]:
     """Sayings about perspectives, if things face some way, or that they do."""
-    turned = [(y, front) for y, front in fronts if y in world]
+    turned = [(y, front) for y, front in fronts if y in talk.world]
     if not turned:
-        return [sayings(words, "orient", world)] if len(world.in_view) > 1 else []
-    beside = list(_claims_beside(words, world, turned))
-    claims = [[_place_saying(words, act, it) for it in beside] for act in OF_PLACES]
+        return [talk.sayings("orient")] if len(talk.world.in_view) > 1 else []
+    beside = list(_claims_beside(talk, turned))
+    claims = [[_place_saying(talk, act, it) for it in beside] for act in OF_PLACES]
     phrases = [Phrase("", (it.sign, *it.landmark.signs)) for it in beside if it.sign]
     asked = [
-        Saying(words, act, Claim(None, phrase))
+        talk.say(act, Claim(None, phrase))
         for act in ("ask_name", "ask_find")
         for phrase in phrases
     ]
     places = [
-        Saying(words, "ask_place", Claim(None, colour_phrase(words, world, x)))
-        for x in world.in_view
+        talk.say("ask_place", Claim(None, talk.colour_phrase(x)))
+        for x in talk.world.in_view
     ]
     taking = (
-        sayings(words, "take_frame", world),
-        perspectives_by_side(words, world),
+        talk.sayings("take_frame"),
+        perspectives_by_side(talk),
     )
-    return [talk for talk in (*claims, asked, places, places, *taking) if talk]
+    return [said for said in (*claims, asked, places, places, *taking) if said]
 
 
 def _claims_beside(
-    words: Vocabulary, world: World, turned: Sequence[tuple[int, str]]
+    talk: WorldTalk, turned: Sequence[tuple[int, str]]
 ) -> Iterator[Claim]:
     """Where things are beside what faces some way: for a viewer, and for itself."""
     for y, front in turned:
-        for x, way in product(world.in_view, ("away", front)):
-            relation = None if x == y else words.relation_of(world, x, y, way)
+        for x, way in product(talk.world.in_view, ("away", front)):
+            relation = None if x == y else talk.relation(x, y, way)
             if relation is not None:
-                pair = _colour_phrases(words, world, x, y)
+                pair = _colour_phrases(talk, x, y)
                 yield Claim(relation, *pair)
 
 
-def perspectives_by_side(words: Vocabulary, world: World) -> Talk:
+def perspectives_by_side(talk: WorldTalk) -> Sayings:
     """Whose perspective is meant, where nobody is named but the robot and the thing."""
-    taking = sayings(words, "take_frame", world)
+    taking = talk.sayings("take_frame")
     return [one for one in taking if not one.about.signs]
 
 

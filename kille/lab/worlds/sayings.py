@@ -156,34 +156,75 @@ def _text(saying: Saying) -> str:
     return tell(lexicon(words.language), saying.act, move)
 
 
-def acts(words: Vocabulary) -> tuple[str, ...]:
-    """The moves of the tutor's for which the lexicon has a wording."""
-    return tuple(lexicon(words.language).tells)
-
-
-def sayings(words: Vocabulary, act: str, world: World) -> tuple[Saying, ...]:
-    """All that may be said as a move: its wordings, about everything there is.
+@dataclass(frozen=True)
+class WorldTalk:
+    """What may be said in these words about a world.
 
     >>> from kille.lab.worlds.vocabulary import vocabulary
     >>> from kille.lab.worlds.worlds import Thing
     >>> world = World((Thing("cup", "red", place=(2, 3)),))
-    >>> sayings(vocabulary("en"), "instruct", world)[0].text
+    >>> WorldTalk(vocabulary("en"), world).sayings("instruct")[0].text
     'This is a cup.'
     """
-    return _sayings(words, act, without_glance(world))
 
+    words: Vocabulary
+    world: World
 
-def without_glance(world: World) -> World:
-    """A world whose looks are not counted, of which the same may be said."""
-    return replace(world, glance=0)
+    @property
+    def acts(self) -> tuple[str, ...]:
+        """The moves of the tutor's for which the lexicon has a wording."""
+        return tuple(lexicon(self.words.language).tells)
+
+    def without_glance(self) -> WorldTalk:
+        """The same, however often the world was looked at."""
+        return replace(self, world=replace(self.world, glance=0))
+
+    def say(self, act: str, about: Claim | Matter = Matter()) -> Saying:
+        """Something to be said, in these words."""
+        return Saying(self.words, act, about)
+
+    def sayings(self, act: str) -> tuple[Saying, ...]:
+        """All that may be said as a move: its wordings, about everything there is."""
+        return _sayings(self.without_glance(), act)
+
+    def relation(self, x: int, y: int, front: str = "away") -> Record | None:
+        """The relation in which x stands to y, seen from there."""
+        return self.words.relation_of(self.world, x, y, front)
+
+    def words_of(self, x: int) -> tuple[Record, ...]:
+        """The words that are true of a thing by itself."""
+        return self.words.words_of(self.world, x)
+
+    def true_claims(self, x: int, phrase: Phrase = THIS) -> Iterator[Claim]:
+        """The claims that are true of a thing, with this phrase for it.
+
+        Where things are is not known of a flat picture, but talked of all the same.
+        """
+        for sign in self.words_of(x):
+            yield Claim(sign, phrase)
+        for y in self.world.in_view:
+            if y != x:
+                relation = self.relation(x, y) or self.words.relations["left"]
+                yield Claim(relation, phrase, self.colour_phrase(y))
+
+    def colour_phrase(self, x: int) -> Phrase:
+        """A phrase for a thing in words that are known anyhow: "the red one"."""
+        return Phrase("", self.words.adjectives_of(self.world, x)[:1])
+
+    def phrases(self, x: int) -> tuple[Phrase, ...]:
+        """Phrases for a thing: "this", if it is attended to, and by its words."""
+        noun, colour, *_ = self.words_of(x)
+        described = [Phrase("", it) for it in ((colour,), (noun,), (colour, noun))]
+        is_this = x == self.world.attended_thing
+        return (THIS, *described) if is_this else tuple(described)
 
 
 @lru_cache(1024)
-def _sayings(words: Vocabulary, act: str, world: World) -> tuple[Saying, ...]:
+def _sayings(talk: WorldTalk, act: str) -> tuple[Saying, ...]:
     found = (
-        Saying(words, act, about)
-        for wording in lexicon(words.language).tells[act]
-        for about in _matters_of(words, _slots(wording), world)
+        talk.say(act, about)
+        for wording in lexicon(talk.words.language).tells[act]
+        for about in _matters_of(talk, _slots(wording))
     )
     return tuple(dict.fromkeys(found))
 
@@ -192,29 +233,27 @@ def _slots(wording: str) -> frozenset[str]:
     return frozenset(slot for _, slot, _, _ in Formatter().parse(wording) if slot)
 
 
-def _matters_of(
-    words: Vocabulary, slots: frozenset[str], world: World
-) -> Iterable[Claim | Matter]:
+def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matter]:
     """All contents that fill the slots of a wording, if the slots are known."""
     claiming = next((slot for slot in slots if _affirmed_slot(slot) in SLOTS), "")
     if claiming:
         kind = SLOTS[_affirmed_slot(claiming)]
         claims = _relations if kind == "relation" else _claims
-        said = claims(words, world, kind, "the_target" in slots)
+        said = claims(talk, kind, "the_target" in slots)
         denies = claiming != _affirmed_slot(claiming)
         return (replace(claim, denies=denies) for claim in said)
     if slots == {"the_target"}:
-        return (Claim(None, phrase) for phrase in _phrases(words, world))
-    nouns = words.nouns.values()
+        return (Claim(None, phrase) for phrase in _all_phrases(talk))
+    nouns = talk.words.nouns.values()
     match sorted(slots):
         case []:
             return [Matter()]
         case ["word"]:
-            return map(word_matter, words.all)
+            return map(word_matter, talk.words.all)
         case ["counted"]:
             return (Matter("", (("counted", it),)) for it in nouns)
         case ["front", "the_target"]:
-            return _all_facing(words, world)
+            return _all_facing(talk)
         case ["the_landmark"]:
             phrases = (Phrase("", (noun,)) for noun in nouns)
             return (perspective_matter("landmark", phrase) for phrase in phrases)
@@ -223,11 +262,11 @@ def _matters_of(
     return ()
 
 
-def _all_facing(words: Vocabulary, world: World) -> Iterator[Matter]:
+def _all_facing(talk: WorldTalk) -> Iterator[Matter]:
     """Which way things face: as they do, and, where they have no front, some way."""
-    for x in world.in_view:
-        front = world.thing(x).front or "left"
-        for phrase in phrases_of(words, world, x):
+    for x in talk.world.in_view:
+        front = talk.world.thing(x).front or "left"
+        for phrase in talk.phrases(x):
             yield facing_matter(front, phrase)
 
 
@@ -251,70 +290,39 @@ def _affirmed_slot(slot: str) -> str:
     return slot.removeprefix("not_")
 
 
-def _claims(
-    words: Vocabulary, world: World, kind: str, phrased: bool
-) -> Iterator[Claim]:
+def _claims(talk: WorldTalk, kind: str, phrased: bool) -> Iterator[Claim]:
     """Claims with a noun or an adjective, as many of them true as not."""
-    rest = words.nouns if kind == "noun" else words.adjectives
-    for x in world.in_view:
-        true = [it for it in words.words_of(world, x) if it.kind == kind]
-        for target in phrases_of(words, world, x) if phrased else [NOTHING]:
+    rest = talk.words.nouns if kind == "noun" else talk.words.adjectives
+    for x in talk.world.in_view:
+        true = [it for it in talk.words_of(x) if it.kind == kind]
+        for target in talk.phrases(x) if phrased else [NOTHING]:
             for sign in (*true, *islice(rest.values(), 2)):
                 yield Claim(sign, target)
 
 
-def _relations(
-    words: Vocabulary, world: World, kind: str, phrased: bool
-) -> Iterator[Claim]:
+def _relations(talk: WorldTalk, kind: str, phrased: bool) -> Iterator[Claim]:
     """Claims with a relation, as many of them true as not."""
-    some = tuple(words.relations.values())[:1]
-    for x, y in islice(permutations(world.in_view, 2), PAIRS):
-        true = words.relation_of(world, x, y)
+    some = tuple(talk.words.relations.values())[:1]
+    for x, y in islice(permutations(talk.world.in_view, 2), PAIRS):
+        true = talk.relation(x, y)
         for sign in some if true is None else (true, *some):
-            for target in phrases_of(words, world, x) if phrased else [NOTHING]:
-                for landmark in phrases_of(words, world, y):
+            for target in talk.phrases(x) if phrased else [NOTHING]:
+                for landmark in talk.phrases(y):
                     yield Claim(sign, target, landmark)
 
 
-def true_claims(
-    words: Vocabulary, world: World, x: int, phrase: Phrase = THIS
-) -> Iterator[Claim]:
-    """The claims that are true of a thing, with this phrase for it.
-
-    Where things are is not known of a flat picture, but talked of all the same.
-    """
-    for sign in words.words_of(world, x):
-        yield Claim(sign, phrase)
-    for y in world.in_view:
-        if y != x:
-            relation = words.relation_of(world, x, y) or words.relations["left"]
-            yield Claim(relation, phrase, colour_phrase(words, world, y))
-
-
-def colour_phrase(words: Vocabulary, world: World, x: int) -> Phrase:
-    """A phrase for a thing in words that are known from the start: "the red one"."""
-    return Phrase("", words.adjectives_of(world, x)[:1])
-
-
-def phrases_of(words: Vocabulary, world: World, x: int) -> tuple[Phrase, ...]:
-    """How one may speak of a thing: "this", if it is attended to, and by its words."""
-    noun, (colour, *_) = words.noun_of(world, x), words.adjectives_of(world, x)
-    described = [Phrase("", it) for it in ((colour,), (noun,), (colour, noun))]
-    return (THIS, *described) if x == world.attended_thing else tuple(described)
-
-
-def _phrases(words: Vocabulary, world: World) -> Iterator[Phrase]:
+def _all_phrases(talk: WorldTalk) -> Iterator[Phrase]:
     """The phrases for things in view, and such as may fit anything, or nothing."""
+    words, world = talk.words, talk.world
     for x in world.in_view:
-        yield from phrases_of(words, world, x)
+        yield from talk.phrases(x)
     yield THIS
-    for talk in TALK:
-        yield Phrase(talk)
+    yield from map(Phrase, TALK)
     for noun in words.nouns.values():
         yield Phrase("", (noun,))
         yield Phrase("Other", (noun,))
     for x, y in islice(permutations(world.in_view, 2), PAIRS):
-        where = words.relation_of(world, x, y)
+        where = talk.relation(x, y)
         if where is not None:
             nouns = words.noun_of(world, x), words.noun_of(world, y)
             yield Phrase("", (nouns[0], where, nouns[1]))

@@ -14,7 +14,7 @@ from kille.dialogue.state import words as words_of
 from kille.lab.worlds.games import learned_words as learned
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glance_event
-from kille.lab.worlds.sayings import THIS, Claim, Saying, phrases_of, sayings
+from kille.lab.worlds.sayings import THIS, Claim, WorldTalk
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import World
 from ttr import Record, record
@@ -54,26 +54,26 @@ def game_after_school(game: Game, language: str = "en", times: int = 1) -> Game:
     cleared = world.clear()
     laid = replace(world, glance=cleared.glance + 1)
     given += [glance_event(cleared, world), glance_event(laid, cleared)]
-    facing = sayings(vocabulary(language), "orient", laid)[-1:]
+    facing = WorldTalk(vocabulary(language), laid).sayings("orient")[-1:]
     return continue_game(game, [*given, *(one.text for one in facing)])
 
 
 def lessons(language: str, world: World) -> Iterator[str | Record]:
     """Lessons what each thing in view is, and then where they are, once a word."""
-    words = vocabulary(language)
+    talk = WorldTalk(vocabulary(language), world)
     for x in world.in_view:
         yield glance_event(world.point_at(x), world)
-        claim = Claim(words.noun_of(world, x), THIS)
-        yield Saying(words, "instruct", claim).text
+        claim = Claim(talk.words.noun_of(world, x), THIS)
+        yield talk.say("instruct", claim).text
     said: set[Record] = set()
     for x, y in permutations(world.in_view, 2):
-        relation = words.relation_of(world, x, y)
+        relation = talk.relation(x, y)
         if relation is None or relation in said:
             continue
         said.add(relation)
         yield glance_event(world.point_at(x), world)
-        claim = Claim(relation, THIS, phrases_of(words, world, y)[-1])
-        yield Saying(words, "relate", claim).text
+        claim = Claim(relation, THIS, talk.phrases(y)[-1])
+        yield talk.say("relate", claim).text
 
 
 def continue_game(game: Game, given: Iterable[str | Record]) -> Game:

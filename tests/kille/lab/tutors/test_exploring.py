@@ -20,7 +20,7 @@ from kille.lab.tutors.exploring import exploring_tutor, happenings, is_true
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING
 from kille.lab.worlds.games import simulated_game
-from kille.lab.worlds.sayings import acts, sayings
+from kille.lab.worlds.sayings import WorldTalk
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import Thing, World, draw_world
 from ttr import RecordType
@@ -32,8 +32,8 @@ ENGLISH = vocabulary("en")
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_move_is_said_and_understood(language):
-    for act in acts(vocabulary(language)):
-        said = sayings(vocabulary(language), act, WORLD)
+    for act in WorldTalk(vocabulary(language), WORLD).acts:
+        said = WorldTalk(vocabulary(language), WORLD).sayings(act)
         assert said, f"the tutor never says {act}"
         for one in said[::7]:
             heard = understand(one.text, language)
@@ -49,7 +49,9 @@ def test_every_move_is_said_and_understood(language):
 def test_all_slots_are_filled(language):
     for act, wordings in lexicon(language).tells.items():
         slots = {it for text in wordings for _, it, _, _ in Formatter().parse(text)}
-        texts = [one.text for one in sayings(vocabulary(language), act, WORLD)]
+        texts = [
+            one.text for one in WorldTalk(vocabulary(language), WORLD).sayings(act)
+        ]
         assert not any("{" in text for text in texts)
         assert len(texts) > 1 or not slots - {None, "by"}
 
@@ -65,10 +67,10 @@ def test_he_knows_what_is_true():
         assert isinstance(content, RecordType)
         return content
 
-    assert is_true(ENGLISH, world, naming("cup", "o1"))
-    assert not is_true(ENGLISH, world, naming("cup", "o2"))
-    assert is_true(ENGLISH, world, denial(naming("cup", "o2")))
-    assert not is_true(ENGLISH, world.move(1, None), naming("cup", "o1"))
+    assert is_true(WorldTalk(ENGLISH, world), naming("cup", "o1"))
+    assert not is_true(WorldTalk(ENGLISH, world), naming("cup", "o2"))
+    assert is_true(WorldTalk(ENGLISH, world), denied(naming("cup", "o2")))
+    assert not is_true(WorldTalk(ENGLISH, world.move(1, None)), naming("cup", "o1"))
 
 
 def test_things_are_put_taken_moved_and_pointed_at():
