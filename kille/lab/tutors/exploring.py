@@ -41,8 +41,11 @@ from kille.lab.worlds.sayings import (
 from kille.lab.worlds.vocabulary import Vocabulary, vocabulary
 from kille.lab.worlds.worlds import World
 from ttr import Model, Pred, Record, RecordType
+from ttr.aliases import former_names
 from ttr.testing.strategies import Tutor
 from ttr.types import Negation, PType
+
+__getattr__ = former_names(__name__, {"tutoring": "exploring_tutor"})
 
 NONSENSE = (
     "",

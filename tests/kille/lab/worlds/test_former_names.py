@@ -22,6 +22,7 @@ WORLD = World((Thing("cup", "red", place=(2, 3)),))
         ("study_files", "checked", "read_and_check"),
         ("study_files", "parsed", "parse"),
         ("theories", "described", "describe"),
+        ("tutors.exploring", "tutoring", "exploring_tutor"),
         ("worlds.games", "known", "with_known_words"),
         ("worlds.games", "simulated", "simulated_game"),
         ("worlds.perception", "glanced", "glance_event"),
