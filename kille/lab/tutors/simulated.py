@@ -39,17 +39,17 @@ class SimulatedTutor:
 
     def turns(self, task: Task) -> Turns:
         """The moves by which the tutor does a task of a phase."""
-        holding = Beliefs(self.manner, task)
-        if holding.has_words:
-            yield from _DOES[task.do](_Performance(holding))
+        beliefs = Beliefs(self.manner, task)
+        if beliefs.has_words:
+            yield from _DOES[task.do](_Performance(beliefs))
 
 
 class _Performance:
     """A task as a tutor does it, as long as their patience lasts."""
 
-    def __init__(self, holding: Beliefs) -> None:
-        self._holding, self._task, self._words = holding, holding.task, holding.words
-        self._manner, self._left = holding.manner, holding.manner.patience
+    def __init__(self, beliefs: Beliefs) -> None:
+        self._beliefs, self._task, self._words = beliefs, beliefs.task, beliefs.words
+        self._manner, self._left = beliefs.manner, beliefs.manner.patience
 
     # --- tasks -----------------------------------------------------------------------
 
@@ -61,10 +61,10 @@ class _Performance:
 
     def _give_lesson(self, reply: Reply) -> Turns:
         """Say what is so of the thing that is pointed at."""
-        says = self._holding.lesson(reply.state)
+        says = self._beliefs.lesson(reply.state)
         reply = yield says
         if "see_no_such" in reply.acts or "same_thing" in reply.acts:
-            reply = yield self._holding.lesson(None)
+            reply = yield self._beliefs.lesson(None)
         yield from self._answer_questions(reply, says)
 
     def ask(self) -> Turns:
@@ -81,7 +81,7 @@ class _Performance:
         occasion = self._task.occasion
         reply = yield Shows(occasion)
         yield from self._tell_front(reply)
-        asked = self._holding.question(occasion)
+        asked = self._beliefs.question(occasion)
         text, act = self._words.question(occasion.kind), QUESTION_ACTS[occasion.kind]
         return (yield from self._until_clear(Says(text, act, asked)))
 
@@ -92,7 +92,7 @@ class _Performance:
             return
         if f"faces_{landmark.front}" == reply.fronts.get(y):
             return
-        phrase = self._holding.phrase(landmark, reply.state)
+        phrase = self._beliefs.phrase(landmark, reply.state)
         yield Says(self._words.front_statement(landmark.front, phrase), "orient")
 
     def talk(self) -> Turns:
@@ -127,8 +127,8 @@ class _Performance:
         if self._manner.feedback not in ("correct", "both") or x not in occasion.world:
             return
         about = occasion.look_again().about_noun(x)
-        held = self._holding.spoken_word(about)
-        if reply.claimed_word("noun") == held or not self._holding.has_word(about):
+        held = self._beliefs.spoken_word(about)
+        if reply.claimed_word("noun") == held or not self._beliefs.has_word(about):
             return
         if x != occasion.x:
             yield Shows(about)
@@ -148,7 +148,7 @@ class _Performance:
         """Say something, and clear up what the robot asks about it."""
         reply = yield says
         while reply.is_open and self._left > 0:
-            told = answer_robot(self._holding, reply, says)
+            told = answer_robot(self._beliefs, reply, says)
             if told is None:
                 break
             self._left -= 1
@@ -168,12 +168,12 @@ class _Performance:
         for number in occasion.world.in_view:
             thing = occasion.world.thing(number)
             if thing.front:
-                phrase = self._holding.phrase(thing, reply.state)
+                phrase = self._beliefs.phrase(thing, reply.state)
                 reply = yield Says(
                     self._words.front_statement(thing.front, phrase), "orient"
                 )
         if self._task.settings["announce"]:
-            yield Says(self._words.perspective(self._holding.frame), "take_frame")
+            yield Says(self._words.perspective(self._beliefs.frame), "take_frame")
 
     # --- feedback --------------------------------------------------------------------
 
@@ -181,7 +181,7 @@ class _Performance:
         """Say of the answer to a question what the feedback is."""
         occasion = self._task.occasion
         held, said = (
-            self._holding.spoken_word(occasion),
+            self._beliefs.spoken_word(occasion),
             reply.claimed_word(occasion.kind),
         )
         confirms = self._manner.feedback in ("confirm", "both")
@@ -194,7 +194,7 @@ class _Performance:
                 yield from self._answer_questions(reply, None)
             yield from self._thank()
         elif corrects and said:
-            says = self._holding.correction(reply.state)
+            says = self._beliefs.correction(reply.state)
             reply = yield says
             yield from self._answer_questions(reply, says)
         elif corrects:
@@ -209,7 +209,7 @@ class _Performance:
     def _answer_questions(self, reply: Reply, latest: Says | None) -> Turns:
         """Answer what the robot asks, as long as patience lasts."""
         while reply.wants and self._left > 0:
-            told = answer_robot(self._holding, reply, latest)
+            told = answer_robot(self._beliefs, reply, latest)
             if told is None:
                 return
             self._left -= 1

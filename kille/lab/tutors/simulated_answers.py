@@ -22,34 +22,34 @@ _WANTED = {
 """The kind of word that the robot wants to be told."""
 
 
-def answer_robot(holding: Beliefs, reply: Reply, latest: Says | None) -> Says | None:
+def answer_robot(beliefs: Beliefs, reply: Reply, latest: Says | None) -> Says | None:
     """What a tutor answers to what the robot wants to know, if they can."""
     match reply.wants:
         case "ask_frame":
-            return Says(holding.words.perspective(holding.frame), "take_frame")
+            return Says(beliefs.words.perspective(beliefs.frame), "take_frame")
         case "offer_word":
-            return Says(holding.words.plain_move("deny"), "deny")
+            return Says(beliefs.words.plain_move("deny"), "deny")
         case "ask_referent" | "offer_referents":
-            return _name_referent(holding, latest)
+            return _name_referent(beliefs, latest)
         case "ask_example":
-            return _show_example(holding, reply.word)
-    return _tell_wanted(holding, reply)
+            return _show_example(beliefs, reply.word)
+    return _tell_wanted(beliefs, reply)
 
 
-def _name_referent(holding: Beliefs, latest: Says | None) -> Says:
+def _name_referent(beliefs: Beliefs, latest: Says | None) -> Says:
     """Which thing was meant: the one that was spoken of by a phrase, or pointed at."""
     spoken = None if latest is None else latest.of
-    meant = spoken or holding.task.occasion.thing
-    phrase = holding.colour_phrase(meant)
-    return Says(holding.words.mention(phrase), "mention", of=meant)
+    meant = spoken or beliefs.task.occasion.thing
+    phrase = beliefs.colour_phrase(meant)
+    return Says(beliefs.words.mention(phrase), "mention", of=meant)
 
 
-def _show_example(holding: Beliefs, word: str) -> Says | None:
+def _show_example(beliefs: Beliefs, word: str) -> Says | None:
     """Another thing in view that is called so, by its colour."""
-    occasion, words = holding.task.occasion, holding.words
+    occasion, words = beliefs.task.occasion, beliefs.words
     for x in occasion.world.in_view:
         thing = occasion.world.thing(x)
-        is_other = x != occasion.x and thing.colour and holding.is_only(thing.colour)
+        is_other = x != occasion.x and thing.colour and beliefs.is_only(thing.colour)
         if is_other and words.word_for(thing.kind) == word:
             phrase = words.phrase_for(thing, "adjective")
             text = words.lesson("noun", word, target=phrase)
@@ -57,37 +57,37 @@ def _show_example(holding: Beliefs, word: str) -> Says | None:
     return None
 
 
-def _tell_wanted(holding: Beliefs, reply: Reply) -> Says | None:
+def _tell_wanted(beliefs: Beliefs, reply: Reply) -> Says | None:
     """What something is, which colour it has, or where it is, if that is wanted."""
-    occasion = holding.task.occasion
+    occasion = beliefs.task.occasion
     kind = occasion.kind if reply.wants == "ask_again" else _WANTED.get(reply.wants)
     if kind is None:
         return None
     if kind == "relation":
-        return _tell_place(holding, reply)
+        return _tell_place(beliefs, reply)
     x = reply.focus if reply.wants == "ask_thing" else occasion.x
     if x is None or x not in occasion.world:
         return None
     about = occasion if x == occasion.x else replace(occasion, x=x, said="")
     about = replace(about, kind=kind)
-    if not holding.has_word(about):
+    if not beliefs.has_word(about):
         return None
     return Says(
-        holding.words.lesson(kind, holding.spoken_word(about)), LESSON_ACTS[kind]
+        beliefs.words.lesson(kind, beliefs.spoken_word(about)), LESSON_ACTS[kind]
     )
 
 
-def _tell_place(holding: Beliefs, reply: Reply) -> Says | None:
+def _tell_place(beliefs: Beliefs, reply: Reply) -> Says | None:
     """How the two things stand of which the robot speaks."""
-    occasion = holding.task.occasion
+    occasion = beliefs.task.occasion
     x, y = (*reply.things, None, None)[:2]
     if x is None or y is None or not {x, y} <= set(occasion.world.in_view):
         return None
     about = replace(occasion, kind="relation", x=x, y=y)
     about = about if (x, y) == (occasion.x, occasion.y) else replace(about, said="")
-    if not holding.has_word(about):
+    if not beliefs.has_word(about):
         return None
-    word, things = holding.spoken_word(about), (about.thing, about.world.thing(y))
-    target, landmark = (holding.phrase(it, reply.state) for it in things)
-    text = holding.words.lesson("relation", word, landmark, target)
+    word, things = beliefs.spoken_word(about), (about.thing, about.world.thing(y))
+    target, landmark = (beliefs.phrase(it, reply.state) for it in things)
+    text = beliefs.words.lesson("relation", word, landmark, target)
     return Says(text, "relate", of=about.landmark)
