@@ -354,8 +354,8 @@ def _lexicon(folder: Path) -> Reader:
 
 def _grammar(folder: Path) -> Reader:
     from kille.dialogue.grammars import GrammarError
+    from kille.dialogue.language_files import source
     from kille.dialogue.parsing import Grammar
-    from kille.dialogue.sources import source
 
     def read(path: Path) -> None:
         Grammar(source("tutor.{}.lark", f"{path.parent}/en"), "start").parse("a cup")

@@ -25,7 +25,7 @@ from _measuring import Result, arguments, report
 
 from kille.bus import Bus, BusError, Image, Topic
 from kille.ros.bus import open_ros
-from kille.ros.modules import ros
+from kille.ros.system_modules import ros
 from kille.sensors.bus_sensor import COLOUR, DEPTH
 
 SECONDS = 8

@@ -1,4 +1,4 @@
-"""The main job, scripted: a tutor teaches the robot ten objects and where things are.
+"""The scripted lesson: a tutor teaches the robot ten objects and where things are.
 
 It follows the paper's protocol: a round of lessons about ten objects, a round of
 questions about them in other poses, then lessons and questions about how two of them

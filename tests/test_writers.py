@@ -23,7 +23,7 @@ WRITERS = {
     "ttr/safety/inputs.py": "prompts",
     "ttr/safety/unforeseen_errors.py": "the error that nobody foresaw",
     "ttr/testing/hash_seeds.py": "digests, read by the process that asked for them",
-    "kille/interfaces/streams.py": "what the commands of kille complain of",
+    "kille/interfaces/standard_streams.py": "what the commands of kille complain of",
     "kille/interfaces/terminal.py": "what the commands of kille print",
     "kille/lab/people/typed_lines.py": "what people in a study are shown",
     "kille/sensors/kinect/process_server.py": "what it found when nobody else is left",

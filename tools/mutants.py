@@ -124,7 +124,7 @@ class Mutant:
     line: int
     last_line: int
 
-    def mutated(self, code: str) -> str | None:
+    def mutate(self, code: str) -> str | None:
         """The file with this change."""
         new: str | None = mutate_code(code, operators()[self.operator], self.occurrence)
         return new
@@ -323,10 +323,7 @@ def outcome(mutant: Mutant, folder: Path, reach: Reach) -> tuple[str, str]:
     """
     path = folder / mutant.file
     code = path.read_text()
-    try:
-        mutated = mutant.mutated(code)
-    except AttributeError:
-        return "invalid", ""
+    mutated = mutant.mutate(code)
     if mutated is None or mutated == code:
         return "same", ""
     diff = "".join(

@@ -16,9 +16,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from kille.interfaces.showing import in_short
-from kille.lab.worlds.games import simulated_game
-from kille.lab.worlds.perception import look_event
+from kille.interfaces.formatting import in_short
+from kille.lab.worlds.games import simulated
+from kille.lab.worlds.perception import seen
 from kille.lab.worlds.worlds import Thing, World
 from ttr import Record
 from ttr.types.records import differences

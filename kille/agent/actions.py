@@ -19,10 +19,10 @@ from ttr.types import PType, TypeNode
 
 
 class MoveExecutor:
-    """Makes the moves of a game by what it knows and sees, and writes down from where.
+    """Makes the moves of a game: learns, unlearns, recalls and points, then says so.
 
-    A move is done before it is said. SensorError and MemoryFileError as gaze and memory
-    raise them.
+    A lesson is kept with the turn and the look that it comes from. SensorError and
+    MemoryFileError come from the sensor and the memory.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class MoveExecutor:
     # --- learning --------------------------------------------------------------------
 
     def _learn(self, content: RecordType, signs: Sequence[Record]) -> int:
-        """Learn that a content is so; the key of the lesson."""
+        """Learn that a content is so; returns the key of the lesson."""
         learned = next(it for it in signs if claims(content, it))
         match learned.kind:
             case "relation":
@@ -105,7 +105,7 @@ class MoveExecutor:
         )
 
     def _thing_with_word(self, content: RecordType, part: str) -> Named:
-        """A thing in a look, by the word that is said of it there."""
+        """A thing in a look, with the name of the word that is said of it there."""
         claim = phrase_at(content, part).get("c")
         name = claim.pred.name if isinstance(claim, PType) else ""
         return name, self._percept(content, part)
@@ -125,7 +125,7 @@ class MoveExecutor:
     # --- unlearning ------------------------------------------------------------------
 
     def _unlearn(self, keys: Collection[str]) -> tuple[Record, ...]:
-        """Unlearn these lessons; the words of which there are none left."""
+        """Unlearn these lessons; returns the words that have no lesson left."""
         if not keys:
             return ()
         before = self._knowledge.memory.words()

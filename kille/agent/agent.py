@@ -15,7 +15,7 @@ from kille.agent.attention import AttentiveSensor, View
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import Exchange, RobotSentence
 from kille.agent.explanations import sign_of
-from kille.dialogue.games.clarifying import asked_which
+from kille.dialogue.games.clarifying import asks_which
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes, set_to, types_of, word_of
@@ -48,8 +48,8 @@ class Agent:
     """A robot that looks through a sensor and keeps what it learns in a memory.
 
     It is its own context manager. `hear` takes what the tutor says, `do` changes the
-    scene, and both give the robot's answer. SensorError and MemoryFileError come as the
-    sensor and the memory raise them: the state is then as it was before the turn.
+    scene, and both give the robot's answer. If the sensor or the memory raises a
+    SensorError or a MemoryFileError, the state is as it was before the turn.
 
     >>> with Agent(sensor="synthetic:empty") as robot:
     ...     robot.hear("This is a cup.")
@@ -72,8 +72,8 @@ class Agent:
     ) -> None:
         """A robot that is awake; other `learners` may judge its words.
 
-        Its games, its language and its meanings are made of the `theory`, by default
-        the packaged one. `change` makes another game of the one that it would play.
+        Its games, its language and its meanings follow from the `theory`, by default
+        the packaged one. `change` gives the game that it plays instead of its own.
         """
         self.types = types_of(theory)
         self.gaze = AttentiveSensor(sensor, scans)
@@ -146,29 +146,29 @@ class Agent:
     def hear(self, text: str) -> str:
         """Take in what the tutor says; the robot's answer, a sentence a line.
 
-        `#2` in the text points at the thing with that number. Who says nothing leaves
-        the floor to the robot. What is not understood leaves the state as it was.
+        `#2` in the text points at the thing with that number. An empty text leaves the
+        floor to the robot. A text that is not understood leaves the state as it was.
         """
         return self._take_turn(lambda: self._hear_text(_legible(text)))
 
     def hear_perhaps(self, *texts: tuple[str, float]) -> str:
         """Take in what the tutor perhaps says: one of these texts, each so probable.
 
-        Each is one move. What was not heard well enough, the robot asks about. Raises
-        `UpdateError` for probabilities that are none, or come to more than 1.
+        Each is one move. The robot asks about what it did not hear well enough. Raises
+        `UpdateError` for invalid probabilities, or if they sum to more than 1.
         """
         _check_probable(texts)
         return self._take_turn(lambda: self._hear_alternatives(texts))
 
     def look(self) -> str:
-        """Look at the scene of one's own accord; what the robot then says, if anything.
+        """Look at the scene unasked; returns what the robot then says, if anything.
 
         It may ask about what it sees.
         """
         return self._take_turn(self._look_around)
 
     def do(self, command: str) -> str:
-        """Change what there is to see, and look; what the robot then says, if anything.
+        """Change the scene, and look; returns what the robot then says, if anything.
 
         Commands are those of `kille.sensors.stage_commands`, and `look`, `point 2`,
         `point 320 240`, `scene SENSOR`, `restart`. Pointing and restarting take no
@@ -193,8 +193,8 @@ class Agent:
     def words(self) -> Speaker:
         """Its words as perceptual meanings, as it knows them now.
 
-        They judge what is in the looks that it remembers. What they learn is learned by
-        new meanings: it is neither kept nor known to the robot.
+        They judge what is in the looks that it remembers. To teach them gives new
+        meanings: the robot neither keeps nor knows what they learn.
         """
         known = self._knowledge
         vocabulary = WordMeanings(self._witnesses, known.objects, known.relations)
@@ -241,7 +241,7 @@ class Agent:
     # --- taking turns ----------------------------------------------------------------
 
     def _take_turn(self, turn: Callable[[], TurnResult]) -> str:
-        """Take a turn, and keep it for good; or, if anything fails, none of it.
+        """Take a turn and keep it for good, or none of it if anything fails.
 
         The state is taken over, and the answer given, when all of it is on disk.
         """
@@ -311,7 +311,7 @@ class Agent:
         return so_far.then(judged, answered.steps, answered.said), after
 
     def _look_around(self) -> TurnResult:
-        """A look of one's own accord, about which nothing can be learned yet."""
+        """Take a look unasked, in which there is no lesson yet."""
         self._log.begin_look()
         return self._play_look("Seen", "robot", self._now_at)
 
@@ -325,7 +325,7 @@ class Agent:
         return Exchange("", None, turn.trace, said), turn.run
 
     def _sentences(self, words: str, numbered: str) -> tuple[Sentence, ...]:
-        """The sentences of a text; its number, if need be, as "this": "What is #2?"."""
+        """The sentences of a text; in "What is #2?" the number counts as "this"."""
         sentences = understand(words, self.language, types=self.types)
         if not numbered or all(it.readings for it in sentences):
             return sentences
@@ -336,8 +336,8 @@ class Agent:
         return named if all(it.readings for it in named) else sentences
 
     def _in_full(self, sentence: Sentence, s: Record) -> Sentence:
-        """What is no sentence by itself, but answers which thing was meant: "Red."."""
-        if sentence.readings or not asked_which(s):
+        """A text that only answers which thing was meant, "Red.", as a sentence."""
+        if sentence.readings or not asks_which(s):
             return sentence
         text = self._lexicon.answering.replace("{text}", sentence.text)
         first, *more = understand(text, self.language, types=self.types)
@@ -379,7 +379,7 @@ def _open_memory(memory: Memory | Path | str | None) -> Memory:
 
 
 def _cause(error: BaseException) -> SensorError | MemoryFileError | None:
-    """What failed in the body, where a move of the game failed because of it."""
+    """The failure of sensor or memory because of which a move of the game failed."""
     cause = error.__cause__ if isinstance(error, TTRError) else None
     while cause is not None:
         if isinstance(cause, SensorError | MemoryFileError):
@@ -404,7 +404,7 @@ def _judge_move(sentence: Sentence, steps: Sequence[Step], model: Model) -> Judg
 
 
 def _looks_of(s: Record) -> set[str]:
-    """The looks that the tutor may still confirm or set right something about."""
+    """The looks about which the tutor may still confirm or correct something."""
     open_ = [option.content for issue in s.shared.qud for option in issue.options]
     taught = [it.content for it in s.private.lessons[-1:]]
     looks = [it.get("look") for it in (*s.shared.pending, *open_, *taught)]
@@ -423,5 +423,5 @@ def _check_probable(texts: Sequence[tuple[str, float]]) -> None:
 
 
 def _legible(text: str) -> str:
-    """The text without halves of characters, which no file can keep."""
+    """The text without halves of surrogate pairs, which no file can keep."""
     return text.encode("utf-8", "replace").decode("utf-8")

@@ -23,13 +23,12 @@ _SAME = 0.5  # overlap of a thing with itself in another look
 class View:
     """A look whose things are numbered from 1, and the one in focus.
 
-    At first the nearest has the lowest number. From look to look a thing keeps its
-    number while it is in view; what is new gets the number of what went, or the next.
-    Only when more goes than comes do the later ones move up. `focus` is the number of
-    what the tutor points at, else of the nearest thing, which stays while the same
-    things are in view, even if noise in the depth makes another one the nearer now and
-    then; None when nothing is in view. `kept` are the numbers of the things that had
-    them before.
+    At first the nearest has the lowest number. A thing keeps its number from look to
+    look while it is in view; a new thing gets the number of one that is gone, or the
+    next. Later ones move up only when more things go than come. `focus` is the number
+    of what the tutor points at, or else of the nearest thing. It stays while the same
+    things are in view, even if noise makes another one nearer now and then; it is None
+    when nothing is in view. `kept` are the numbers of the things that had them before.
     """
 
     look: Look
@@ -47,7 +46,7 @@ class Attention:
 
 @runtime_checkable
 class LookingSensor(Protocol):
-    """A sensor that takes its looks itself, as one on another machine does."""
+    """A sensor that takes looks itself, such as one on another machine."""
 
     def look(self, scans: int, pointed: Sighting | None) -> Look:
         """A look as `kille.perception.look.look` takes it."""
@@ -55,7 +54,7 @@ class LookingSensor(Protocol):
 
 
 class AttentiveSensor:
-    """A sensor to look through, and what is attended to.
+    """A sensor, and what is attended to in its looks.
 
     Pointing holds until the tutor points elsewhere or the scene changes. `attention`
     may be put back to an earlier value.
@@ -131,7 +130,7 @@ def _look(sensor: Sensor, scans: int, pointed: Sighting | None) -> Look:
 
 
 def _in_order(percepts: Sequence[Percept], before: View | None) -> list[Percept]:
-    """The things in the places they had before; what is new where something went."""
+    """The things in their earlier order; new ones where others are gone."""
     places = _match_earlier(percepts, before)
     known = {id(percept) for percept in places}
     new = iter(sorted((it for it in percepts if id(it) not in known), key=_nearness))
@@ -142,7 +141,7 @@ def _in_order(percepts: Sequence[Percept], before: View | None) -> list[Percept]
 def _match_earlier(
     percepts: Sequence[Percept], before: View | None
 ) -> list[Percept | None]:
-    """For each thing that was seen before, the one that it is now, if it is in view."""
+    """For each thing of the earlier view the same thing now, or None."""
     left = list(percepts)
     found = []
     for then in () if before is None else before.look.percepts:
@@ -159,7 +158,7 @@ def _kept_numbers(order: Sequence[Percept], before: View | None) -> tuple[int, .
 
 
 def _focus(order: Sequence[Percept], before: View | None) -> int | None:
-    """The number of the nearest thing; that of before if the things are the same."""
+    """The number of the nearest thing; unchanged while the things are the same."""
     found = _match_earlier(order, before)
     if before is not None and len(found) == len(order) and None not in found:
         return before.focus

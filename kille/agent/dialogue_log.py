@@ -11,10 +11,10 @@ from kille.memory import Memory, Turn
 
 
 class DialogueLog:
-    """The turns of one dialogue, numbered from 1; `turn` is what goes on now.
+    """The turns of one dialogue, numbered from 1; `turn` is the present one.
 
-    A look in which nothing is said or learned is no turn. MemoryFileError as the memory
-    raises it.
+    A look in which nothing is said or learned is not a turn. Errors of the memory are
+    MemoryFileError.
     """
 
     def __init__(self, memory: Memory, now: Callable[[], datetime]) -> None:
@@ -24,29 +24,29 @@ class DialogueLog:
         self.turn = self._next("world", "")
 
     def begin_look(self) -> None:
-        """The robot looks of its own accord."""
+        """Begin a turn in which the robot looks unasked."""
         self.turn = self._next("world", "")
 
     def record_heard(self, text: str) -> None:
-        """The tutor says something."""
+        """Record what the tutor says."""
         self.turn = self._record(self._next("tutor", text))
 
     def record_judgement(self, judgement: str) -> None:
-        """What the tutor said was taken to be this."""
+        """Record as what the tutor's sentence was understood."""
         completed = dataclasses.replace(self.turn, judgement=judgement)
         self._memory.record_turn(completed)
 
     def record_said(self, text: str, judgement: str = "") -> None:
-        """The robot says something, or did not understand."""
+        """Record what the robot says."""
         self._record(self._next("robot", text, judgement))
 
     def record_source(self) -> Turn:
-        """What goes on now, on record: where a lesson comes from."""
+        """Record the present turn, as the source of a lesson, and return it."""
         return self._record(self.turn)
 
     @contextmanager
     def all_or_nothing(self) -> Iterator[None]:
-        """What is done inside counts, or, if anything fails, no turn of it."""
+        """Count the turns recorded inside, or none of them if anything fails."""
         turns = self._turns
         try:
             yield

@@ -13,7 +13,7 @@ from ttr.updates import Step
 class RobotSentence:
     """A sentence of the robot's, and the judgement of which move it was.
 
-    `judgement` is None for saying that it did not understand, which is no move.
+    `judgement` is None if it only says that it did not understand, which is no move.
     """
 
     text: str
@@ -39,7 +39,7 @@ class Exchange:
         steps: Iterable[Step],
         said: Iterable[RobotSentence],
     ) -> Exchange:
-        """The turn with more of it."""
+        """The turn continued: with these steps and sentences, too."""
         return Exchange(
             self.text,
             self.heard if heard is None else heard,

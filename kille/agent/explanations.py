@@ -1,7 +1,7 @@
-"""What a robot recalls when it is asked: why it thinks so, and what it knows of a word.
+"""Answers to why the robot thinks so, and to what it knows of a word.
 
-The reasons of a judgement are looked for in what was seen and what is remembered; they
-are given as the records that the dialogue speaks of, `Reason` and `Recalled`.
+The reasons for a judgement come from what was seen and what is remembered. They are
+records of the dialogue's types `Reason` and `Recalled`.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ KINDS: dict[str, Kind] = {
     "adjective": "attribute",
     "relation": "relation",
 }
-"""What the kinds of words that are talked of are called in a memory."""
+"""The kinds of words in talk, and what they are called in a memory."""
 
 _TALKED_OF = {kind: said for said, kind in KINDS.items()}
 
 
 def sign_of(word: Word, types: DialogueTypes) -> Record:
-    """A word of the memory in talk; an adjective may mean one of another language."""
+    """The sign of a word in memory; an adjective may mean one of another language."""
     means = word.name.removeprefix("is_").replace("_", " ")
     kind = _TALKED_OF[word.kind]
     means = means if kind == "adjective" else ""
@@ -37,7 +37,7 @@ def sign_of(word: Word, types: DialogueTypes) -> Record:
 
 
 class Explainer:
-    """Answers from what a robot knows and has in view, as of some time."""
+    """Explains judgements and words, by what a robot knows and sees at some time."""
 
     def __init__(
         self,
@@ -52,7 +52,7 @@ class Explainer:
     def reason(self, claim: RecordType, signs: Iterable[Record]) -> Record:
         """Why it thinks that a claim is true: a `Reason`.
 
-        It has no cues where nothing speaks for it that could be named.
+        It has no cues if no cue speaks for the claim.
         """
         found = self._reasons(claim, next(it for it in signs if claims(claim, it)))
         if found is None:
@@ -68,8 +68,8 @@ class Explainer:
     def recall_words(self, *words: Record) -> list[Record]:
         """In how many lessons each word was said to hold, as `Recalled`.
 
-        Of a single word also which others it was corrected from: those that a lesson
-        denied in the turn in which it was taught, the most often first.
+        For a single word also the words that it was confused with: those that lessons
+        denied in the turns in which it was taught, the most frequent first.
         """
         alone = len(words) == 1
         taught = self._knowledge.memory.counts()
@@ -87,7 +87,7 @@ class Explainer:
         return tuple(str(key) for word in words for key in self._keys(word))
 
     def latest(self, count: int) -> list[Record]:
-        """So many of the newest lessons, of whatever dialogue, as `Reminder`."""
+        """The newest `count` lessons of all dialogues, as `Reminder`."""
         if not count:
             return []
         return [self._reminder(it) for it in self._knowledge.memory.latest(count)]
@@ -97,7 +97,7 @@ class Explainer:
         return self._knowledge.memory.keys_of(kind, name)
 
     def _confused_words(self, word: Record) -> list[Record]:
-        """The words that were denied when a word was taught, the most often first."""
+        """The words that were denied when a word was taught, most frequent first."""
         lessons = self._knowledge.memory.lessons()
         keys = set(self._keys(word))
         taught = {_turn(it) for it in lessons if it.holds and it.key in keys}

@@ -1,4 +1,4 @@
-"""Playing a story to a robot, and comparing what it says with what is written."""
+"""Play a story to a robot, and compare what it says with what is written."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ def play(
     echo: Echo = lambda line: None,
     make: Make = Agent,
 ) -> Mismatch | None:
-    """Plays a story to a robot with this memory, an empty one if there is none.
+    """Play a story to a robot with this memory, by default an empty one.
 
-    The first difference, or None if there is none. `echo` is given each line as it is
-    played; `make` makes the robot, by default one of the packaged theory. Raises
-    StoryError for a line that cannot be played.
+    Returns the first difference, or None. `echo` gets each line as it is played; `make`
+    makes the robot, by default one of the packaged theory. Raises StoryError for a line
+    that cannot be played.
     """
     if story.game is not None:
         raise story.game.wrong("a story that names its game is played by `ttr play`")
@@ -56,7 +56,7 @@ def play(
 
 
 def story_language(story: Story) -> str:
-    """The language of a story: that of its file's name, as in `naming.sv.dlg`."""
+    """The language of a story, by the name of its file, as in `naming.sv.dlg`."""
     suffixes = [suffix.lstrip(".") for suffix in Path(story.lines[0].file).suffixes]
     return next((it for it in suffixes if it in LANGUAGES), LANGUAGES[0])
 
@@ -79,7 +79,7 @@ def _sensor_of_line(line: Line) -> str:
 
 
 class _StoryPlayer:
-    """A story being played: the robot, and what it said that the story has not had."""
+    """Plays a story; `_said` is what the robot said that the story has not yet had."""
 
     def __init__(self, robot: Agent, echo: Echo) -> None:
         self._robot, self._echo = robot, echo
@@ -128,7 +128,7 @@ class _StoryPlayer:
         return self._robot.do(f"scene {_sensor_of_line(line)}")
 
     def _hear_alternatives(self, line: Line) -> str:
-        """What the robot says to what the tutor perhaps said."""
+        """The robot's answer to what the tutor perhaps said."""
         said = [(it.text, it.p) for it in alternatives(line)]
         try:
             return self._robot.hear_perhaps(*said)
@@ -144,7 +144,7 @@ class _StoryPlayer:
         return self._mismatch(line, line.text or SILENCE, found or SILENCE)
 
     def _left_over(self, line: Line) -> Mismatch | None:
-        """What the robot said more than the story has, before this line."""
+        """The mismatch if the robot said more than the story has before this line."""
         if not self._said:
             return None
         expected = "nothing more to be said before this"

@@ -20,7 +20,7 @@ class Subscription(Protocol):
 
     @property
     def trouble(self) -> str:
-        """Why what came latest could not be read, in a line; empty if it could be."""
+        """Why the latest message could not be read, in a line; empty if it could."""
         ...
 
     def close(self) -> None:
@@ -36,7 +36,7 @@ class Publisher(Protocol[Sent]):
 
     @property
     def listeners(self) -> int:
-        """How many listen to it now."""
+        """The number of subscriptions at present."""
         ...
 
     def publish(self, message: Sent) -> None:
@@ -51,10 +51,10 @@ class Publisher(Protocol[Sent]):
 class Bus(Protocol):
     """Carries messages between parts of the robot, on one machine or several.
 
-    What one publisher sends under a topic arrives in this order. A subscription takes
-    its messages one at a time, in a thread of its own: what it does may take long, and
-    may itself send. An error in it is logged, and the next message is taken all the
-    same. BusError if a topic is used with two kinds of messages.
+    Messages of one publisher under a topic arrive in order. A subscription takes its
+    messages one at a time, in a thread of its own: it may take long, and may send
+    messages itself. An error in it is logged, and it goes on with the next message.
+    BusError if a topic is used with two kinds of messages.
     """
 
     def publisher(self, topic: Topic[M]) -> Publisher[M]:
@@ -62,7 +62,7 @@ class Bus(Protocol):
         ...
 
     def subscribe(self, topic: Topic[M], take: Callable[[M], None]) -> Subscription:
-        """Have each message under this topic taken, from now on."""
+        """Give `take` each message under this topic, from now on."""
         ...
 
     def close(self) -> None:
@@ -71,7 +71,7 @@ class Bus(Protocol):
 
 
 class TopicKinds:
-    """Which kind of messages each topic has, as its first use says."""
+    """The kind of messages of each topic, which its first use decides."""
 
     def __init__(self) -> None:
         self._lock = Lock()
@@ -87,9 +87,9 @@ class TopicKinds:
 
 
 class SerialReceiver(Generic[M]):
-    """Takes messages one at a time, whatever threads they come in.
+    """Takes messages one at a time, from whatever thread they come.
 
-    An error does not come out of it.
+    It logs errors, and raises none.
     """
 
     def __init__(self, topic: Topic[M], take: Callable[[M], None]) -> None:

@@ -40,7 +40,7 @@ class LocalBus:
         return _Sending(self, topic)
 
     def subscribe(self, topic: Topic[M], take: Callable[[M], None]) -> Subscription:
-        """Have each message under this topic taken, from now on."""
+        """Give `take` each message under this topic, from now on."""
         self._kinds.settle(_local_name(topic), topic.kind)
         listening = _Listening(self, topic, take)
         with self._lock:
@@ -116,7 +116,7 @@ class _Listening(Generic[M]):
 
     @property
     def trouble(self) -> str:
-        """Within a process nothing is written, and so nothing is misread."""
+        """Nothing: within a process messages are neither written nor read."""
         return ""
 
     def put(self, message: M) -> None:

@@ -1,7 +1,7 @@
 """What goes over a bus: immutable values, whatever carries them.
 
-Times are whole nanoseconds, so that two pictures of one moment have equal stamps. Who
-sends an array gives it away: it is read-only from then on, for the receivers too.
+Times are whole nanoseconds, so that two pictures of one moment have equal stamps. An
+array is read-only once it has been sent, for the sender and for the receivers.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _NAME = re.compile(r"/?[A-Za-z]\w*(/[A-Za-z]\w*)*", re.ASCII)
 
 
 class BusError(Exception):
-    """What a bus cannot do: one line says what, and what to do."""
+    """Something that a bus cannot do: one line says what, and what to do."""
 
 
 @dataclass(frozen=True)
@@ -86,9 +86,9 @@ M = TypeVar("M", bound=Message)
 class Topic(Generic[M]):
     """A name under which messages of one kind are sent.
 
-    `waiting` is how many of them wait for a receiver that is slow: of more, the oldest
-    are let go. Of a `latched` topic, who comes late gets the latest message at once.
-    A name that begins with `/` is taken as it is, any other belongs to a namespace.
+    At most `waiting` messages wait for a slow receiver; the oldest of more are dropped.
+    A late subscriber of a `latched` topic gets the latest message at once. A name that
+    begins with `/` is taken as it is, any other belongs to a namespace.
 
     >>> Topic("user input", Text)
     Traceback (most recent call last):

@@ -33,7 +33,7 @@ def pack(bundle: Bundle) -> bytes:
 
 
 def unpack(data: bytes) -> Bundle:
-    """The bundle in these bytes; BusError if they are none."""
+    """The bundle in these bytes; BusError if there is none."""
     try:
         arrays = read_arrays(data)
         facts = arrays.pop(_FACTS).tobytes().decode()

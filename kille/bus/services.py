@@ -1,8 +1,8 @@
 """Questions and answers: two topics, and numbers that pair them.
 
-So questions can be watched and recorded as all else on the bus, and may hold anything.
-A question that finds no answer is asked again under its number, for who answers may
-just be coming or may have been started anew; who answers does nothing twice.
+So questions can be watched and recorded like everything on the bus, and may hold
+anything. A question without an answer is asked again under its number, as the answering
+side may have started late or anew; it never does anything twice.
 """
 
 from __future__ import annotations
@@ -28,21 +28,21 @@ A = TypeVar("A", bound=Facts | Bundle)
 _FAULT = "who answers failed, by a fault of its own; its log says why"
 
 _SOON = 0.01
-"""Seconds after which one sees again whether anybody listens."""
+"""Seconds between two looks whether anybody listens."""
 
 _AGAIN = 1.0
 """Seconds after which a question is asked again."""
 
 _KEPT = 4
-"""So many answers are kept for those who ask again."""
+"""How many answers are kept, for questions that are asked again."""
 
 _DONE = 1000
-"""Of so many questions it is known that they were answered."""
+"""How many questions are remembered as answered."""
 
 
 @dataclass(frozen=True)
 class Service(Generic[A]):
-    """What can be asked of somebody; `who` is the command that starts them."""
+    """Two topics, for questions and answers; `who` is the command that answers."""
 
     questions: Topic[Facts]
     answers: Topic[A]
@@ -54,8 +54,8 @@ def serve(
 ) -> Subscription:
     """Answer all questions.
 
-    What is wrong with a question is raised as BusError; who asked is told of it, and
-    that it failed if anything else is raised, which is logged here.
+    `answer` raises BusError for a wrong question, and the asker gets its message. Any
+    other error is logged here, and the asker learns that the question failed.
     """
     return _Serving(bus, service, answer)
 
@@ -98,7 +98,7 @@ class _Serving(Generic[A]):
         self._given.pop("", None)
 
     def _keep(self, number: str, answer: A) -> None:
-        """Keep an answer; of older ones, that they were given."""
+        """Keep an answer; of older ones, keep only that they were given."""
         self._given[number] = answer
         for old in islice(reversed(self._given), _KEPT, _KEPT + 1):
             self._given[old] = None
@@ -171,7 +171,7 @@ class Asking(Generic[A]):
         )
 
     def _next(self, seconds: float) -> A | None:
-        """The answer to the present question; later ones of others are passed over."""
+        """The answer to the present question; late answers to others are skipped."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             try:

@@ -1,8 +1,8 @@
-"""What the robot makes of the things in the latest look, by judging words of them.
+"""Beliefs about the things in the latest look: how probably words are true of them.
 
 Only what is asked about is judged. A belief is a record {sit, sign, p}: that a
-situation is of the type that the sign means; its judgements are in the model that is
-given back with it.
+situation is of the type that the sign means. The model that is returned with it has
+its judgements.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def nouns_of(s: Record, model: Model, x: str) -> tuple[Beliefs, Model]:
 def relations_of(s: Record, model: Model, x: str, y: str) -> tuple[Beliefs, Model]:
     """How probably x stands in each relation to y, the most probable first.
 
-    It is judged in the perspective that the talk has settled on.
+    They are judged in the perspective that the talk has settled on.
     """
     look = s.view.look
     sit = record(
@@ -72,8 +72,8 @@ def degree(model: Model, claim: PType) -> float:
 def certainty(s: Record, beliefs: Beliefs) -> str:
     """How to say the first belief: Assert, Hedge, Guess, Doubt, or else Admit.
 
-    What it is sure of it asserts, what is not worth saying it does not say. In between
-    it names the rival, if there is one, and else says how sure it is.
+    It asserts what it is sure of, and does not say what is not worth saying. In between
+    it names the rival, if there is one, and otherwise says how sure it is.
     """
     if is_sure(s, beliefs):
         return "Assert"

@@ -47,14 +47,14 @@ def affirmation(content: RecordType) -> RecordType:
 
 
 def same(claim: RecordType, other: RecordType) -> bool:
-    """Whether two claims say the same of the same things, be it in different looks.
+    """Whether two claims say the same of the same things, also in different looks.
 
     >>> from kille.dialogue.meanings import meaning_at, noun, set_at
     >>> cup = set_at(meaning_at(noun("cup"), "Naming"), "target.x", "o1")
     >>> same(cup, set_at(cup, "look", "look2")), same(cup, denial(cup))
     (True, False)
 
-    What claims nothing says nothing that is the same.
+    Contents without a claim are never the same.
 
     >>> from kille.dialogue.meanings import record_type
     >>> same(record_type("Asked"), record_type("Asked"))
@@ -77,11 +77,11 @@ def keep_claims(here: Iterable[RecordType], kept: Collection[str]) -> list[Recor
     return [it for it in here if set(things_in(it)) <= set(kept)]
 
 
-def said_here(s: Record, said: Record, *, types: DialogueTypes) -> list[RecordType]:
+def claims_here(s: Record, said: Record, *, types: DialogueTypes) -> list[RecordType]:
     """What is said of the things in view, after the robot has made a move.
 
-    These are the lessons about them, and what the robot claims. What it no longer
-    claims and was not taught is of no account.
+    These are the lessons about them, and what the robot claims. A claim that it has
+    dropped, and was never taught, does not count.
     """
     fresh = (*s.shared.pending, *said.teaches)
     kept = {*fresh, *(it.content for it in s.private.lessons)}
@@ -104,8 +104,8 @@ def lessons_in(s: Record, claim: RecordType, *, types: DialogueTypes) -> list[Re
 def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
     """What it believes of things in view, where what it was told of them is certain.
 
-    The tutor decides what words mean: of the thing that he has just called red it does
-    not say that it is none, whatever most people would call it.
+    The tutor decides what words mean: the robot does not deny that a thing is red which
+    the tutor has just called red, whatever most people would call it.
     """
     told = {
         (word_of(it.sign), thing_at(it.content, "target")): not is_denial(it.content)
@@ -138,8 +138,8 @@ def effects_of_rejection(
 ) -> tuple[list[RecordType], list[str]]:
     """What is learned and which lessons are unlearned when these claims are wrong.
 
-    A lesson that says so is unlearned. What the robot claimed, or nobody taught it, it
-    learns to be not so.
+    A lesson that says so is unlearned. Of a claim that the robot made, or that nobody
+    taught it, it learns that it is not so.
     """
     teaches: list[RecordType] = []
     forgets: list[str] = []

@@ -45,10 +45,10 @@ def describe(
 ) -> Description | None:
     """The shortest description of x that the resolver finds x by, if there is one.
 
-    It tells x from everything in view, or only from those `among` which it is; it has
-    one of these nouns, or one that the robot would call x. Of those that are as short
-    it is the one whose context score is the highest. A description that only just holds
-    is given if no longer one is clear.
+    It tells x from everything in view, or only from the things `among` which x is. Its
+    noun is one of `nouns`, or what the robot would call x. Among the shortest ones the
+    highest context score decides. A description that only just holds is given if no
+    longer one is clear.
     """
     types = types or packaged_types()
     describing = _Describing(
@@ -71,7 +71,7 @@ def describe(
 
 @dataclass(frozen=True)
 class _Describing:
-    """Descriptions of one thing in view, told from the things among which it is."""
+    """Descriptions of one thing in view, which tell it from the things around it."""
 
     s: Record
     model: Model
@@ -98,8 +98,8 @@ class _Describing:
     def is_clear(self, words: Signs) -> bool:
         """Whether they would lead to x in another look as well, with other noise.
 
-        Each word is well above what is likely, and no other thing is half as near as it
-        would have to be to be thought of.
+        Each word is well above what is likely, and every other thing is less than half
+        as near as it would have to be to be considered.
         """
         bands = self.s.private.strategy.bands
         fits = self.judge.fits_part(said_by(words, types=self.types), self.among)
@@ -110,7 +110,7 @@ class _Describing:
     def by_length(self, nouns: Sequence[Record]) -> Iterator[Iterable[Signs]]:
         """Descriptions of x by words that are true of it, the shortest ones first.
 
-        What has no noun is "the red one".
+        Without a noun it is "the red one".
         """
         nouns = nouns or self.nouns(self.x)
         heads: list[Signs] = [(noun,) for noun in nouns] or [()]

@@ -1,7 +1,7 @@
-"""Forms of words, both ways: from a word to its form, and back to what it may be of.
+"""Forms of words, both ways: from a word to its form, and back from a form to words.
 
-A language gives for every form the irregular ones and the endings of the rest, and for
-articles how the words begin or end that have them. All of it is data of its lexicon.
+For every form the lexicon of a language lists the irregular words and the endings of
+the others, and for every article how the words begin or end that take it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 class Inflection:
     """One form of a kind of words, such as the plural of nouns.
 
-    Of several words in one, the last is changed, or the one before a complement.
+    Of several words the last one is inflected, or the one before a complement.
 
     >>> plural = Inflection(
     ...     irregular={"mouse": ("mice",)},
@@ -48,7 +48,7 @@ class Inflection:
         return f"{before}{self._of(head)}{after}"
 
     def words(self, form: str) -> tuple[str, ...]:
-        """The words that a form may be of: what is irregular is nothing else."""
+        """The words that a form may belong to; an irregular form has only its own."""
         before, head, after = self._split_at_head(form)
         return tuple(f"{before}{word}{after}" for word in self._words(head))
 
@@ -101,10 +101,10 @@ class Articles:
     beginnings: Mapping[str, Iterable[str]]
     endings: Mapping[str, Iterable[str]]
     open_: tuple[str, ...] = ("",)
-    """Beginnings of words of which a tutor may know better: "an hotel", "an LED"."""
+    """Beginnings of words whose article the tutor may know better: "an hotel"."""
 
     def choose(self, word: str, article: str) -> str:
-        """The article of a word that a tutor has used with this one, if he did.
+        """The article of a word: the one that the tutor used where that may be right.
 
         >>> english = Articles({"a": ["", "uni"], "an": ["a", "e"]}, {}, ("h", "u"))
         >>> english.choose("hotel", "an"), english.choose("apple", "a")

@@ -1,9 +1,10 @@
 """From what is said to types: parsing is judging what kind of event it is.
 
-The grammar says which words belong together, the theory what that means, and they meet
-by name. A rule with a type of its name means that type merged with what its parts mean;
-a rule without one is the label under which its part's meaning stands. A rule whose type
-has a place for a word finds a word, and one whose type is basic, as a number, a text.
+The grammar says which words belong together, the theory what that means; rules and
+types are matched by their names. A rule with a type of its name means that type merged
+with what its parts mean. A rule without one is the label of its part's meaning. A rule
+whose type has a place for a word finds a word; a rule with a basic type, such as a
+number, finds a text.
 
 What can be read in several ways has several readings. They are alternatives of one
 event, and the state of the dialogue decides between them.
@@ -17,6 +18,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import islice, product, zip_longest
 
+from kille.dialogue.language_files import FILES, last_change, source
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.meanings import (
     CLAIMS,
@@ -27,8 +29,7 @@ from kille.dialogue.meanings import (
     value_at,
 )
 from kille.dialogue.parsing import Grammar, Token, Tree, parts, words
-from kille.dialogue.sources import FILES, last_change, source
-from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
+from kille.dialogue.robot_grammar import CLOSELY, LOOSELY, robot_rules
 from ttr import Rec, Record, RecordType, RecType, rectype
 from ttr.types import TypeNode
 
@@ -54,7 +55,7 @@ _READINGS = 16
 """How many readings a sentence has at most: the simplest ones."""
 
 _FORMS = 3
-"""How many words a form is taken to be of: those that the lexicon names come first."""
+"""How many words a form is read as, at most; those in the lexicon come first."""
 
 _Changes = tuple[int, ...]
 """When the files of a language were changed last."""
@@ -120,8 +121,8 @@ def overhear(
 ) -> tuple[Utterance, ...]:
     """What a text of the robot's says: how it can be read, the simplest way first.
 
-    Its grammar is made of the wordings of the lexicon. Which things are meant is not
-    in the text; what it does not say of a rival is as in the content.
+    The wordings of the lexicon are its grammar. The text does not say which things are
+    meant. What it does not say of a rival is as in the content.
 
     >>> [learned] = overhear("OK, I learned a cup.")
     >>> print(learned.content)  # doctest: +NORMALIZE_WHITESPACE
@@ -277,14 +278,14 @@ class _Reader:
 
 
 def _by_rank(several: Sequence[Sequence[Meant]]) -> Iterator[tuple[Meant, ...]]:
-    """One out of each, in every way: those first that come first in theirs."""
+    """Every choice of one from each; early ones first, by the sum of their places."""
     ranked = product(*(enumerate(them) for them in several))
     for chosen in sorted(ranked, key=lambda it: sum(rank for rank, _ in it)):
         yield tuple(meant for _, meant in chosen)
 
 
 def _apart(all_of_it: RecordType, phrase: RecordType) -> tuple[RecordType, RecordType]:
-    """The content, and its rival: what is not said of that is as in the content."""
+    """The content, and its rival, which shares what is not said of it."""
     rival = all_of_it.get("rival")
     content = rectype({k: T for k, T in all_of_it.fields if k != "rival"})
     if not isinstance(rival, RecordType):

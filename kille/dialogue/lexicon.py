@@ -12,7 +12,7 @@ from itertools import chain
 from typing import Any
 
 from kille.dialogue.inflection import Articles, Inflection
-from kille.dialogue.sources import FILES, last_change, source
+from kille.dialogue.language_files import FILES, last_change, source
 from ttr import Record
 from ttr.safety.inputs import parse_toml
 
@@ -58,9 +58,9 @@ class Lexicon:
     marking: Mapping[str, str]
     styles: Mapping[str, Style]
     vocabulary: frozenset[str]
-    """The words that the lexicon itself names."""
+    """The words in the lexicon itself."""
     sections: Mapping[str, Any]
-    """The whole file, for those who word something of their own."""
+    """The whole file, for modules with wordings of their own."""
 
     @property
     def wordings(self) -> Wordings:
@@ -114,7 +114,7 @@ class Lexicon:
 def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
     """The lexicon of a language, with the wordings of one set.
 
-    The wordings of a set stand under `says_` and its name; the others are those of all.
+    The section `says_NAME` has the wordings of a set; `says` has those of all sets.
     """
     return _lexicon(language, wording, last_change(FILES[1], language))
 

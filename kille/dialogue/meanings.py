@@ -4,8 +4,8 @@ A word is a sign: a form, and a meaning that is the type `Noun`, `Adjective` or
 `Relation` of the theory with the word's own predicate in place of the one that stands
 for it there. In other places the word means other types, made in the same way.
 
-Which types these are is said by `DialogueTypes`, a value that whoever needs a type is
-given. The functions `theory`, `record_type`, `move_type`, `sign`, `noun`, `adjective`,
+`DialogueTypes` has the types of a theory; whoever needs a type is given this value. The
+functions `theory`, `record_type`, `move_type`, `sign`, `noun`, `adjective`,
 `relation`, `kind_in`, `meaning_in` and `meaning_at` are about the packaged theory.
 """
 
@@ -78,8 +78,8 @@ _R = TypeVar("_R")
 class DialogueTypes:
     """The types of a dialogue, by the names that a theory gives them.
 
-    Languages, rules and games are made of it, and it keeps what was derived of it. As
-    an item it gives whatever has a name in the theory.
+    Languages, rules and games are derived from it, and it keeps what was derived. Its
+    items are whatever has a name in the theory.
 
     >>> types = packaged_types()
     >>> print(types["Phrase"])
@@ -101,7 +101,7 @@ class DialogueTypes:
         *given: _P.args,
         **named: _P.kwargs,
     ) -> _R:
-        """What a pure function makes of these types, made once and kept.
+        """The value of a pure function of these types, computed once and kept.
 
         >>> types = packaged_types()
         >>> make = lambda types, name: [types[name]]
@@ -325,7 +325,7 @@ def set_to(T: RecordType, **fields: TypeNode) -> RecordType:
 
 
 def _is_set(field: TypeNode, to: TypeNode) -> bool:
-    """Whether a field is only set to an object, by which paths fit as they did."""
+    """Whether a field is only set to an object, so that its paths still fit."""
     base = _unset(to)
     return base is _unset(field) and free_paths(base) == free_paths(to) == free_paths(
         field
@@ -414,7 +414,7 @@ CLAIMS = ("c", "a", "rel")
 
 
 def denial(content: RecordType) -> RecordType:
-    """What is so if the claim of a content is not.
+    """The content that denies the claim of a content, or claims what it denies.
 
     >>> print(denial(meaning_in("cup", "Noun")))
     [look : Look, x : Ind, c : ~cup(x, look)]

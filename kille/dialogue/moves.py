@@ -21,6 +21,7 @@ from ttr.types.objects import Object
 __getattr__ = former_names(
     __name__,
     {
+        "changed_act": "change_act",
         "numbered": "number_field",
         "standing": "placement",
         "used": "words_in",
@@ -29,7 +30,7 @@ __getattr__ = former_names(
 
 __all__ = [
     "answering",
-    "changed_act",
+    "change_act",
     "content_of",
     "instead",
     "issue",
@@ -42,7 +43,7 @@ __all__ = [
 ]
 
 DOES = ("drops", "degrees", "explains", "recalls", "points", "undoes")
-"""What a move of the robot's may do besides, by the labels of Said."""
+"""What else a move of the robot may do, by the labels of the type Said."""
 
 CLAIMED = {
     "noun": ("c", "Naming"),
@@ -116,7 +117,7 @@ def _speech_type(types: DialogueTypes, act: str) -> RecordType:
 
 
 def issue(ask: str, options: Iterable[Record]) -> Record:
-    """A question about what the tutor said: which of these moves it was."""
+    """The question which of these moves the tutor meant."""
     return record(ask=ask, options=tuple(options))
 
 
@@ -181,7 +182,7 @@ def number_field(
     return {"number": types["Text"] @ str(1 + s.view.things.index(x))}
 
 
-def changed_act(
+def change_act(
     planned: RecordType, act: str, *, types: DialogueTypes | None = None
 ) -> RecordType:
     """A planned move that is made in other words: the same, by another act."""
@@ -215,7 +216,7 @@ def placement(
 
 
 def _individual(content: RecordType, part: str, sign: Record, x: str) -> RecordType:
-    """That x is what a sign means, in the look that the record around it has."""
+    """The type of x as what a sign means, in the look of the record around it."""
     own = content[part]
     assert isinstance(own, RecordType)
     return set_at(set_to(sign.meaning, **dict(own.fields)), "x", x)

@@ -1,8 +1,8 @@
 """Every way to read a sentence by a grammar in Lark's notation.
 
-Sentences are parsed over whole words: with words that nobody has heard before almost
-everything can be read in several ways, and all of them are wanted, the simplest first,
-within a millisecond or two.
+Sentences are parsed word by word. As unknown words are allowed, almost every sentence
+can be read in several ways; all of them are wanted, the simplest first, within a
+millisecond or two.
 
 Source: memoised descent that finds all parses, after Frost, Hafiz and Callaghan,
 "Modular and efficient top-down parsing for ambiguous left-recursive grammars" (2007),
@@ -39,7 +39,7 @@ class Token(NamedTuple):
 
 
 class Tree(NamedTuple):
-    """A part of a sentence: the rule that found it, what is in it, how many parts."""
+    """A part of a sentence: its rule, its children, and how many parts it has."""
 
     rule: str
     children: tuple[Tree | Token, ...]
@@ -52,7 +52,7 @@ def parts(tree: Tree) -> list[Tree]:
 
 
 def words(tree: Tree) -> list[Token]:
-    """The words that stand in a part itself, not in parts of it."""
+    """The words directly in a part, not those of its parts."""
     return [child for child in tree.children if isinstance(child, Token)]
 
 
@@ -64,8 +64,7 @@ Found = Mapping[int, list[Row]]
 class Grammar:
     """A grammar, ready to parse by.
 
-    Raises `GrammarError` for a text that is no grammar, and for a rule that begins with
-    itself.
+    Raises `GrammarError` for a text that is not a grammar, and for left recursion.
 
     >>> g = Grammar('start: A* b' + chr(10) + 'A: "a"' + chr(10) + 'b: "b" | "b" b')
     >>> [tree.rule for tree in g.parse("aab")]
@@ -88,8 +87,8 @@ class Grammar:
     def parse(self, text: str, start: str = "start") -> list[Tree]:
         """Every way to read the whole text, those with the fewest parts first.
 
-        Raises `GrammarError` where an expression takes too long to be looked for, and
-        where rules are nested too deep.
+        Raises `GrammarError` if an expression takes too long to match, or if rules nest
+        too deep.
         """
         if len(text.split()) > _MOST_WORDS:
             return []
@@ -101,16 +100,16 @@ class Grammar:
         return [tree for row in rows for tree in row if isinstance(tree, Tree)]
 
     def check_terminals(self) -> None:
-        """Raises `GrammarError` for a terminal that cannot be looked for.
+        """Raise `GrammarError` for a terminal whose expression is wrong.
 
-        Else it is raised where the terminal is first looked for, in the middle of a
-        dialogue.
+        Otherwise it would be raised when the terminal is first needed, in the middle of
+        a dialogue.
         """
         for terminal in self._source.terminals:
             self.expression(terminal)
 
     def expression(self, terminal: str) -> Expression:
-        """What finds a terminal; it is made when it is first looked for."""
+        """The expression of a terminal, compiled when it is first needed."""
         known = self._expressions.get(terminal)
         if known is None:
             known = self._expressions[terminal] = self._source.expression(terminal)
@@ -239,7 +238,7 @@ class _Chart:
 
 
 def _build_trees(production: Production, rows: list[Row]) -> Iterable[Row]:
-    """What a production makes of what it has found: a tree of it, mostly."""
+    """The rows that a production makes of what it has found: trees, mostly."""
     if production.made is None:
         return rows
     if production.only_child:
@@ -257,7 +256,7 @@ def _size(row: Row) -> int:
 
 
 def _simplest(rows: list[Row]) -> list[Row]:
-    """Those with the fewest parts, in the order in which the grammar has them."""
+    """The rows with the fewest parts, in the order of the grammar."""
     if len(rows) < 2:
         return rows
     return sorted(dict.fromkeys(rows), key=_size)[:_WAYS]

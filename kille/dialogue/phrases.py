@@ -13,9 +13,9 @@ Words = Mapping[Pred, Record]
 
 
 def phrase(lexicon: Lexicon, part: RecordType, words: Words, style: str) -> str | None:
-    """The noun phrase for what a part of a content means, in one style of the lexicon.
+    """The noun phrase for a part of a content, in one style of the lexicon.
 
-    None where there is no word for it.
+    None if there is no word for it.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> from kille.dialogue.meanings import adjective, noun, word_of
@@ -103,7 +103,7 @@ def _indefinite(lexicon: Lexicon, noun: Record | None, first: str) -> str:
 
 
 def _beside(lexicon: Lexicon, part: RecordType, words: Words) -> str | None:
-    """What a phrase says of where its thing is."""
+    """The words of a phrase for where its thing is."""
     landmark = part.get("landmark")
     relation = next((it for it in _predicates(part, "rel") if it in words), None)
     if relation is None or not isinstance(landmark, RecordType):

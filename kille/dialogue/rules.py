@@ -33,7 +33,7 @@ TYPES = "types"
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class NamedRule(Rule):
-    """A rule on types that are known by their names: it is played when it is bound."""
+    """A rule on types known by their names; it can be played once it is bound."""
 
     of: Effect
     condition: When
@@ -158,7 +158,7 @@ def _states_to_answer(types: DialogueTypes, moves: tuple[str, ...]) -> RecordTyp
 
 
 def _without_types(effect: Effect) -> Effect:
-    """A function of the same place and words, without the parameter for the types."""
+    """The same function, without the parameter for the types in its signature."""
     asked = inspect.signature(effect)
     if TYPES not in asked.parameters or not isinstance(effect, FunctionType):
         return effect

@@ -1,9 +1,9 @@
-"""How the robot decides: by what it expects of each thing that it could say or do.
+"""How the robot decides: by the expected utility of what it could say or do.
 
-A strategy is a value in the state: the bands of certainty from which on it says a thing
-in each way, and what it is worth to it to speak, to ask and to learn. The bands follow
-from the worth of being right and wrong: a way of speaking begins where more is expected
-of it than of the weaker ones.
+A strategy is a value in the state: the bands of certainty in which the robot asserts,
+hedges, guesses …, and what it is worth to it to speak, to ask and to learn. The bands
+follow from what being right and wrong is worth: the band of a way of speaking begins
+where its expected utility exceeds that of the weaker ways.
 
 Source: Lison 2013 (utilities decide what a robot says); Skočaj et al. 2011 (driven,
 assisted and autonomous learning).
@@ -16,7 +16,7 @@ from functools import lru_cache
 from pathlib import PurePath
 from typing import Any, NamedTuple
 
-from kille.dialogue.sources import STRATEGIES, language_in, last_change, source
+from kille.dialogue.language_files import STRATEGIES, language_in, last_change, source
 from ttr import Record, record
 from ttr.aliases import former_names
 from ttr.safety.inputs import parse_toml
@@ -60,7 +60,7 @@ class Option(NamedTuple):
 
 
 def expected_value(stake: Stake, p: float) -> float:
-    """What is expected of something that is right with a probability.
+    """The expected utility of something that is right with probability p.
 
     >>> expected_value(Stake(right=1.0, wrong=-1.0), 0.75)
     0.5
@@ -69,9 +69,9 @@ def expected_value(stake: Stake, p: float) -> float:
 
 
 def best(options: Iterable[Option], nothing: float = 0.0) -> Option | None:
-    """The option of which most is expected, the first of equals; None for nothing.
+    """The option of the highest expected utility, the first of equals.
 
-    Of what is done more has to be expected than of doing `nothing`.
+    None if no option is better than doing nothing, which is worth `nothing`.
 
     >>> ask = Option("ask", 0.5, Stake(1.0, -1.0))
     >>> say = Option("say", 0.9, Stake(1.0, -1.0))
@@ -86,7 +86,7 @@ def best(options: Iterable[Option], nothing: float = 0.0) -> Option | None:
 
 
 def threshold(stronger: Stake, weaker: Stake) -> float:
-    """The probability from which on at least as much is expected of the stronger one.
+    """The probability from which on the stronger stake pays at least as well.
 
     p·r₁ + (1 − p)·w₁ = p·r₂ + (1 − p)·w₂ at p = (w₂ − w₁) / ((r₁ − w₁) − (r₂ − w₂)).
     Where it never is, 1 and more; where it always is, 0.

@@ -26,9 +26,10 @@ def packaged_theory() -> Theory:
 
 
 def theory_with(types: Mapping[str, str]) -> Theory:
-    """The packaged theory in which some types are defined otherwise.
+    """The packaged theory with other definitions of some types.
 
-    Raises `TTRError` for a name that it does not define, and for what is no type.
+    Raises `TTRError` for a name that it does not define, and for a text that is no
+    type.
 
     >>> print(theory_with({"Phrase": "[look : Look, x : Ind, y : Ind]"}).Phrase)
     [look : Look, x : Ind, y : Ind]
@@ -48,9 +49,10 @@ def theory_of_file(file: Path | str, allow: Iterable[Path | str] = ()) -> Theory
 
 
 def redefine(text: str, types: Mapping[str, str]) -> str:
-    r"""A theory file in which some types are defined otherwise, each on one line.
+    r"""A theory file with other definitions of some types, each on one line.
 
-    All else stays on its line. Raises `TTRError` for a name that it does not define.
+    Everything else stays on its line. Raises `TTRError` for a name that it does not
+    define.
 
     >>> redefine("A := [x : Ind,\n      y : Ind]\nB := A", {"A": "[x : Ind]"})
     'A := [x : Ind]\n\nB := A'

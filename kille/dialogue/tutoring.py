@@ -1,8 +1,8 @@
 """Tutoring as a game: its rules with a start, a language and an agenda, to be played.
 
-It is what the robot plays, without its eyes and its memory: what is seen is an event
-like any other, and what words are true of is for the model to say. So the rules can be
-checked, tested and changed by themselves.
+It is what the robot plays, without its eyes and its memory: a look is an event like any
+other, and the model says what words are true of. So the rules can be checked, tested
+and changed by themselves.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ def hear_sentences(
 def say(move: Judgement, language: str = "en", wording: str = "paper") -> str:
     """The robot's sentence for a move of its own.
 
-    Raises `TypeError` for what is none.
+    Raises `TypeError` for anything else.
     """
     planned, made = move.type, move.sit
     if not isinstance(planned, RecordType) or not isinstance(made, Record):

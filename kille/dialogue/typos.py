@@ -1,9 +1,9 @@
-"""What somebody may have meant to type: the nearest known word, or known sentence.
+"""Typos: the nearest known word, or the nearest known sentence.
 
-It is only ever offered. So a word counts as near if it is one slip away, of the four
-that make most mistakes of typing: a letter too many, too few, another one, or two
-changed about. Of short words only those slips count that hardly ever make another
-word: who teaches "cap" and knows "cup" is not asked.
+A correction is only ever offered. A word counts as near if it is one slip away, of the
+four kinds that make most typos: a letter too many, one too few, another one, or two
+swapped. In short words only those slips count that hardly ever make another word: if
+"cap" is taught to a robot that knows "cup", it does not ask.
 
 Source: Damerau, "A technique for computer detection and correction of spelling
 errors" (1964).
@@ -15,13 +15,13 @@ import difflib
 from collections.abc import Iterable
 
 _ALIKE = 0.72
-"""Share of characters in common, in their order, that makes two sentences alike."""
+"""Share of common characters, in order, from which two sentences are similar."""
 
 _LONG = 5
-"""Letters from which on a letter too many or too few is more likely a slip."""
+"""From this many letters on, a letter too many or too few is rather a slip."""
 
 _LONGER = 7
-"""Letters from which on another letter is more likely a slip than another word."""
+"""From this many letters on, another letter is rather a slip."""
 
 
 def nearest(form: str, known: Iterable[str]) -> str | None:
@@ -80,6 +80,6 @@ def slip(form: str, word: str) -> str | None:
 
 
 def nearest_sentence(text: str, sentences: Iterable[str]) -> str | None:
-    """The sentence that is most like a text, if one is much like it."""
+    """The sentence that is most similar to a text, if one is similar enough."""
     near = difflib.get_close_matches(text, list(sentences), n=1, cutoff=_ALIKE)
     return next(iter(near), None)

@@ -1,9 +1,8 @@
 """From a move to its sentence, by the wordings of the lexicon.
 
-A wording has slots, and a content fills those that it has something for: `{a_word}`
-what it says of its target, `{the_target}` the phrase for that, `{relation}` how it
-stands to `{the_landmark}`. Of several wordings the first is taken of which every slot
-is filled.
+A wording has slots, which a content fills as far as it can: `{a_word}` with what it
+says of its target, `{the_target}` with the phrase for that, `{relation}` with how it
+stands to `{the_landmark}`. The first wording whose slots can all be filled is used.
 """
 
 from __future__ import annotations
@@ -13,18 +12,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from string import Formatter
 
-from kille.dialogue.details import details
+from kille.dialogue.answer_details import details
 from kille.dialogue.lexicon import Lexicon, Wordings
-from kille.dialogue.listing import either, list_slots
 from kille.dialogue.meanings import DialogueTypes, word_of
-from kille.dialogue.mending import suggest_sentence
 from kille.dialogue.phrases import Words, claimed_predicates, noun_phrase, phrase
+from kille.dialogue.sentence_suggestions import suggest_sentence
+from kille.dialogue.view_lists import either, list_slots
 from ttr import Rec, Record, RecordType
 from ttr.escapes import terminal_text
 from ttr.types import Join, Negation, Singleton
 
 _SHOWN = 60
-"""Characters of what was not understood that are said back."""
+"""How many characters of a text that was not understood are repeated."""
 
 _CLAIMS = {"c": "word", "a": "quality", "rel": "relation"}
 """The slots of what is said of a target, by the label of its claim."""
@@ -55,9 +54,9 @@ def tell(lexicon: Lexicon, act: str, move: Record) -> str:
 
 
 def did_not_understand(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str:
-    """One sentence: that it was not understood, and what could be said instead.
+    """The sentence that says what was not understood, and what could be said instead.
 
-    That is the text with its slips mended, or an example that is much like it.
+    That is the text with its typos corrected, or a similar example.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> from kille.dialogue.meanings import packaged_types
@@ -85,7 +84,7 @@ def _fill_wording(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) 
 
 
 def _choose_wording(wordings: Iterable[str], slots: Mapping[str, str]) -> str:
-    """The first wording of which all slots are filled, or else the last."""
+    """The first wording whose slots can all be filled, or else the last."""
     wording = ""
     for wording in wordings:
         if _slots_in(wording) <= slots.keys():
@@ -188,5 +187,5 @@ def _phrase_slots(
 
 
 def _plainly(value: str | float) -> str:
-    """A number or text of a content, as it is said."""
+    """A number or text of a content, in words."""
     return f"{value:g}" if isinstance(value, float) else str(value)

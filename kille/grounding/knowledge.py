@@ -36,7 +36,7 @@ from kille.perception.thumbnails import evidence_of, restore_crop
 from kille.scene import Configuration, Percept, Region, Traits
 
 SAID_OF_THINGS = "is_"
-"""How the predicates of words for how things are begin."""
+"""The prefix of the predicates of adjectives."""
 
 PALETTE = "palette"
 """The trait in which the colours of a thing are kept, as they were in its light."""
@@ -55,13 +55,13 @@ class LessonSource:
 
 
 def _index_in_background(views: Iterable[View]) -> ObjectMemory:
-    """A memory that has its index built while it goes on, see `Background`."""
+    """An object memory whose index is built in the background."""
     return ObjectMemory(views, builder=Background())
 
 
 @dataclass(frozen=True)
 class Learners:
-    """What makes the learners of nouns, from views, and of relations."""
+    """Functions that make the learners of nouns, from views, and of relations."""
 
     objects: Callable[[Iterable[View]], ObjectMemory] = _index_in_background
     relations: Callable[[], RelationMemory] = RelationMemory
@@ -71,8 +71,8 @@ class Knowledge:
     """The learners of words, which know what the memory holds and nothing else.
 
     What is learned inside `together` is on disk when that ends; if anything fails, the
-    memory and the learners are as they were. MemoryFileError as the memory raises it.
-    Others than its own `learners` may judge nouns and relations.
+    memory and the learners are as they were. Errors of the memory are MemoryFileError.
+    `learners` replaces the learners of nouns and relations.
     """
 
     def __init__(self, memory: Memory, learners: Learners | None = None) -> None:
@@ -98,9 +98,9 @@ class Knowledge:
 
     @contextmanager
     def together(self) -> Iterator[None]:
-        """All that is learned, forgotten and kept inside is so for good, or none of it.
+        """Keep all that is learned and forgotten inside, or none of it.
 
-        It may be a part of a larger whole, with which it is undone.
+        Inside another `together` it is undone with that one.
         """
         outer = self._undoing
         with ExitStack() as undoing:
@@ -124,7 +124,7 @@ class Knowledge:
         article: str = "",
         holds: bool = True,
     ) -> int:
-        """Learn that this is what the word is said of, or that it is not; the key."""
+        """Learn that a thing is called so, or that it is not; returns the key."""
         seen = self._sighting(percept, evidence, self.objects.traits_of(percept))
         learn = self.objects.learn_one if holds else self.objects.deny_one
         with self.together():
@@ -145,7 +145,7 @@ class Knowledge:
         article: str = "",
         holds: bool = True,
     ) -> int:
-        """Learn that this is how the thing is, or that it is not so; the key.
+        """Learn that a thing is so, or that it is not so; returns the key.
 
         A word for a colour that most people know is learned as one, any other as one of
         the tutor's own.
@@ -176,8 +176,7 @@ class Knowledge:
         article: str = "",
         holds: bool = True,
     ) -> int:
-        """Learn that the relation holds of a target that stands so to a landmark, or
-        that it does not; the key."""
+        """Learn that two things stand so, or that they do not; returns the key."""
         (target, percept), (landmark, other) = things
         picture = _picture(percept, other.region)
         seen = Arrangement(
@@ -192,16 +191,16 @@ class Knowledge:
         return key
 
     def forget(self, key: int) -> None:
-        """Be as if this lesson had never been. NoSuchLessonError as the memory."""
+        """Forget a lesson, as if it had never been. Raises NoSuchLessonError."""
         with self.together():
             lesson = self.memory.lesson(key)
             self.memory.forget(key)
             self._forget(lesson)
 
     def forget_word(self, kind: Kind, name: str) -> tuple[int, ...]:
-        """Be as if the word had never been taught; the keys of its lessons.
+        """Forget a word with all its lessons; returns their keys.
 
-        NoSuchLessonError as the memory raises it.
+        Raises NoSuchLessonError for a word that was never taught.
         """
         with self.together():
             keys = self.memory.keys_of(kind, name)
@@ -220,10 +219,10 @@ class Knowledge:
         *,
         heard: Heard | None = None,
     ) -> Reasons:
-        """Why a noun is taken to hold of a thing, and not a rival.
+        """Why a thing is called by this noun, and not by a rival.
 
-        The rival is the best one unless it is given; so is the evidence, unless it was
-        heard before. KeyError for a noun that was not learned.
+        By default the rival is the best other noun. `heard` is the evidence, if it is
+        known already. KeyError for a noun that was not learned.
         """
         evidence = self.objects.evidence(percept) if heard is None else heard
         degrees = evidence.degrees()
@@ -235,7 +234,7 @@ class Knowledge:
         return Reasons(word, degrees.get(word, 0.0), cues, lesson, rival, margin)
 
     def attribute_reasons(self, word: str, percept: Percept) -> Reasons:
-        """Why a word for how things are is taken to hold of a thing.
+        """Why a thing is described by this adjective.
 
         KeyError for a word that is not known.
         """
@@ -256,7 +255,7 @@ class Knowledge:
     def relation_reasons(
         self, word: str, stand: Configuration, rival: str | None = None
     ) -> Reasons:
-        """Why a relation is taken to hold of things that stand so.
+        """Why this relation is said of things that stand so.
 
         KeyError for a relation that was not learned.
         """
@@ -269,19 +268,19 @@ class Knowledge:
     # --- learners --------------------------------------------------------------------
 
     def _undo(self, undo: Callable[..., object], *given: object) -> None:
-        """Have this done if the whole of which it is a part fails."""
+        """Register an undo, in case the enclosing `together` fails."""
         if self._undoing is not None:
             self._undoing.callback(undo, *given)
 
     def _forget(self, *lessons: Lesson) -> None:
-        """Have the learners forget lessons; undone, they know all in its order."""
-        taught = [(self._taught_by(lesson), lesson.key) for lesson in lessons]
+        """Have the learners forget lessons; undo restores them in order."""
+        taught = [(self._learner_of_lesson(lesson), lesson.key) for lesson in lessons]
         for learner in {id(learner): learner for learner, _ in taught}.values():
             self._undo(learner.become, learner.copy())
         for learner, key in taught:
             learner.forget(key)
 
-    def _taught_by(self, lesson: Lesson) -> _Learner:
+    def _learner_of_lesson(self, lesson: Lesson) -> _Learner:
         match lesson:
             case RelationLesson():
                 return self.relations
@@ -352,13 +351,13 @@ def colour_named(colours: ColourMemory, word: str) -> str | None:
 
 
 def _picture(percept: Percept, *others: Region) -> Picture | None:
-    """What is kept to show what was seen; nothing of what was only described."""
+    """The picture kept of what was seen; None for a thing that was only described."""
     frame = percept.frame
     return None if frame is None else evidence_of(frame, percept.region, *others)
 
 
 def _palette_of(percept: Percept) -> Palette | None:
-    """The colours of what is seen; None of what has none, or was only described."""
+    """The colours of a thing; None if it has none, or was only described."""
     frame = percept.frame
     return None if frame is None else colours_of(frame, percept.region)
 
@@ -381,7 +380,7 @@ def _of_cues(traits: Traits) -> Traits:
 
 
 def _views(memory: Memory, denied: list[View]) -> Iterator[View]:
-    """The views of the lessons in nouns; those denied are put into the list instead."""
+    """The views of the lessons in nouns; denied ones go into the list `denied`."""
     for lesson in memory.objects():
         view = _view(memory, lesson)
         if lesson.holds:
@@ -399,7 +398,7 @@ def _view(memory: Memory, lesson: ObjectLesson) -> View:
 
 
 def _up_to_date(memory: Memory, lesson: ObjectLesson) -> Traits:
-    """The traits of a lesson; measured anew if one is of a cue that has changed."""
+    """The traits of a lesson, measured again if a cue has changed since."""
     kept = _of_cues(lesson.seen.traits)
     if kept and len(kept) == len(lesson.seen.traits.keys() - {PALETTE}):
         return kept

@@ -27,7 +27,7 @@ class Measurements:
         self._odds: dict[str, NDArray[np.float64]] = {}
 
     def palette(self, number: int) -> Palette | None:
-        """The colours of a thing; None of what has none, or was only described."""
+        """The colours of a thing; None if it has none, or was only described."""
         if number not in self._palettes:
             percept = self.look.percepts[number]
             self._palettes[number] = (
@@ -40,7 +40,7 @@ class Measurements:
     def configurations(self, front: str = AWAY) -> Mapping[Pair, Configuration]:
         """How any two things stand to each other, in a perspective of `FRONTS`.
 
-        Those of which a place is unknown are missing.
+        Pairs with an unknown place are missing.
         """
         if front not in self._pairs and front != AWAY:
             seen = self.configurations()

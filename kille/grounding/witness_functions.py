@@ -1,12 +1,12 @@
-"""The bridge: what is seen and learned, as the witness functions of words.
+"""The witness functions of words: judgements by what is seen and learned.
 
 A look is named by a handle, look7, and a thing in it by its number, o2; the theory sees
 only these names. The predicate of a noun is judged of a thing and a look by the object
 memory, that of an adjective by the colour memory or by that of other attributes, and
 that of a relation of two things, a look and a perspective by the relation memory.
 
-What all words say of a thing, or of all pairs of things, is asked of the learners once
-and kept until they have changed; what is only seen is measured once.
+The learners are asked once for the degrees of all their words, and the answers are kept
+until the learners have changed; what depends on the look alone is measured once.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class WitnessFunctions:
         colours: ColourMemory | None = None,
         attributes: AttributeMemory | None = None,
     ) -> None:
-        """Witnesses by these learners; colours as most people name them by default."""
+        """Judge by these learners; by default colours are named as most people do."""
         self._objects, self._relations = objects, relations
         self._colours = ColourMemory(prior=xkcd()) if colours is None else colours
         self._attributes = AttributeMemory() if attributes is None else attributes
@@ -73,14 +73,14 @@ class WitnessFunctions:
 
     @classmethod
     def of(cls, knowledge: Knowledge) -> Self:
-        """Witnesses by what is known, now and later."""
+        """Judge by this knowledge, as it is now and later."""
         known = knowledge
         return cls(known.objects, known.relations, known.colours, known.attributes)
 
     def remember(self, handle: str, look: Look, needed: Collection[str] = ()) -> None:
-        """Have words judged of this look too.
+        """Remember a look, so that words can be judged of it.
 
-        Of the others only those that are still needed and the latest are kept.
+        Of earlier looks the latest and those that are still needed are kept.
         """
         self._seen[handle] = Measurements(look)
         kept = {*needed, *list(self._seen)[-_REMEMBERED_LOOKS:]}
@@ -93,9 +93,9 @@ class WitnessFunctions:
         }
 
     def prepare(self, handle: str) -> None:
-        """Measure all that is in a look, and judge all words of it, now.
+        """Measure all things in a look, and judge all words of them, now.
 
-        Otherwise each thing is measured and judged when something is first asked of it.
+        Otherwise a thing is measured and judged when it is first asked about.
         """
         seen = self._seen.get(handle)
         if seen is None:
@@ -145,7 +145,7 @@ class WitnessFunctions:
     # --- the degrees of words --------------------------------------------------------
 
     def evidence(self, x: str, handle: str) -> Evidence | None:
-        """What speaks for which noun; None of what is not in a remembered look."""
+        """The evidence for each noun; None if no remembered look has the thing."""
         percept = self.percept(x, handle)
         if percept is None:
             return None
@@ -162,8 +162,8 @@ class WitnessFunctions:
     def attribute(self, word: str, x: str, handle: str) -> Degree:
         """The degree of word(x, look) for an adjective, such as `is_red` or `is_big`.
 
-        By the colour memory where it is a colour, else by what was taught of it. What
-        nobody taught, or has no colours that could be told: [0, 1].
+        A colour is judged by the colour memory, any other adjective by what was taught
+        of it. [0, 1] for a word that nobody taught, and for a thing of unknown colours.
         """
         if self.percept(x, handle) is None:
             return UNKNOWN
@@ -175,7 +175,7 @@ class WitnessFunctions:
     def colour(self, word: str, x: str, handle: str) -> Degree:
         """The degree of a colour word as it is said, such as "light blue".
 
-        What has no colours that could be told, or a word that nobody taught: [0, 1].
+        [0, 1] for a word that nobody taught, and for a thing of unknown colours.
         """
         if self.percept(x, handle) is None:
             return UNKNOWN
@@ -186,7 +186,7 @@ class WitnessFunctions:
     ) -> Degree:
         """The degree of word(x, y, look, front), in a perspective of `FRONTS`.
 
-        Of things whose places are unknown, and of a thing to itself: [0, 1].
+        [0, 1] for things of unknown places, and for a thing and itself.
         """
         if self.configuration(x, y, handle, front) is None:
             return UNKNOWN
@@ -242,8 +242,8 @@ class WitnessFunctions:
     def _descriptions(self, x: str, handle: str) -> Mapping[str, Degree]:
         """The degree of every other adjective for a thing.
 
-        Where a word that was only denied holds is unknown, but not of what is like the
-        things of which it was denied.
+        A word that was only ever denied is unknown, except of things that are like
+        those of which it was denied.
         """
         if (x, handle) not in self._described:
             percept = self.percept(x, handle)

@@ -40,7 +40,7 @@ class CopyableLearner(Learner[X_contra], Protocol[X_contra]):
         ...
 
     def copy(self) -> Self:
-        """Another one that knows the same."""
+        """A copy that knows the same."""
         ...
 
 
@@ -70,12 +70,12 @@ class KeylessLearner(Generic[X]):
         return self._learner.predict_proba_one(x)
 
     def copy(self) -> KeylessLearner[X]:
-        """Another pupil that knows the same."""
+        """A copy that knows the same."""
         return KeylessLearner(self._learner.copy(), self._lessons)
 
 
 class SingleRelationLearner(KeylessLearner[Configuration]):
-    """A pupil that is asked about one spatial word only.
+    """A learner that is asked about one spatial word only.
 
     Several of them may hold of the same things, to degrees that sum to more than 1.
     """
@@ -95,12 +95,12 @@ class SingleRelationLearner(KeylessLearner[Configuration]):
         return {word: degrees[word] for word in self.labels}
 
     def copy(self) -> SingleRelationLearner:
-        """Another pupil that knows the same."""
+        """A copy that knows the same."""
         return SingleRelationLearner(self._relations.copy(), self._word, self._lessons)
 
 
 class WordMeanings:
-    """Makes meanings of words, of what the learners know and the eyes remember."""
+    """Makes the meanings of words, from the learners and the remembered looks."""
 
     def __init__(
         self,
@@ -113,7 +113,7 @@ class WordMeanings:
     def speaker(
         self, name: str, nouns: Iterable[Record], relations: Iterable[Record]
     ) -> Speaker:
-        """Who has these words: nouns share a learner, each relation has its own."""
+        """The speaker of these words; nouns share one learner, relations do not."""
         shared = _params(KeylessLearner(self._objects))
         meanings = {
             sign.form: _meaning(sign, shared, self._witnesses.percept) for sign in nouns

@@ -13,8 +13,13 @@ from pathlib import Path
 from shlex import join
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from kille.interfaces.parsing import parse_count, parse_seed, positive
-from kille.interfaces.streams import drop_output, end_line, prepare_streams, write_error
+from kille.interfaces.number_arguments import parse_count, parse_seed, positive
+from kille.interfaces.standard_streams import (
+    drop_output,
+    end_line,
+    prepare_streams,
+    write_error,
+)
 from ttr.cli.command_line import Parser, Version
 from ttr.cli.consent_options import add_consent, consent_of
 
@@ -27,8 +32,8 @@ FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
 def command() -> NoReturn:
     """Run the installed command.
 
-    When all is done a thread may still be building a part of the index. Python waits
-    for it, and Ctrl-C then would tell of the thread, and of nothing that matters.
+    At the end a thread may still be building a part of the index. Python waits for it,
+    and a Ctrl-C would then report the thread, which is of no interest.
     """
     threading.excepthook = _unforeseen_in_thread
     code = main()
@@ -497,7 +502,7 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _talk(options: argparse.Namespace) -> int:
-    from kille.interfaces.showing import derivation, show_nothing
+    from kille.interfaces.formatting import derivation, show_nothing
     from kille.interfaces.talk import talk
 
     account = derivation if options.trace else show_nothing

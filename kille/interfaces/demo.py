@@ -12,7 +12,7 @@ from rich.table import Table
 from kille.agent.agent import Agent
 from kille.agent.attention import View
 from kille.demo import DemoAnswer, DemoStep, demonstration
-from kille.interfaces.showing import claims, format_account
+from kille.interfaces.formatting import claims, format_account
 from kille.interfaces.terminal import FINE, complain, console
 from kille.perception.picture_sheet import picture_sheet, write_picture
 

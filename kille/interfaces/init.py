@@ -7,7 +7,7 @@ import shlex
 from importlib.resources import files
 from pathlib import Path
 
-from kille.dialogue.sources import FILES, STRATEGIES
+from kille.dialogue.language_files import FILES, STRATEGIES
 from kille.dialogue.theory_files import SOURCE
 from kille.interfaces.terminal import FAILED, FINE, complain, console
 from ttr.safety.files import why_unwritten

@@ -57,7 +57,7 @@ def replay(
 
 
 def _maker(plan: Plan, robots: Callable[[str], Make]) -> Make:
-    """Makes robots of all languages of the stories, which have been tried before."""
+    """A function that makes robots, tried for all languages of the stories."""
     stories = [story for _, stories in plan for story in stories]
     makes = {it: robots(it) for it in dict.fromkeys(map(story_language, stories))}
 
@@ -79,12 +79,14 @@ def in_full(plan: Plan, make: Make) -> Iterator[Outcome]:
     """Prints each line as it is played."""
     out = console()
 
-    def told(file: Path, story: Story) -> Outcome:
+    def play_aloud(file: Path, story: Story) -> Outcome:
         out.print(f"--- {story.title}", markup=False, style="bold")
         return _outcome(file, story, make, lambda line: out.print(line, markup=False))
 
     for file, stories in plan:
-        yield from _summed_up(out, file, [told(file, story) for story in stories])
+        yield from _with_summary(
+            out, file, [play_aloud(file, story) for story in stories]
+        )
 
 
 def in_brief(plan: Plan, make: Make) -> Iterator[Outcome]:
@@ -94,7 +96,7 @@ def in_brief(plan: Plan, make: Make) -> Iterator[Outcome]:
         with labelled_bar(out) as bar:
             played = bar.track(stories, description=str(file))
             outcomes = [_outcome(file, story, make) for story in played]
-        yield from _summed_up(out, file, outcomes)
+        yield from _with_summary(out, file, outcomes)
 
 
 def as_json(plan: Plan, make: Make) -> Iterator[Outcome]:
@@ -106,7 +108,7 @@ def as_json(plan: Plan, make: Make) -> Iterator[Outcome]:
     yield from outcomes
 
 
-def _summed_up(
+def _with_summary(
     out: Console, file: Path, outcomes: Sequence[Outcome]
 ) -> Sequence[Outcome]:
     for outcome in outcomes:

@@ -101,10 +101,10 @@ def run_nodes(
     arguments: Sequence[str],
     consent: Consent,
 ) -> int:
-    """Runs a part of the robot, or all of it, until it is told to end; the exit code.
+    """Run a part of the robot, or all of it, until it must end; returns the exit code.
 
-    What is not among the options is a parameter of the node. Others on the network can
-    set parameters: a theory that is named by one runs no Python, whatever the user
+    Whatever no option gives is a parameter of the node. Others on the network can set
+    parameters: a theory that a parameter names runs no Python, whatever the user
     consents to.
     """
     if not options.get("theory"):

@@ -36,9 +36,9 @@ def talk_as_node(opened: Opening, arguments: Sequence[str]) -> int:
 
 
 def talk_over(bus: Bus, patience: float = _PATIENCE) -> int:
-    """Calls what the tutor types to the robot, and prints what it says to it.
+    """Send what the tutor types to the robot, and print its answers.
 
-    A call is answered even if the robot is started anew in the middle of it.
+    A call is answered even if the robot is restarted in the middle of it.
     """
     calling, staging = Asking(bus, CALLS, patience), Asking(bus, STAGE, patience)
     try:
@@ -56,7 +56,7 @@ def talk_over(bus: Bus, patience: float = _PATIENCE) -> int:
 def _take_line(
     line: str, calling: Asking[Facts], staging: Asking[Facts]
 ) -> Iterator[str]:
-    """What comes of a line that the tutor types."""
+    """The answer to a line that the tutor types."""
     if line.replace(" ", "") == "@things":
         yield f"You can show: {', '.join(staging.ask({'command': 'things'})['things'])}"
         return

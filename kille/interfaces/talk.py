@@ -10,9 +10,13 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from kille.agent.agent import Agent
-from kille.dialogue.sources import plain
-from kille.interfaces.ears import SpeechHypotheses, SpeechInput, answer_hypotheses
-from kille.interfaces.showing import Account, format_account, things_in_view
+from kille.dialogue.language_files import plain
+from kille.interfaces.formatting import Account, format_account, things_in_view
+from kille.interfaces.speech_input import (
+    SpeechHypotheses,
+    SpeechInput,
+    answer_hypotheses,
+)
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
 from kille.perception.picture_sheet import overview, write_picture
@@ -56,10 +60,10 @@ def talk(
     say: str = "none",
     make: Callable[..., Agent] = Agent,
 ) -> int:
-    """Talks until the tutor leaves, with an account of each turn; the exit code.
+    """Talk until the tutor leaves, with an account of each turn; returns the exit code.
 
-    `hear` is where speech comes from, if it is not typed; `say` names the voice.
-    `make` makes the robot.
+    `hear` is where speech comes from, if the tutor does not type; `say` names the
+    voice. `make` makes the robot.
     """
     place = memory_path(memory)
     try:
@@ -140,9 +144,9 @@ class _Conversation:
                 yield line
 
     def _answer(self, line: str | SpeechHypotheses) -> None:
-        """Does what a line says; what goes wrong is one line, and the talk goes on."""
+        """Do what a line says; a failure is one line, and the conversation goes on."""
         try:
-            answer = self._done(line)
+            answer = self._respond(line)
         except (SensorError, MemoryFileError, TTRError) as error:
             complain(error)
             return
@@ -150,19 +154,19 @@ class _Conversation:
             self._print(sentence if sentence.startswith(" ") else f"S> {sentence}")
             self._speak(sentence)
 
-    def _done(self, line: str | SpeechHypotheses) -> str:
+    def _respond(self, line: str | SpeechHypotheses) -> str:
         if isinstance(line, SpeechHypotheses):
-            return self._told(
+            return self._take_turn(
                 lambda: answer_hypotheses(self._robot, line.perhaps, self._language)
             )
         if line.startswith("@"):
             return self._command(line[1:].strip())
         if _POINTING.fullmatch(line) and not self._robot.state.shared.qud:
             return self._command(f"point {line}")
-        return self._told(lambda: self._robot.hear(line))
+        return self._take_turn(lambda: self._robot.hear(line))
 
-    def _told(self, take: Callable[[], str]) -> str:
-        """Takes a turn, and gives an account of it; the robot's answer."""
+    def _take_turn(self, take: Callable[[], str]) -> str:
+        """Take a turn, and print an account of it; returns the robot's answer."""
         turns = len(self._robot.exchanges)
         answer = take()
         for turn in self._robot.exchanges[turns:]:

@@ -20,7 +20,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.segment import Segment
 from rich.text import Text
 
-from kille.interfaces.streams import write_error
+from kille.interfaces.standard_streams import write_error
 from ttr.escapes import json_text, terminal_line, terminal_text
 
 FINE, FAILED, WRONG_USE = 0, 1, 2

@@ -15,7 +15,7 @@ from functools import partial
 from pathlib import Path
 
 from kille.agent.agent import Agent
-from kille.dialogue.sources import FILES, STRATEGIES
+from kille.dialogue.language_files import FILES, STRATEGIES
 from kille.dialogue.theory_files import SOURCE
 from kille.lab.errors import StudyError
 from kille.lab.settings import suggest_name

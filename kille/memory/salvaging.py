@@ -23,7 +23,7 @@ from kille.memory.errors import ELSEWHERE, MemoryFileError, explain_failures
 from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
 from kille.memory.memory import Memory
 from kille.memory.merging import MergeResult
-from kille.memory.pages import Row, Rows, Value, rows_in
+from kille.memory.sqlite_pages import Row, Rows, Value, rows_in
 from kille.safety.databases import has_strange_journal, printable_name, restrict
 
 UNKNOWN = "unknown"

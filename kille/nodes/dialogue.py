@@ -33,10 +33,10 @@ __getattr__ = former_names(__name__, {"Talking": "DialogueNode"})
 class DialogueNode:
     """Lets a tutor and programs talk to a robot, one turn after the other.
 
-    What is learned is on disk before it is said. After a farewell a new dialogue
-    begins. What goes wrong in a turn is a problem; the state is then as it was. The
-    robot is made, used and closed in one thread, as its memory asks for; SensorError
-    and MemoryFileError as making it raises them.
+    A lesson is on disk before the robot says so. After a farewell a new dialogue
+    begins. A turn that goes wrong is published as a problem, and leaves the state as it
+    was. The robot is made, used and closed in one thread, as its memory requires;
+    making it may raise SensorError and MemoryFileError.
     """
 
     def __init__(self, bus: Bus, make: Callable[[], Agent]) -> None:
@@ -76,7 +76,7 @@ class DialogueNode:
         self._take_or_report(lambda: self._robot.hear_perhaps(*_texts(said.facts)))
 
     def _answer_call(self, call: Mapping[str, Any]) -> Facts:
-        """What a program asks for is said to the robot; its answer, move by move."""
+        """Say to the robot what a program asks for; returns the answer and moves."""
         text = text_of(call, lexicon(self._robot.language), self._robot.types)
         done = self._take_turn(lambda: self._hear(text))
         answer = "\n".join(exchange.answer for exchange in done if exchange.answer)
@@ -90,7 +90,7 @@ class DialogueNode:
             self._problems.publish(Text(str(error)))
 
     def _take_turn(self, turn: Callable[[], object]) -> Sequence[Exchange]:
-        """Take a turn, and say what comes of it; BusError if it cannot be taken."""
+        """Take a turn and publish its outcome; BusError if it cannot be taken."""
         return self._alone.submit(self._take_turn_here, turn).result()
 
     def _take_turn_here(self, turn: Callable[[], object]) -> Sequence[Exchange]:
@@ -164,7 +164,7 @@ def _is(exchange: Exchange, act: RecordType) -> bool:
 
 
 def _texts(facts: Mapping[str, Any]) -> list[tuple[str, float]]:
-    """The texts with their probabilities; BusError if these are none."""
+    """The texts with their probabilities; BusError if these are invalid."""
     match facts.get("texts"):
         case [_, *_] as texts if all(map(_is_text, texts)):
             return [(text, float(p)) for text, p in texts]

@@ -1,4 +1,4 @@
-"""Looks as bundles: what was seen and measured, whole, for others to read.
+"""Looks as bundles: what was seen and measured, for other programs to read.
 
 The facts say which things there are: `up`, `things` with a `box` and a `place` each,
 `lens`, `time` and the `stamp` of the frame. The arrays are the frame, `colour` and
@@ -37,7 +37,7 @@ _FEATURES = ("descriptors", "pixels", "points")
 
 
 def bundle_of(look: Look) -> Bundle:
-    """The look with everything measured that may be asked of it."""
+    """The look, with everything measured that may be needed of it."""
     frame = frame_bundle(look.frame)
     numbered = list(enumerate(look.percepts, start=1))
     facts = {

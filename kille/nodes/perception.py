@@ -21,15 +21,15 @@ from ttr.aliases import former_names
 __getattr__ = former_names(__name__, {"Seeing": "PerceptionNode"})
 
 _KEPT = 4
-"""So many frames of earlier looks are kept."""
+"""How many frames of earlier looks are kept."""
 
 
 class PerceptionNode:
     """Answers requests for looks.
 
-    A request may say how many `scans` to take, none for a frame alone; that only what
-    was taken `after` a moment counts; and what is `pointed` at: a mask in the frame of
-    an earlier look, with its time.
+    A request may say how many `scans` to take, 0 for a frame alone; that only frames
+    `after` a moment count; and what is `pointed` at: a mask in the frame of an earlier
+    look, with its time.
     """
 
     def __init__(self, bus: Bus, feed: Feed = FRAMES, patience: float = 5.0) -> None:
@@ -63,7 +63,7 @@ class PerceptionNode:
         return bundle_of(found)
 
     def _pointed_region(self, at: Mapping[str, Any]) -> Sighting | Mask:
-        """What is pointed at in its frame, or, if that has gone, in the next."""
+        """What is pointed at, in its frame, or in the next if that is gone."""
         mask = mask_in(at["runs"], at["shape"])
         earlier = self._earlier.get(float(at["time"]))
         if earlier is None or not np.any(mask):

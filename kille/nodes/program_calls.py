@@ -1,7 +1,7 @@
-"""What programs ask of the robot, as what a tutor would say to it.
+"""Calls of programs to the robot, as what a tutor would say to it.
 
-So a program and a tutor take turns in one dialogue, in its language, and there is one
-way to learn. Of each call `thing` is the number of the thing that "this" means.
+So programs and a tutor take turns in one dialogue, in its language, and there is one
+way to learn. In each call `thing` is the number of the thing that "this" means.
 
 | `do` | with | is as if a tutor said |
 | --- | --- | --- |
@@ -28,7 +28,7 @@ _KNOWN = ("say", "teach", "ask", "forget")
 def text_of(
     call: Mapping[str, Any], lexicon: Lexicon, types: DialogueTypes | None = None
 ) -> str:
-    """What a tutor would say; BusError for what is no call.
+    """What a tutor would say instead of a call; BusError if it is no call.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> text_of({"do": "teach", "word": "cup", "thing": 2}, lexicon("en"))

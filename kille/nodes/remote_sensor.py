@@ -1,4 +1,4 @@
-"""The eyes of a dialogue node: a sensor whose looks the perception node takes."""
+"""The sensor of a dialogue node, whose looks the perception node takes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Seen = TypeVar("Seen", Frame, Look)
 
 
 class RemoteSensor:
-    """A sensor, a stage, and one who looks, by asking the nodes that do it.
+    """A sensor and a stage that takes looks, by asking other nodes.
 
     SensorError if they do not answer within `patience` seconds, or cannot do it.
     """
@@ -80,7 +80,7 @@ class RemoteSensor:
     # --- asking ----------------------------------------------------------------------
 
     def _change(self, command: str) -> None:
-        """Have the scene changed, and see from then on only what shows it."""
+        """Change the scene; from then on only frames that show it count."""
         self._after = int(self._send_command(command)["after"])
 
     def _send_command(self, command: str) -> Mapping[str, Any]:

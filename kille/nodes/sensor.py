@@ -32,8 +32,8 @@ _AGAIN = 1.0
 class SensorNode:
     """Sends the frames of a sensor, and changes its scene when it is asked to.
 
-    `now` gives nanoseconds. Who asks for a change is told from which moment on the
-    frames show it. The sensor is read only while somebody listens.
+    `now` gives nanoseconds. The answer to a change of the scene says from which moment
+    on frames show it. The sensor is read only while somebody listens.
     """
 
     def __init__(
@@ -93,7 +93,7 @@ class SensorNode:
         self._send(frame, stamp)
 
     def _tell(self, trouble: str) -> None:
-        """Say what is wrong with the sensor, when it begins."""
+        """Publish what is wrong with the sensor, once for each problem."""
         if trouble != self._trouble:
             self._trouble = trouble
             self._problems.publish(Text(trouble))

@@ -16,7 +16,7 @@ from xmlrpc.client import ServerProxy, Transport
 from kille.bus import BusError, Facts, Message, Publisher, Subscription, Topic
 from kille.bus.interface import SerialReceiver, TopicKinds
 from kille.ros.conversion import Ros1Form, form_of
-from kille.ros.modules import ros
+from kille.ros.system_modules import ros
 
 M = TypeVar("M", bound=Message)
 
@@ -24,17 +24,17 @@ _PATIENCE = 3.0
 """Seconds to wait for the master to answer."""
 
 _LINGER = 0.2
-"""Seconds that what was sent has to arrive: who hears of the end hangs up at once."""
+"""Seconds for sent messages to arrive; receivers hang up once they hear of the end."""
 
 _BYTES = 1 << 20
-"""As many bytes are received at once: a picture in one or two steps."""
+"""How many bytes are received at once: a picture in one or two steps."""
 
 
 def open_ros(name: str, arguments: Sequence[str] = ()) -> RosBus:
     """The bus of the ROS master that `ROS_MASTER_URI` names.
 
-    This process is a node of that name from now on, if it is none yet: a process is one
-    node at most, until it ends. `arguments` are remappings as ROS writes them,
+    From now on this process is a node of that name, unless it is one already: a process
+    is at most one node, until it ends. `arguments` are remappings as ROS writes them,
     `user_input:=/chat`, and parameters, `_rate:=10`. BusError if ROS is not there, its
     master does not answer, or the node cannot begin.
     """
@@ -47,7 +47,7 @@ def open_ros(name: str, arguments: Sequence[str] = ()) -> RosBus:
 
 
 def anonymous(name: str) -> str:
-    """A name that no other node has: two of one name cannot be."""
+    """A name that no other node has, as each name is unique."""
     return f"{name}_{os.getpid()}_{time.time_ns() // 1_000_000}"
 
 
@@ -98,7 +98,7 @@ class RosBus:
         return sending
 
     def subscribe(self, topic: Topic[M], take: Callable[[M], None]) -> Subscription:
-        """Have each message under this topic taken, from now on."""
+        """Give `take` each message under this topic, from now on."""
         self._kinds.settle(self.full_name(topic.name), topic.kind)
         listening = _Listening(topic, self._rospy, take)
         self._opened.append(listening)
@@ -128,7 +128,7 @@ class _Sending(Generic[M]):
 
     @property
     def listeners(self) -> int:
-        """How many listen to it now."""
+        """The number of subscriptions at present."""
         return int(self._publisher.get_num_connections())
 
     def publish(self, message: M) -> None:
@@ -174,7 +174,7 @@ class _Listening(Generic[M]):
 
     @property
     def trouble(self) -> str:
-        """Why what came latest could not be read."""
+        """Why the latest message could not be read."""
         return self._trouble
 
     def _came(self, sent: Any) -> None:
@@ -234,7 +234,7 @@ def reach_master(patience: float = _PATIENCE) -> str:
 
 
 class _Hasty(Transport):
-    """A way to a server that is given up after some seconds."""
+    """A connection to a server that is given up after some seconds."""
 
     def __init__(self, patience: float) -> None:
         super().__init__()

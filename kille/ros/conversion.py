@@ -19,7 +19,7 @@ import numpy as np
 from kille.bus import Bundle, BusError, Camera, Facts, Image, Text
 from kille.bus.packing import format_facts, pack, parse_facts, unpack
 from kille.bus.pixels import encoding_of, pixels_of
-from kille.ros.modules import ros
+from kille.ros.system_modules import ros
 
 _FRAME = "kille_camera"
 _SECOND = 1_000_000_000

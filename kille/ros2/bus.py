@@ -1,8 +1,8 @@
 """The bus over the topics of ROS 2, by DDS alone. Experimental.
 
-Topics, types and bytes are those that ROS 2 has, so that its nodes should hear and be
-heard; that could only be tried between nodes of ours. There is no node in ROS 2's own
-sense: `ros2 topic` may list the topics, `ros2 node` nothing.
+Topics, types and bytes are those of ROS 2, so its nodes should hear ours and be heard;
+this was only tried between nodes of ours. There is no node in ROS 2's own sense:
+`ros2 topic` may list the topics, `ros2 node` nothing.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ class DdsBus:
         return sending
 
     def subscribe(self, topic: Topic[M], take: Callable[[M], None]) -> Subscription:
-        """Have each message under this topic taken, from now on."""
+        """Give `take` each message under this topic, from now on."""
         form = self._form(topic)
         lasting = topic.latched and topic.kind not in _STREAMED
         reader = module("cyclonedds.sub").DataReader(
@@ -131,7 +131,7 @@ class _Sending(Generic[M]):
 
     @property
     def listeners(self) -> int:
-        """How many listen to it now."""
+        """The number of subscriptions at present."""
         return len(self._writer.get_matched_subscriptions()) if self._open else 0
 
     def publish(self, message: M) -> None:
@@ -140,7 +140,7 @@ class _Sending(Generic[M]):
             self._writer.write(self._writer.data_type(self._form.to(message)))
 
     def close(self) -> None:
-        """Send no more, once what was sent has come; who comes late gets nothing."""
+        """Send no more, once sent messages have arrived; later takers get nothing."""
         if self._open:
             self._open = False
             self._writer.wait_for_acks(module("cyclonedds.util").duration(seconds=1))
@@ -162,7 +162,7 @@ class _Listening(Generic[M]):
 
     @property
     def trouble(self) -> str:
-        """Why what came latest could not be read."""
+        """Why the latest message could not be read."""
         return self._trouble
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""Frames that somebody sends over a bus: colour, depth and the camera's calibration."""
+"""A sensor whose frames come over a bus: colour, depth and calibration."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from kille.sensors.sensor import SensorError
 COLOUR = "camera/rgb/image_color"
 DEPTH = "camera/depth_registered/image"
 CAMERA = "camera/rgb/camera_info"
-"""What drivers of such cameras call their topics."""
+"""The topics of usual camera drivers."""
 
 _TOGETHER = 16_000_000
 """Nanoseconds between two pictures of one moment, at most: half a frame."""
@@ -67,8 +67,8 @@ class _Pair(NamedTuple):
 class Stream:
     """A sensor whose frames come over a bus.
 
-    A frame is one that comes after it was asked for: what was seen before that is of no
-    interest. `patience` is how many seconds one waits for it.
+    `frame` gives a picture that comes after the call; earlier ones do not count. It
+    waits at most `patience` seconds.
     """
 
     def __init__(self, bus: Bus, feed: Feed, name: str, patience: float = 5.0) -> None:

@@ -12,6 +12,7 @@ RENAMED = [
     ("kille.dialogue.meanings", "placed", "meaning_at"),
     ("kille.dialogue.meanings", "reworded", "replace_word"),
     ("kille.dialogue.meanings", "spoken", "move_type"),
+    ("kille.dialogue.moves", "changed_act", "change_act"),
     ("kille.dialogue.moves", "numbered", "number_field"),
     ("kille.dialogue.moves", "standing", "placement"),
     ("kille.dialogue.moves", "used", "words_in"),

@@ -1,4 +1,4 @@
-"""What a yes or no to a claim teaches: by the strategy, not every one does.
+"""Answers to a yes or no that, by the strategy, teaches nothing.
 
 The robot after KILLE (Cano Santin 2019) learned from a yes only what it had not been
 sure of, and from a no nothing; and it spoke of how many examples it had been shown.
@@ -15,7 +15,7 @@ from kille.dialogue.meanings import (
     value_at,
     word_of,
 )
-from kille.dialogue.moves import changed_act, plan
+from kille.dialogue.moves import change_act, plan
 from kille.dialogue.reference import PARTS, thing_at
 from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, replace
@@ -25,7 +25,7 @@ from ttr.updates import first
 
 @rule(answers="Affirm")
 def acknowledge(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
-    """The tutor confirms what it was so sure of that there is nothing to learn."""
+    """The tutor confirms a claim that the robot was too sure of to learn from it."""
     if len(s.shared.pending) != 1:
         return None
     if _degree(model, s.shared.pending[0]) < s.private.strategy.yes_below:
@@ -35,7 +35,7 @@ def acknowledge(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
 
 @rule(answers="Deny")
 def only_ask(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
-    """The tutor rejects what it takes nothing from: it asks what is so."""
+    """The tutor rejects a claim, and the robot only asks what is so."""
     pending = s.shared.pending
     if not pending or _degree(model, pending[0]) < s.private.strategy.no_below:
         return None
@@ -54,7 +54,7 @@ def count_examples(s: Record, *, types: DialogueTypes) -> Record | None:
     count = _examples(s, value_at(planned, "teaches")[-1])
     few = "LearnedFew" if count < enough else "LearnedMore"
     act = "LearnedEnough" if count == enough else few
-    return replace(s, {"private.agenda": (changed_act(planned, act, types=types),)})
+    return replace(s, {"private.agenda": (change_act(planned, act, types=types),)})
 
 
 LEARNING = ("learned", "learned_quality", "learned_relation")

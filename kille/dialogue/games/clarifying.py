@@ -42,7 +42,7 @@ def take_only(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Deny")
 def take_none(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor means none of these things: the question is dropped."""
-    return plan(_drop_issue(s), "Resign", types=types) if asked_which(s) else None
+    return plan(_drop_issue(s), "Resign", types=types) if asks_which(s) else None
 
 
 @rule(answers="Mention")
@@ -91,7 +91,7 @@ def _options(s: Record) -> Sequence[Record]:
     return options
 
 
-def asked_which(s: Record) -> bool:
+def asks_which(s: Record) -> bool:
     """Whether the question under discussion is which thing was meant."""
     return bool(s.shared.qud) and s.shared.qud[0].ask in REFERENTS
 
@@ -100,7 +100,7 @@ def _fitting_options(
     s: Record, model: Model, *, types: DialogueTypes
 ) -> Sequence[Record]:
     """The options about a thing that the tutor's phrase is true of."""
-    if not asked_which(s):
+    if not asks_which(s):
         return ()
     options = _options(s)
     _, things = differing_things(options)

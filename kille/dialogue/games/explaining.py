@@ -38,7 +38,7 @@ def miss_certain(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="AskCertainty")
 def tell_certainty(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It says how certain the claim is, and what else it might be."""
-    claim = _asked_about(s)
+    claim = _claim_in_question(s)
     return None if claim is None else _plan_certainty(s, model, claim, types=types)
 
 
@@ -51,7 +51,7 @@ def miss_explained(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="AskWhy")
 def explain(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It thinks so: it says by which cues, and what it was reminded of."""
-    claim = _asked_about(s)
+    claim = _claim_in_question(s)
     if claim is None or is_denial(claim):
         return None
     own, rival, model = _judge_claim(s, model, claim)
@@ -75,7 +75,7 @@ def explain(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
 @rule(answers="AskWhy")
 def doubt(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It does not think so: it says how certain it is instead."""
-    claim = _asked_about(s)
+    claim = _claim_in_question(s)
     return None if claim is None else _plan_certainty(s, model, claim, types=types)
 
 
@@ -108,7 +108,7 @@ def _plan_unknown_word(s: Record, *, types: DialogueTypes) -> Record | None:
     return None
 
 
-def _asked_about(s: Record) -> RecordType | None:
+def _claim_in_question(s: Record) -> RecordType | None:
     """The claim that a question is about: the one in it, or what was claimed last."""
     asked = content_of(s)
     if kind_of(asked) is not None:
@@ -117,7 +117,7 @@ def _asked_about(s: Record) -> RecordType | None:
 
 
 def _still_claimed(s: Record, claim: RecordType) -> Sequence[RecordType]:
-    """What was claimed and may be confirmed: nothing, if he asks of another claim."""
+    """What was claimed and may be confirmed; nothing if asked about another claim."""
     pending: Sequence[RecordType] = s.shared.pending
     asked = affirmation(claim)
     return pending if any(same(asked, affirmation(it)) for it in pending) else ()
@@ -149,7 +149,7 @@ def _judge_claim(
 ) -> tuple[Record | None, Record | None, Model]:
     """The robot's belief in a claim, and in the best other word of the same kind.
 
-    How a thing is that it was told about is certain, as when it is asked whether.
+    A quality that the tutor has taught of this thing is certain, as in `checking`.
     """
     sign = next((it for it in words(s) if claims(claim, it)), None)
     if sign is None:

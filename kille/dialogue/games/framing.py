@@ -220,7 +220,7 @@ def ask_frame_of_place(
     return _plan_question(
         s,
         landmark.sign.meaning,
-        [_seen_from(s, it, types=types) for it in _fronts(s, landmark.sit.x)],
+        [_with_front(s, it, types=types) for it in _fronts(s, landmark.sit.x)],
         types=types,
     ), model
 
@@ -318,7 +318,7 @@ def _plan_question_of_claim(
 ) -> Record:
     """The plan to ask in whose perspective a claim of the tutor's is meant."""
     content = content_of(s)
-    options = [_seen_from(s, front, types=types) for front in _fronts(s, landmark)]
+    options = [_with_front(s, front, types=types) for front in _fronts(s, landmark)]
     return _plan_question(s, phrase_at(content, "landmark"), options, types=types)
 
 
@@ -327,7 +327,7 @@ def _fronts(s: Record, landmark: str) -> list[str]:
     return [front_of(_in(s, frame), landmark) for frame in FRAMES]
 
 
-def _seen_from(s: Record, front: str, *, types: DialogueTypes) -> Record:
+def _with_front(s: Record, front: str, *, types: DialogueTypes) -> Record:
     """The latest move, made specific: this is forward."""
     content = set_to(content_of(s), frame=types["Front"] @ front)
     return replace(s.shared.latest, content=content)

@@ -1,8 +1,8 @@
 """Game 4: the robot does something of its own accord, when the floor is free.
 
-It does one thing at a time, the one of which it expects most by its strategy, if it
-expects anything of it: to be silent costs nothing. It does nothing twice in a scene.
-What has just come into view, or is pointed at, is the tutor's to speak of first.
+It does one thing at a time, the one with the highest expected utility by its strategy,
+if that is positive: silence costs nothing. It does nothing twice in a scene. When
+something has just come into view, or is pointed at, the tutor speaks first.
 
 Source: Dobnik and de Graaf 2017, section 3; Skočaj et al. 2011 for the modes.
 """
@@ -23,7 +23,7 @@ from ttr.updates import first
 
 
 class Initiative(NamedTuple):
-    """Something it might do: what is expected of it, about what, and the plan."""
+    """Something it might do: the option, what it asks about, and the plan."""
 
     option: Option
     question: Record
@@ -53,7 +53,7 @@ def stay(s: Record, seen: Record) -> Record | None:
 def ask_relation(
     s: Record, seen: Record, *, model: Model, types: DialogueTypes
 ) -> Record | None:
-    """Two things it knows are in view, and how they stand it cannot say: it asks."""
+    """Two things that it knows are in view, and it asks how they stand."""
     return _take_best(s, _relations(s, model, types=types))
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from itertools import count, islice
 
 from kille.dialogue.beliefs import knows
-from kille.dialogue.commitments import keep_claims, said_here
+from kille.dialogue.commitments import claims_here, keep_claims
 from kille.dialogue.games.costing import ASKED, CORRECTED
 from kille.dialogue.games.mishearing import MISHEARING
 from kille.dialogue.meanings import (
@@ -21,10 +21,10 @@ from kille.dialogue.meanings import (
     set_to,
     word_of,
 )
+from kille.dialogue.reading_weights import FAINTLY, weigh_readings
 from kille.dialogue.reference import things_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from kille.dialogue.weighing import FAINTLY, weigh_readings
 from ttr import Model, Pred, Record, RecordType, replace
 from ttr.updates import NBest, first, maybe, seq
 
@@ -44,7 +44,7 @@ def glance(s: Record, seen: Record) -> Record:
 
 
 def _state_after_look(s: Record, seen: Record) -> Record:
-    """The state after a look: what is gone is not talked about, what is shown is.
+    """The state after a look: talk is about what is shown, and not about what is gone.
 
     A question about what is gone is dropped.
     """
@@ -110,7 +110,7 @@ def say(s: Record, said: Record, *, types: DialogueTypes) -> Record:
         if agenda[0] in last
         else _repeatable_moves(agenda, said, types=types),
         "shared.latest": said,
-        "shared.here": said_here(s, said, types=types),
+        "shared.here": claims_here(s, said, types=types),
         "shared.topic": things_in(said.content) or s.shared.topic,
     }
     return replace(s, changes)
@@ -187,7 +187,7 @@ def _remove_lessons(s: Record, said: Record) -> Record:
 
 
 def _earlier_lessons(s: Record, said: Record) -> list[Record]:
-    """How often words were taught before this dialogue, less what is forgotten."""
+    """How often words were taught before this dialogue, without forgotten lessons."""
     fewer = Counter[Pred]()
     for it in said.undone:
         fewer[word_of(it.sign)] += it.examples

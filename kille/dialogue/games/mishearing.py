@@ -1,7 +1,7 @@
 """What was not heard well: the robot asks whether it was that, or to hear it again.
 
-Each thing that may have been said is an option of the question, and the tutor's yes, or
-his saying it again, settles it.
+Each thing that may have been said is an option of the question. The tutor settles it by
+saying yes, or by saying it again.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import issue, plan
+from kille.dialogue.reading_weights import FAINTLY, WeighedMove, weigh_readings
 from kille.dialogue.rules import rule
-from kille.dialogue.weighing import FAINTLY, WeighedMove, weigh_readings
 from ttr import Model, Record, replace
 from ttr.updates import NBest, first
 

@@ -52,7 +52,7 @@ def _intended_word(
 ) -> Record | None:
     """The one known word that a word may be a slip of, if it is not known itself.
 
-    What is taught is likelier a new word, so that there only the surest slips count.
+    A word that is taught is more likely new, so there only the surest slips count.
     """
     known = s.private[f"{sign.kind}s"]
     if knows(known, sign) or word_of(sign) in model.facts.functions:
@@ -76,7 +76,7 @@ def _is_offered(s: Record) -> bool:
 
 
 def _choose_option(s: Record, chosen: int) -> Record:
-    """The state in which the tutor's move is the option that he chose."""
+    """The state in which the tutor's move is the option that they chose."""
     asked, *rest = s.shared.qud
     return replace(s, {"shared.qud": rest, "shared.latest": asked.options[chosen]})
 

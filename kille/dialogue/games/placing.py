@@ -48,7 +48,7 @@ def need_place(s: Record, *, types: DialogueTypes) -> Record:
 def asked_thing(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:
     """The thing of which the tutor asks where it is, by the noun for it in the answer.
 
-    That is his own, if he has used one, or else the one that fits the thing best.
+    That is the tutor's own noun, if they used one, or else the one that fits best.
     """
     target = phrase_at(content_of(s), "target")
     for noun in nouns_said(s.shared.latest, target):

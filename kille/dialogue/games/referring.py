@@ -54,7 +54,7 @@ def refer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
 def ask_referent(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """What is said fits several things: it asks which of them is meant."""
     readings = _readings(s, model, types=types)
-    label = _left_open(readings)
+    label = _open_phrase(readings)
     if label is None:
         return None
     said = s.shared.latest
@@ -209,7 +209,7 @@ def _among(phrases: Iterable[RecordType], *, types: DialogueTypes) -> RecordType
     return set_to(types.record_type("Scene"), **choices)
 
 
-def _left_open(readings: Sequence[Reading]) -> str | None:
+def _open_phrase(readings: Sequence[Reading]) -> str | None:
     """The first phrase that is set to different things in these readings."""
     things = {label: {it.things.get(label) for it in readings} for label in PARTS}
     return next((label for label in PARTS if len(things[label]) > 1), None)

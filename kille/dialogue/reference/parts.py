@@ -1,8 +1,8 @@
 """A noun phrase taken apart: what it says of its thing, and of what it stands beside.
 
-The parts of a record type are independent judgements, so that the degree of the whole
-is the product of those of its parts. Taken apart once, each part is judged once of each
-thing, and not again for every way in which the others can be filled.
+The parts of a record type are independent judgements, so the degree of the whole is the
+product of the degrees of its parts. Each part is judged once of each thing, and not
+again for every combination of the others.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ttr.types.objects import Object, Path
 _Some = TypeVar("_Some")
 
 Claim = tuple[Pred, tuple[Object, ...]]
-"""That a predicate is true of objects."""
+"""A predicate and the objects that it is said of."""
 
 THING, LOOK, FRONT, OTHER = ("x",), ("look",), ("frame",), ("landmark", "x")
 """Where a phrase has its thing, the look, the perspective, and what it is beside."""
@@ -40,17 +40,17 @@ class PhraseParts:
     landmark: PhraseParts | None
 
     def said_of(self, x: str, look: str) -> Iterator[Claim]:
-        """What it says of the thing alone, if that is x."""
+        """The claims about the thing alone, if it is x."""
         return _ground(self.claims, {THING: x, LOOK: look})
 
     def said_of_both(self, x: str, y: str, look: str, front: str) -> Iterator[Claim]:
-        """What it says of the thing and its landmark, if they are x and y."""
+        """The claims about the thing and its landmark, if they are x and y."""
         places = {THING: x, OTHER: y, LOOK: look, FRONT: front}
         return _ground(self.relations, places)
 
 
 def put_together(*parts: PhraseParts) -> PhraseParts:
-    """What phrases say together: the parts of the merge of their types."""
+    """The parts of several phrases together: those of the merge of their types."""
     beside = [part.landmark for part in parts if part.landmark is not None]
     return PhraseParts(
         thing=next((it.thing for it in parts if it.thing is not None), None),
@@ -70,7 +70,7 @@ def _all(several: Iterable[tuple[_Some, ...]]) -> tuple[_Some, ...]:
 def take_apart(
     phrase: RecordType, choosing: frozenset[Pred] = frozenset()
 ) -> PhraseParts:
-    """The parts of a phrase; what the predicates for choosing say is kept apart."""
+    """The parts of a phrase; predicates that choose among things are kept apart."""
     landmark = phrase.get("landmark")
     said = [T for _, field in phrase.fields for T in _ptypes(field)]
     plain = [T for T in said if T.pred not in choosing]
@@ -103,7 +103,7 @@ def _mentions(T: PType, place: tuple[str, ...]) -> bool:
 def _ground(
     claims: tuple[PType, ...], places: Mapping[tuple[str, ...], Object]
 ) -> Iterator[Claim]:
-    """The claims, with what stands at these places in the place of their paths."""
+    """The claims, with the objects at these places in place of their paths."""
     for T in claims:
         args = [places[a.labels] if isinstance(a, Path) else a for a in T.args]
         yield T.pred, tuple(args)

@@ -32,10 +32,10 @@ PARTS = ("target", "landmark")
 
 
 class PhraseFit(NamedTuple):
-    """How well a thing fits a phrase: all that is said, and the weakest of it.
+    """How well a thing fits a phrase: all claims together, and the weakest claim.
 
-    `firm` is the weakest of what is not vague, as adjectives are. `things` is the thing
-    itself, what it stands beside, what that stands beside …
+    `firm` is the weakest claim that is not vague; adjectives are vague. `things` are
+    the thing itself, what it stands beside, what that stands beside …
     """
 
     p: float
@@ -148,7 +148,7 @@ def possible_readings(
 ) -> Sequence[Reading]:
     """The ways in which the phrases of a content can be set to things in view.
 
-    Two phrases are set to two things. Ways of no probability are left out.
+    Two phrases are set to two things. Readings without any probability are left out.
     """
     types = types or packaged_types()
     judging = PhraseJudge(s, model, types=types)
@@ -158,7 +158,7 @@ def possible_readings(
         [
             (label, fit)
             for x, fit in judging.fits(
-                phrase, _spoken_of(s, phrase, types=types)
+                phrase, _things_without_words(s, phrase, types=types)
             ).items()
             if x not in taken
         ]
@@ -172,12 +172,13 @@ def possible_readings(
     ]
 
 
-def _spoken_of(
+def _things_without_words(
     s: Record, phrase: RecordType, *, types: DialogueTypes
 ) -> Sequence[str] | None:
-    """What a phrase without words may be about: "No, a mug." None for other phrases.
+    """The things that a phrase without words may mean, as in "No, a mug."
 
-    It is what the robot has claimed something of, or else what is shown.
+    These are the things that the robot has claimed something of, or else those shown.
+    None for a phrase with words.
     """
     if phrase.labels != types.record_type("Phrase").labels:
         return None
@@ -196,10 +197,10 @@ def fits_well(s: Record, fits: Mapping[str, PhraseFit]) -> list[str]:
 
 
 def _worth_thinking_of(s: Record, found: Iterable[_Found]) -> list[_Found]:
-    """Those that are likely, and not much less probable than the best is.
+    """The likely ones, as far as they are nearly as probable as the best.
 
     Each word must be likely enough to be true. But qualities are vague: if nothing is
-    likely to be a red apple, the only one that might be is meant.
+    likely to be a red apple, the only thing that might be one is meant.
     """
     bands, found = s.private.strategy.bands, list(found)
     likely = [it for it in found if it.weakest >= bands.likely]
@@ -224,7 +225,7 @@ def intended_readings(
 ) -> list[Reading]:
     """The readings that are meant: one, unless the talk leaves open which.
 
-    Of several things that a phrase fits it is the one that was just talked about.
+    If a phrase fits several things, the one that was just talked about is meant.
     """
     types = types or packaged_types()
     meant = fitting_readings(s, readings)
@@ -333,7 +334,7 @@ def _set_phrase(
 ) -> RecordType:
     """The phrase set to a thing, and to what that stands beside, as seen from there.
 
-    What was true of it only at that point of the talk is no part of it any more.
+    Claims that held only at that point of the talk (`d`) are dropped.
     """
     x, *beside = things
     fields = {label: T for label, T in phrase.fields if label != "d"}

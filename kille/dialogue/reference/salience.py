@@ -13,7 +13,7 @@ from kille.dialogue.meanings import DialogueTypes, packaged_types
 from ttr import Model, Pred, Record
 
 Choice = Callable[[Record, Model, Sequence[str], DialogueTypes], Sequence[str]]
-"""What a word chooses, in a state, of the things that the rest of its phrase fits."""
+"""Chooses, in a state, among the things that the rest of a phrase fits."""
 
 
 def in_talk(s: Record, model: Model, *, types: DialogueTypes) -> Model:
@@ -45,7 +45,7 @@ def across(
 ) -> list[str]:
     """The things from left to right as they are seen.
 
-    How far to the right a thing is says the witness function of `across`; without one
+    The witness function of `across` says how far to the right a thing is; without one
     the order is that of the view.
     """
     place = (types or packaged_types())["across"]
@@ -94,5 +94,5 @@ def choosing_predicates(types: DialogueTypes) -> frozenset[Pred]:
 def choose(
     s: Record, model: Model, pred: Pred, things: Sequence[str], *, types: DialogueTypes
 ) -> Sequence[str]:
-    """Those of the things of which the predicate is true, where only they fit."""
+    """Those of the things that the predicate chooses."""
     return CHOICES[pred.name](s, model, things, types)

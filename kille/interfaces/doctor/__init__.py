@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 
 from kille.interfaces.doctor.basics import line_editing, memory, python, synthetic
-from kille.interfaces.doctor.finding import Finding
+from kille.interfaces.doctor.findings import Finding
 from kille.interfaces.doctor.kinect import kinect
 from kille.interfaces.doctor.packages import extras, packages
 from kille.interfaces.doctor.ros import ros

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
-from kille.interfaces.doctor.finding import Finding, failed_part
+from kille.interfaces.doctor.findings import Finding, failed_part
 
 
 def python() -> Iterator[Finding]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from kille.interfaces.doctor.finding import Finding, failed_part
+from kille.interfaces.doctor.findings import Finding, failed_part
 
 if TYPE_CHECKING:
     from kille.sensors.kinect.devices import Kinect
@@ -22,12 +22,12 @@ def kinect() -> Iterator[Finding]:
     from kille.sensors.kinect.transport import TransportError
 
     try:
-        yield from plugged_in(usb_driver())
+        yield from kinect_findings(usb_driver())
     except TransportError as error:
         yield _failed_kinect("Kinect", error)
 
 
-def plugged_in(bus: TransportBus | Driver) -> Iterator[Finding]:
+def kinect_findings(bus: TransportBus | Driver) -> Iterator[Finding]:
     """One finding for each Kinect on the bus, or why there is none."""
     from kille.sensors.kinect.devices import choose_kinect, kinects
     from kille.sensors.kinect.driver import driver_of

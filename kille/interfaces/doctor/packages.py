@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, metadata, requires, version
 from pathlib import Path
 
-from kille.interfaces.doctor.finding import Finding
+from kille.interfaces.doctor.findings import Finding
 
 _USES = {
     "plots": "figures in reports",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kille.interfaces.doctor.finding import Finding, failed_part
+from kille.interfaces.doctor.findings import Finding, failed_part
 
 _PATIENCE = 1.0
 """Seconds to wait for a master, which may be on another machine."""
@@ -14,7 +14,7 @@ def ros() -> Iterator[Finding]:
     """The requirements of `kille ros` and of ROS sensors."""
     from kille.bus import BusError
     from kille.ros.bus import reach_master
-    from kille.ros.modules import REMEDY, place_of
+    from kille.ros.system_modules import REMEDY, place_of
 
     for module in ("rospy", "sensor_msgs"):
         if place_of(module) is None:

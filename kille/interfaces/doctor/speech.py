@@ -8,7 +8,7 @@ import subprocess
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 
-from kille.interfaces.doctor.finding import Finding
+from kille.interfaces.doctor.findings import Finding
 from kille.interfaces.doctor.packages import pip
 
 _LIMIT = 10

@@ -106,7 +106,7 @@ def _lines(shown: ShownLesson) -> Iterator[str]:
 
 
 def _draw(out: Console, picture: Picture) -> None:
-    from kille.interfaces.memory.blocks import half_blocks, shows_pictures
+    from kille.interfaces.memory.half_blocks import half_blocks, shows_pictures
 
     if not shows_pictures(out):
         return

@@ -9,7 +9,7 @@ import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from kille.dialogue.sources import FILES
+from kille.dialogue.language_files import FILES
 from kille.lab.errors import StudyError
 from kille.lab.settings import Key, Problem
 from kille.lab.study import Study, Theory

@@ -11,9 +11,9 @@ from typing import Any
 
 from kille.dialogue.grammars import GrammarError
 from kille.dialogue.language import LANGUAGES, grammar_text, understand
+from kille.dialogue.language_files import FILES, STRATEGIES
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.parsing import Grammar
-from kille.dialogue.sources import FILES, STRATEGIES
 from kille.dialogue.strategies import strategy
 from kille.lab.own_code import describe_exception
 from kille.lab.settings import Key, Problem, suggest_name, why_no_folder

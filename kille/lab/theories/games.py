@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any
 
 from kille.agent.agent import Agent
-from kille.dialogue.sources import language_in
+from kille.dialogue.language_files import language_in
 from kille.dialogue.strategies import strategy
 from kille.lab.errors import TheoryError
 from kille.lab.settings import Problem, Setting, show_value, suggest_name

@@ -1,6 +1,6 @@
 """What a camera knows of itself: how its depth is measured and lies in its colour.
 
-Every device has numbers of its own, which it tells when it is asked. libfreenect's
+Every device has numbers of its own, which it reports on request. libfreenect's
 recordings keep them in `device.json`, which is read and written here.
 """
 
@@ -89,12 +89,12 @@ class ZeroPlane(NamedTuple):
 
 
 class CalibrationError(ValueError):
-    """A `device.json` that does not say what it should: one line tells what."""
+    """A `device.json` that is incomplete or wrong: one line says where."""
 
 
 @dataclass(frozen=True)
 class Calibration:
-    """All that a device tells of its depth: see the fields' types."""
+    """All that a device reports about its depth; see the types of the fields."""
 
     registration: Registration
     padding: Padding
@@ -105,7 +105,7 @@ class Calibration:
     def from_replies(
         cls, registration: bytes, padding: bytes, fixed: bytes, const_shift: bytes
     ) -> Calibration:
-        """What the device answered.
+        """Read from the replies of the device.
 
         Raises `BadReplyError` if a reply is too short or makes no sense.
 

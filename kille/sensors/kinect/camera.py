@@ -1,4 +1,4 @@
-"""One opened camera: what it is asked, and its streams."""
+"""One opened camera: requests to it, and its streams."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class KinectCamera:
         self._set(DEPTH_11.stop + COLOUR.stop)
 
     def calibration(self) -> Calibration:
-        """What the camera knows of its own depth."""
+        """The calibration of its depth."""
         registration, padding, const_shift = (
             self._ask(commands.ALGORITHM_PARAMETERS, commands.parameters(which))
             for which in (
@@ -85,7 +85,7 @@ class KinectCamera:
             feed.end()
 
     def switch_off(self, mode: Mode) -> None:
-        """Tell the camera to send no more of this stream. It is told once only."""
+        """Tell the camera, once only, to send no more of this stream."""
         self._set(mode.stop, _PATIENCE[:1])
 
     def close(self) -> None:
@@ -132,7 +132,7 @@ class KinectCamera:
 
 
 class FrameStream:
-    """A stream that is put together into frames."""
+    """A stream whose packets are assembled into frames."""
 
     def __init__(self, mode: Mode, take: Callable[[RawFrame], None]) -> None:
         self.mode = mode
@@ -181,4 +181,4 @@ class FrameStream:
 
 
 def _drop(frame: RawFrame) -> None:
-    """Where frames go when nobody takes them any more."""
+    """Discard a frame that nobody takes any more."""

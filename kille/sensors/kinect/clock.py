@@ -48,9 +48,8 @@ class DeviceClock:
 class MissedMicroframes:
     """Counts the microframes that passed by the device's clock, but were not read.
 
-    USB asks the device 8000 times a second, as long as somebody reads what comes; what
-    is sent while nobody does is lost. Reading may be ahead or behind by what is read at
-    once, which is no miss.
+    USB asks the device 8000 times a second, as long as somebody reads; what is sent
+    while nobody does is lost. Being ahead or behind by one batch is no miss.
 
     >>> misses = MissedMicroframes()
     >>> for second in range(4):
@@ -67,7 +66,7 @@ class MissedMicroframes:
         self._reached: int | None = None
 
     def count_read(self, microframes: int) -> None:
-        """So many were read, with packets in them or not."""
+        """Count microframes that were read, with packets in them or not."""
         self._read += microframes
 
     def reach(self, ticks: int | None) -> None:

@@ -24,7 +24,7 @@ _HEADER = struct.Struct("<2sHHH")
 
 
 class BadReplyError(Exception):
-    """The device answered something that is no answer to what was asked."""
+    """The device answered something else than what was asked."""
 
 
 def command(number: int, tag: int, words: Sequence[int]) -> bytes:

@@ -40,7 +40,7 @@ class KinectModel(Enum):
 
 @dataclass(frozen=True)
 class Kinect:
-    """What belongs to one Kinect; the motor only where it can be driven."""
+    """The devices of one Kinect; the motor only if it can be driven."""
 
     model: KinectModel
     serial: str
@@ -76,8 +76,8 @@ def choose_kinect(devices: Sequence[PluggedDevice], serial: str | None) -> Kinec
 def again(devices: Sequence[PluggedDevice], before: Kinect) -> Kinect:
     """The Kinect that was opened before; SensorError if it is not plugged in now.
 
-    It is known by its serial number. If that could not be read, then or now, the one
-    in its place is taken for it: compare their calibrations.
+    It is recognised by its serial number. If that could not be read, then or now, the
+    one in the same place is returned: compare the calibrations.
     """
     found = kinects(devices)
     if not found:

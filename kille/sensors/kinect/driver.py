@@ -28,12 +28,12 @@ class Streams(Protocol):
 
     @property
     def calibration(self) -> Calibration:
-        """What it told of its depth."""
+        """The calibration of its depth, as the device reports it."""
         ...
 
     @property
     def counts(self) -> Mapping[str, StreamCounts]:
-        """What came through each stream."""
+        """The counts of each stream."""
         ...
 
     def frame(self, seconds: float) -> Frame:

@@ -1,7 +1,7 @@
 """Isochronous streams over libusb: many transfers under way, each used again and again.
 
-While one is read out the others wait in the kernel, so that nothing is missed though
-Python may be slow for some milliseconds.
+While one transfer is read the others wait in the kernel, so that nothing is missed even
+if Python is slow for some milliseconds.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class UsbEventLoop:
         self._thread: _EventThread | None = None
 
     def enter(self) -> None:
-        """There is one stream more."""
+        """Count one stream more."""
         with self._lock:
             self._users += 1
             if self._thread is None:
@@ -59,7 +59,7 @@ class UsbEventLoop:
                 self._thread.start()
 
     def leave(self) -> None:
-        """There is one less; with the last, the thread ends before this returns."""
+        """Count one stream less; after the last, end the thread before this returns."""
         with self._lock:
             self._users -= 1
             if self._users:
@@ -84,7 +84,7 @@ class _EventThread(threading.Thread):
                 time.sleep(_TICK)
 
     def end(self) -> None:
-        """Let it end, and wait until it has, but not for ever."""
+        """End the thread, and wait for that, but not for ever."""
         self._over.set()
         self.join(PATIENCE)
 
@@ -206,7 +206,7 @@ class IsoStream:
         return not any(slot.under_way for slot in self._slots)
 
     def _give_back(self, slot: Slot) -> None:
-        """The slot is not under way any more: whoever waits for that is told."""
+        """Mark the slot as idle, and wake whoever waits for that."""
         _UNDER_WAY.pop(slot.address, None)
         slot.under_way = False
         with self._idle:

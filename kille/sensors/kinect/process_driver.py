@@ -72,7 +72,7 @@ def can_be_used() -> bool:
 
 
 class RequestResult(NamedTuple):
-    """What came of a request: its value, or the error that was raised.
+    """The result of a request: its value, or the error that was raised.
 
     `remarks` are lines for the log of whoever asked.
     """
@@ -141,7 +141,7 @@ class ProcessDriver:
             return self._answer_to(what, given, _LIMIT)
 
     def ask_of(self, start: int, what: str, *given: Any) -> Any:
-        """What it answers of the streams that it started then.
+        """The answer of the other process about the streams that it started then.
 
         Raises `DeviceGoneError` if it has ended.
         """
@@ -218,7 +218,7 @@ class ProcessDriver:
 
     @contextmanager
     def _whole(self) -> Iterator[None]:
-        """What stops in the midst of it, by a Ctrl-C for one, ends the process."""
+        """End the process if anything interrupts the block, such as Ctrl-C."""
         try:
             yield
         except TimeoutError as error:
@@ -232,9 +232,9 @@ class ProcessDriver:
             raise
 
     def _end(self, at_once: bool = False) -> None:
-        """Close the connection, at which the process ends, and see that it does.
+        """Close the connection, so that the process ends, and make sure that it does.
 
-        What is interrupted by a Ctrl-C is done by the next call.
+        If a Ctrl-C interrupts this, the next call completes it.
         """
         channel, self._channel = self._channel, None
         if channel is not None:
@@ -273,7 +273,7 @@ class RemoteStreams:
 
     @property
     def counts(self) -> Mapping[str, StreamCounts]:
-        """What came through each stream."""
+        """The counts of each stream."""
         counts: Mapping[str, StreamCounts] = self._ask("counts")
         return counts
 

@@ -103,7 +103,7 @@ def _start_kinects(memory: mmap.mmap) -> tuple[_Kinects | None, Exception | None
 def _attempt(
     do: Callable[..., Any], given: tuple[Any, ...]
 ) -> tuple[Any, Exception | None]:
-    """What it gives, or the error that it raises."""
+    """The value of a call, or the error that it raises."""
     try:
         return do(*given), None
     except Exception as error:
@@ -122,7 +122,7 @@ def _leave(sign: int, frame: FrameType | None) -> None:
 
 
 class _Kinects:
-    """What may be asked: the methods are called by their names."""
+    """The requests that may be made: methods, called by their names."""
 
     def __init__(self, bus: TransportBus, memory: mmap.mmap) -> None:
         self._bus = bus
@@ -154,7 +154,7 @@ class _Kinects:
         return self._session.calibration
 
     def counts(self) -> Mapping[str, StreamCounts]:
-        """What came through each stream."""
+        """The counts of each stream."""
         return self._open_session().counts
 
     def frame(self, seconds: float) -> SharedPictures | None:
@@ -213,7 +213,7 @@ class _Kinects:
 
 
 class _Remarks(logging.Handler):
-    """Keeps what this process has to say for the log of the one that asks."""
+    """Collects log records of this process for the log of the other one."""
 
     def __init__(self) -> None:
         super().__init__(logging.WARNING)

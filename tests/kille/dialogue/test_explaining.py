@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.dialogue.details import details
+from kille.dialogue.answer_details import details
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import noun
 from ttr import Model, Record, record, replace

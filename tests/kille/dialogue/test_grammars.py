@@ -11,7 +11,7 @@ from kille.dialogue.grammars import GrammarError, read_grammar
 from kille.dialogue.language import LANGUAGES, grammar_text
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.parsing import Grammar
-from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
+from kille.dialogue.robot_grammar import CLOSELY, LOOSELY, robot_rules
 
 
 def productions(text, starts=("start",)):

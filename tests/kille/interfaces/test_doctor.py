@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from kille.interfaces.doctor import as_text
-from kille.interfaces.doctor.finding import Finding
+from kille.interfaces.doctor.findings import Finding
 from kille.interfaces.doctor.packages import pip
 from kille.memory import Memory
 

@@ -16,10 +16,10 @@ import pytest
 from rich.cells import cell_len
 
 from kille.interfaces.doctor import as_json, as_text
-from kille.interfaces.doctor.finding import Finding
+from kille.interfaces.doctor.findings import Finding
 from kille.interfaces.grids import print_table
 from kille.interfaces.replay import in_brief, replay
-from kille.interfaces.streams import prepare_streams
+from kille.interfaces.standard_streams import prepare_streams
 from kille.interfaces.terminal import console
 from kille.lab.people.typed_lines import read_line
 from kille.lab.results import Table

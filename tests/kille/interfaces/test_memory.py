@@ -15,7 +15,7 @@ import cv2
 import numpy as np
 import pytest
 
-from kille.interfaces.memory.blocks import half_blocks
+from kille.interfaces.memory.half_blocks import half_blocks
 from kille.memory import Arrangement, Memory, Picture, Scan, Sighting, Turn
 from kille.perception.thumbnails import evidence_of
 from kille.scene import Box, Configuration, Frame, Intrinsics, Point, Region

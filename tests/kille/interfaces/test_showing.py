@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from kille import Agent
 from kille.agent.attention import AttentiveSensor
-from kille.interfaces.showing import claims, derivation, show_nothing, things_in_view
+from kille.interfaces.formatting import claims, derivation, show_nothing, things_in_view
 from kille.interfaces.terminal import hang_text, hanging_type
 
 WIDTH = 100

@@ -29,8 +29,8 @@ from kille.memory import (
 from kille.memory.checking import check
 from kille.memory.exporting import MemorySize
 from kille.memory.lessons import has_same_content
-from kille.memory.pages import page_size, rows_in
 from kille.memory.salvaging import Salvage, salvage
+from kille.memory.sqlite_pages import page_size, rows_in
 from kille.scene import Configuration, Point
 
 from .test_files import taught

@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 
 from kille.bus import Bus, BusError, LocalBus, Topic
-from kille.ros.modules import ros
+from kille.ros.system_modules import ros
 
 WAIT = 60.0
 """Seconds in which things happen, on the slowest machine."""

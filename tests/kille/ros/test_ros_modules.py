@@ -12,13 +12,13 @@ import pytest
 
 import kille.ros
 from kille.bus import BusError
-from kille.ros.modules import Finder, ros
+from kille.ros.system_modules import Finder, ros
 
 PACKAGE = Path(kille.ros.__file__).parent / "package"
 
 ALONE = """
 import sys
-from kille.ros.modules import ros
+from kille.ros.system_modules import ros
 ros("rospy"), ros("sensor_msgs.msg")
 import cv2, numpy
 for module in (numpy, cv2):

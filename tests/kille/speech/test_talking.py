@@ -14,7 +14,7 @@ from select import select
 import pytest
 
 from kille.interfaces.cli import main
-from kille.interfaces.ears import SpeechInput, punctuate
+from kille.interfaces.speech_input import SpeechInput, punctuate
 from kille.speech.sound import RATE, Sound, SoundError, WavFile, read_wav
 
 Lesson = Callable[..., bytes]

@@ -16,7 +16,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.interfaces.doctor.kinect import plugged_in
+from kille.interfaces.doctor.kinect import kinect_findings
 from kille.sensors.kinect import camera as cameras
 from kille.sensors.kinect import motor_control as heads
 from kille.sensors.kinect import sensor as sensors
@@ -449,9 +449,9 @@ def test_the_doctor_says_no_where_opening_or_looking_fails(
     said: str,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setitem(plugged_in.__globals__, "_PATIENCE", 0.3)
+    monkeypatch.setitem(kinect_findings.__globals__, "_PATIENCE", 0.3)
     kinect.faults = faults
-    (finding,) = plugged_in(bus)
+    (finding,) = kinect_findings(bus)
     assert not finding.works
     assert said in finding.state
 
@@ -461,7 +461,7 @@ def test_the_doctor_leaves_what_it_looked_through_at_rest(model: Model) -> None:
     one, other = Kinect(model=model, serial="B1"), Kinect(model=model, serial="B2")
     with bus_of(one, other) as bus:
         bus.drop(other, Role.AUDIO)
-        found = list(plugged_in(bus))
+        found = list(kinect_findings(bus))
     assert [it.works for it in found] == [True, True]
     assert one.camera.modes() == other.camera.modes() == ()
 
@@ -471,7 +471,7 @@ def test_the_doctor_says_what_is_the_matter_with_the_head(
     kinect: Kinect, bus: InsideBus
 ) -> None:
     bus.drop(kinect, Role.MOTOR)
-    (finding,) = plugged_in(bus)
+    (finding,) = kinect_findings(bus)
     assert finding.works
     assert "its head cannot be turned: its motor is not found" in finding.state
 

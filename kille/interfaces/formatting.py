@@ -18,7 +18,7 @@ from ttr.types.substitution import resolve_paths
 from ttr.updates import Step
 
 Account = Callable[[Exchange], Iterable[tuple[str, str]]]
-"""What is told of a turn beside its words: lines, each with what kind of line it is."""
+"""An account of a turn beside its words: lines, each with its kind."""
 
 _TOLD_APART = ("shared.latest", "private.beliefs")
 
@@ -32,7 +32,7 @@ def claims(turn: Exchange) -> Iterator[tuple[str, str]]:
     """The judgements behind a turn: what was heard, judged of things, and said."""
     if turn.heard is not None:
         yield from _move("heard", turn.heard)
-    yield from _judged_and_said(turn)
+    yield from _moves_as_lines(turn)
 
 
 def derivation(turn: Exchange) -> Iterator[tuple[str, str]]:
@@ -46,7 +46,7 @@ def derivation(turn: Exchange) -> Iterator[tuple[str, str]]:
         yield "rule", f"{step.rule.name}: {doc}"
         for change in _changes(step):
             yield "", change
-    yield from _judged_and_said(turn)
+    yield from _moves_as_lines(turn)
 
 
 def format_account(account: Iterable[tuple[str, str]]) -> Iterator[str]:
@@ -55,7 +55,7 @@ def format_account(account: Iterable[tuple[str, str]]) -> Iterator[str]:
         yield hanging_type(f"     {kind:>6}  ", text)
 
 
-def _judged_and_said(turn: Exchange) -> Iterator[tuple[str, str]]:
+def _moves_as_lines(turn: Exchange) -> Iterator[tuple[str, str]]:
     for belief in _beliefs(turn)[:3]:
         yield "judged", _belief(belief)
     for said in turn.said:
@@ -67,7 +67,7 @@ def _changes(step: Step) -> Iterator[str]:
     """The changes made by a rule, without moves and beliefs, which have their own
     lines.
 
-    What was taken off a list was told when it came on.
+    What leaves a list is not repeated: it was shown when it came on.
     """
     for change in differences(in_short(step.before), in_short(step.after)):
         path, taken_off, _ = change.partition(": − ")
@@ -79,7 +79,7 @@ def in_short(value: Object) -> Object:
     """Shorten a state for people: a word to its form, a planned move to what it will
     say.
 
-    What the words mean was told when they were heard.
+    What the words mean was shown when they were heard.
     """
     match value:
         case Record() if "meaning" in value and "form" in value:

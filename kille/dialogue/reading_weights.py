@@ -1,8 +1,8 @@
-"""What was said, when it was not heard for certain: words and what is seen decide.
+"""Weigh what may have been said, when it was not heard for certain.
 
-Each alternative is as probable as its text was heard, times how well it fits: known
-words come before new ones, few before many, and where texts differ, what is said to be
-so fits as well as what is seen says that it is so.
+The weight of an alternative is the probability of its text, times how well it fits:
+known words come before new ones, few before many, and where texts differ, a claim fits
+as well as it is true of what is seen.
 
 Source: Lison 2013, for combining what is heard with what is known before deciding.
 """
@@ -29,13 +29,13 @@ from ttr.types import PType
 from ttr.updates import NBest
 
 FAINTLY = 1e-6
-"""How probably something must have been said at least to be answered at all."""
+"""The least probability of a text for it to be answered at all."""
 
 UNKNOWN = 0.1
-"""How much less likely a reading is for every part of a word that is not known."""
+"""The factor for every part of a word that is not known."""
 
 LONGER = 0.9
-"""How much less likely a reading is for every word more."""
+"""The factor for every word."""
 
 
 _ROUNDING = 1e-9
@@ -53,7 +53,8 @@ def weigh_readings(
 ) -> Sequence[WeighedMove]:
     """The likeliest reading of each text, the most probable first.
 
-    What is missing to 1 is that it was something else, which fits as `strange` says.
+    What the probabilities lack to 1 is that of something else, which fits as well as
+    `strange` says.
     """
     texts = [list(them) for _, them in groupby(_by_text(heard), key=_text)]
     other = max(0.0, 1.0 - sum(p for them in texts for _, p in them))

@@ -1,4 +1,4 @@
-"""How a conversation is heard: utterances, and what the robot makes of them."""
+"""Speech as input of a conversation: utterances, and what the robot answers."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ class SpeechHypotheses:
 
 
 class SpeechInput:
-    """Ears for a conversation; a `SoundError` says in one line why they cannot hear.
+    """Speech input for a conversation; `SoundError` says in one line why there is none.
 
-    What they listen for follows what the robot knows: each word that it learns is
-    expected from the next utterance on.
+    It listens for what the robot knows: each word that the robot learns is expected
+    from the next utterance on.
     """
 
     def __init__(self, source: str, language: str = "en") -> None:
@@ -82,7 +82,7 @@ class SpeechInput:
         yield from waiting
 
     def _after_enter(self, robot: Agent) -> Iterator[SpeechHypotheses | str]:
-        """What is typed or spoken; without a microphone one can still type."""
+        """What is typed or spoken; without a microphone, what is typed."""
         while True:
             try:
                 typed = input("U> (Enter to speak, or type) ").strip()
@@ -120,8 +120,8 @@ def answer_hypotheses(
 ) -> str:
     """The robot's answer to what was perhaps said; it begs pardon for a noise.
 
-    Several moves in one utterance are taken as the likeliest; of one move, all that it
-    may have been goes into the dialogue, which weighs it with what is seen.
+    Of several moves in one utterance the likeliest text counts. Of a single move all
+    hypotheses go into the dialogue, which weighs them with what is seen.
     """
     understood = [
         (it, len(understand(it.text, language, types=robot.types)))

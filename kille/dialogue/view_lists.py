@@ -1,8 +1,8 @@
-"""What is in view, in words: a list by how certain each thing is, and counts.
+"""Lists of what is in view, in words, by how certain each thing is; and counts.
 
 A content that says what is in view has a part for each thing: thing01, thing02 … for
-those that the robot is sure of, maybe01 … for what may be so, unknown01 … for the rest.
-A question which thing was meant has choice01, choice02 … for those that it may be.
+things that the robot is sure of, maybe01 … for likely ones, unknown01 … for the rest.
+A question which thing was meant has choice01, choice02 … for the candidates.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Section = Mapping[str, Any]
 def list_slots(
     lexicon: Lexicon, content: RecordType, words: Words
 ) -> Iterator[tuple[str, str]]:
-    """The slots that such parts fill: {things}, {count}, {maybe_count}, {choices}.
+    """The slots that the parts of a content fill: {things}, {count}, {choices} …
 
     >>> from kille.dialogue.games.surveying import in_view
     >>> from kille.dialogue.lexicon import lexicon
@@ -57,7 +57,7 @@ def list_slots(
 
 
 def either(lexicon: Lexicon, parts: Sequence[str]) -> str:
-    """Words of which one is so: this, that or the other.
+    """Alternatives in a row: this, that or the other.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> either(lexicon(), ["a cup"]), either(lexicon(), ["red", "blue", "green"])
@@ -78,7 +78,7 @@ def _group_by_noun(
     words: Words,
     wording: str,
 ) -> Iterator[str]:
-    """Things by their nouns: of the same sort all at once, in the order given."""
+    """Count things by their nouns, in the order of their first things."""
     nouns = Counter(phrase(lexicon, part, words, "bare") for part in parts)
     first = {phrase(lexicon, part, words, "bare"): part for part in reversed(parts)}
     for noun, count in nouns.items():
@@ -120,6 +120,6 @@ def _join(data: Section, parts: list[str]) -> str:
 
 
 def _number(data: Section, count: int) -> str:
-    """A number in words, as far as there are any."""
+    """A number in words, if the language has a word for it."""
     numbers = data["numbers"]
     return str(numbers[count - 1] if count <= len(numbers) else count)

@@ -1,8 +1,9 @@
 """Finding the modules of ROS 1, also from a virtual environment.
 
 ROS comes with the system, and a virtual environment does not see the system's modules.
-To see them all would be too much: an older NumPy or OpenCV could get in. So only what
-ROS itself is made of is found there, after all else, and only in a process that asks.
+To see all of them would be too much: an older NumPy or OpenCV could get in. So only the
+modules of ROS itself are found there, after all others, in a process that asks for
+them.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ NAMES = frozenset(
         "yaml",
     )
 )
-"""What a node in Python is made of, with what these ask for themselves."""
+"""The modules of a node in Python, with those that they need."""
 
 REMEDY = "sudo apt install ros-core python3-rospy python3-sensor-msgs"
 """The command by which Debian gets ROS."""
@@ -66,7 +67,7 @@ class Finder(MetaPathFinder):
         path: Sequence[str] | None,
         target: ModuleType | None = None,
     ) -> ModuleSpec | None:
-        """A module of that name; what is inside of packages is found as ever."""
+        """A top-level module of that name; what is in packages is found as usual."""
         if path is not None or fullname not in self._names:
             return None
         return PathFinder.find_spec(fullname, list(self.folders), target)

@@ -1,4 +1,4 @@
-"""A sentence that nearly is one of the language: what may have been meant by it."""
+"""What may have been meant by a sentence that is nearly one of the language."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from kille.dialogue.typos import nearest_sentence, slip
 _WORD = re.compile(r"[^\W\d_]+")
 
 _LONGEST = 200
-"""Characters; of a longer text nobody mistyped a word only."""
+"""Characters; a longer text has more wrong with it than a typo."""
 
 
 def suggest_sentence(
     lexicon: Lexicon, text: str, *, types: DialogueTypes
 ) -> str | None:
-    """What could be said instead of a text that is not understood, if anything is near.
+    """The nearest sentence to a text that is not understood, if any is near.
 
-    It is the text with its slips mended if that is understood, else the example that is
-    most like it, if one is much like it.
+    It is the text with its typos corrected, if that is understood, or else the most
+    similar example, if one is similar enough.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> from kille.dialogue.meanings import packaged_types
@@ -38,7 +38,7 @@ def suggest_sentence(
 
 
 def _mend_slips(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str | None:
-    """The text with words of the examples in place of slips of them."""
+    """The text with its typos corrected, by the words of the examples."""
     if len(text) > _LONGEST:
         return None
     examples = " ".join(lexicon.examples).lower()

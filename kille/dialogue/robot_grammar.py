@@ -1,8 +1,8 @@
 """A grammar of what the robot says, made of the wordings of its lexicon.
 
-Each wording is a rule: each stretch of its words is a terminal, its slots are the rules
-`slot_…` of the grammar. So there is one place to change what the robot says, and what
-it says can be understood again.
+Each wording becomes a rule: each stretch of its words is a terminal, and its slots are
+the rules `slot_…` of the grammar. So what the robot says is changed in one place, and
+can be understood again.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def robot_rules(lexicon: Lexicon, grammar: str) -> str:
 
 
 def _is_loose(symbol: str) -> bool:
-    """Whether a symbol finds a text that it makes nothing of."""
+    """Whether a symbol matches a text without a meaning."""
     return symbol == _FREE or symbol.startswith("_slot_")
 
 

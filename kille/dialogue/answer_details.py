@@ -1,8 +1,8 @@
-"""What an answer gives besides its words: degrees, reasons, times and counts, in words.
+"""The details of an answer in words: degrees, reasons, times and counts.
 
-A move has them as they are: numbers, names of cues, a lesson and its age. How they are
-worded is in the lexicon, and which wording of the move is used depends on which of the
-slots there is something for: without a lesson there is none for {when}.
+A move has them as they are: numbers, names of cues, a lesson and its age. The lexicon
+says how they are worded. Which wording of the move is used depends on the slots that
+can be filled: without a lesson there is nothing for {when}.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ def _of_recalled(
 
 
 def _without_recall(words: Iterable[Record]) -> list[Record]:
-    """Words of which nothing was recalled, as if it were nothing to tell."""
+    """Records of words of which nothing was recalled."""
     return [record(sign=word, lessons=0.0, confused=[]) for word in words]
 
 

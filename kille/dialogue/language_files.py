@@ -1,7 +1,7 @@
 """The files of a language: those of the package, or some of one's own in a folder.
 
-A language is known by its name, `en`. With a folder before it, `mine/en`, whatever the
-folder has of its files is taken from there, and the others from the package.
+A language is known by its name, `en`. With a folder before it, `mine/en`, its files are
+taken from that folder as far as they are there, and the others from the package.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def plain(language: str) -> str:
 def source(file: str, language: str) -> str:
     """The text of one of the `FILES` of a language, or of the `STRATEGIES` beside them.
 
-    `OSError` where it is not read.
+    Raises `OSError` if it cannot be read.
 
     >>> source("tutor.{}.lark", "nowhere/en") == source("tutor.{}.lark", "en")
     True
@@ -55,7 +55,7 @@ def source(file: str, language: str) -> str:
 def last_change(file: str, language: str) -> int:
     """When a file of one's own was changed last, in nanoseconds; 0 for the package's.
 
-    What is made of a file is kept by this, so that who edits it has what is new.
+    Whatever is made of a file is cached by this time, so that an edit takes effect.
     """
     if "/" not in language:
         return 0
