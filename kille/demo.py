@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from kille.agent.agent import Agent
-from kille.agent.attention import View
+from kille.agent.attention import NumberedLook
 from kille.agent.exchanges import Exchange
 from kille.dialogue.lexicon import lexicon
 from kille.sensors.synthetic.catalogue import TOY_NAMES
@@ -55,7 +55,7 @@ class DemoStep:
     world: str = ""
     turn: Exchange | None = None
     answer: DemoAnswer | None = None
-    view: View | None = None
+    view: NumberedLook | None = None
 
 
 def demonstration(robot: Agent) -> Iterator[DemoStep]:

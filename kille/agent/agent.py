@@ -11,7 +11,7 @@ from types import TracebackType
 from typing import Self
 
 from kille.agent.actions import MoveExecutor
-from kille.agent.attention import AttentiveSensor, View
+from kille.agent.attention import AttentiveSensor, NumberedLook
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import Exchange, RobotSentence
 from kille.agent.explanations import sign_of
@@ -213,7 +213,7 @@ class Agent:
         return self.words()[word]
 
     @property
-    def view(self) -> View | None:
+    def view(self) -> NumberedLook | None:
         """The latest view of the scene, with the numbers of the things in it."""
         return self.gaze.attention.view
 

@@ -20,7 +20,7 @@ _SAME = 0.5  # overlap of a thing with itself in another look
 
 
 @dataclass(frozen=True, eq=False)
-class View:
+class NumberedLook:
     """A look whose things are numbered from 1, and the one in focus.
 
     At first the nearest has the lowest number. A thing keeps its number from look to
@@ -41,7 +41,7 @@ class Attention:
     """What the tutor points at, if at anything, and the latest view of the scene."""
 
     pointed: Sighting | None = None
-    view: View | None = None
+    view: NumberedLook | None = None
 
 
 @runtime_checkable
@@ -65,14 +65,14 @@ class AttentiveSensor:
         self.attention = Attention()
         self._scans = scans
 
-    def look(self) -> View:
+    def look(self) -> NumberedLook:
         """Look at the scene as it is now. SensorError as the sensor raises it."""
         pointed = self.attention.pointed
         seen = _look(self.sensor, self._scans, pointed)
         before = self.attention.view
         order = _in_order(seen.percepts, before)
         focus = _focus(order, before) if pointed is None else _first(order, seen)
-        view = View(
+        view = NumberedLook(
             replace(seen, percepts=tuple(order)), focus, _kept_numbers(order, before)
         )
         self.attention = Attention(pointed, view)
@@ -129,7 +129,9 @@ def _look(sensor: Sensor, scans: int, pointed: Sighting | None) -> Look:
     return look(sensor, scans, pointed)
 
 
-def _in_order(percepts: Sequence[Percept], before: View | None) -> list[Percept]:
+def _in_order(
+    percepts: Sequence[Percept], before: NumberedLook | None
+) -> list[Percept]:
     """The things in their earlier order; new ones where others are gone."""
     places = _match_earlier(percepts, before)
     known = {id(percept) for percept in places}
@@ -139,7 +141,7 @@ def _in_order(percepts: Sequence[Percept], before: View | None) -> list[Percept]
 
 
 def _match_earlier(
-    percepts: Sequence[Percept], before: View | None
+    percepts: Sequence[Percept], before: NumberedLook | None
 ) -> list[Percept | None]:
     """For each thing of the earlier view the same thing now, or None."""
     left = list(percepts)
@@ -151,13 +153,15 @@ def _match_earlier(
     return found
 
 
-def _kept_numbers(order: Sequence[Percept], before: View | None) -> tuple[int, ...]:
+def _kept_numbers(
+    order: Sequence[Percept], before: NumberedLook | None
+) -> tuple[int, ...]:
     """The numbers of the things that had them before."""
     found = zip(order, _match_earlier(order, before), strict=False)
     return tuple(n for n, (it, again) in enumerate(found, start=1) if it is again)
 
 
-def _focus(order: Sequence[Percept], before: View | None) -> int | None:
+def _focus(order: Sequence[Percept], before: NumberedLook | None) -> int | None:
     """The number of the nearest thing; unchanged while the things are the same."""
     found = _match_earlier(order, before)
     if before is not None and len(found) == len(order) and None not in found:

@@ -10,13 +10,13 @@ from rich.console import Console
 from rich.table import Table
 
 from kille.agent.agent import Agent
-from kille.agent.attention import View
+from kille.agent.attention import NumberedLook
 from kille.demo import DemoAnswer, DemoStep, demonstration
 from kille.interfaces.formatting import claims, format_account
 from kille.interfaces.terminal import FINE, complain, console
 from kille.perception.picture_sheet import picture_sheet, write_picture
 
-Row = tuple[str, View]
+Row = tuple[str, NumberedLook]
 
 
 def demo(seed: int, picture: Path) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from kille.agent.attention import View
+from kille.agent.attention import NumberedLook
 from kille.agent.exchanges import Exchange
 from kille.dialogue.meanings import predicate_at
 from kille.interfaces.terminal import hanging_type
@@ -130,7 +130,7 @@ def _belief(belief: Record) -> str:
     return f"{sit} : {belief.sign.meaning}   p = {belief.p:.2f}"
 
 
-def things_in_view(view: View) -> str:
+def things_in_view(view: NumberedLook) -> str:
     """The numbered things, the place of each, and which one is in focus."""
     percepts = view.look.percepts
     if not percepts:

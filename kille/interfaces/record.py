@@ -19,8 +19,8 @@ from kille.sensors.recordings.recorder import (
     Disk,
     Limits,
     NoRoomError,
-    Progress,
     RecordingEnd,
+    RecordingProgress,
     check_room,
     record,
 )
@@ -85,7 +85,7 @@ def _record(source: RawSource, out: Path, limits: Limits, disk: Disk) -> int:
     return FINE if progress.frames else FAILED
 
 
-def _tell(screen: Console, out: Path, progress: Progress, took: float) -> None:
+def _tell(screen: Console, out: Path, progress: RecordingProgress, took: float) -> None:
     screen.print(
         f"{out}: {in_frames(progress.frames)}, {progress.seconds:.1f} s, "
         f"{in_bytes(progress.bytes)}, written in {took:.1f} s; "
@@ -107,7 +107,7 @@ class _Line:
         """How long it has been there."""
         return time.monotonic() - self._began
 
-    def tell(self, progress: Progress) -> None:
+    def tell(self, progress: RecordingProgress) -> None:
         """Say how far it is, unless that was just said."""
         self.frames = progress.frames
         now = time.monotonic()

@@ -23,14 +23,14 @@ from kille.memory.errors import ELSEWHERE, MemoryFileError, explain_failures
 from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
 from kille.memory.memory import Memory
 from kille.memory.merging import MergeResult
-from kille.memory.sqlite_pages import Row, Rows, Value, rows_in
+from kille.memory.sqlite_pages import SqliteRow, SqliteRows, Value, rows_in
 from kille.safety.databases import has_strange_journal, printable_name, restrict
 
 UNKNOWN = "unknown"
 """The time of a lost dialogue, and the speaker of a lost turn."""
 
 
-class Column(NamedTuple):
+class TableColumn(NamedTuple):
     """A column of a table of a memory."""
 
     kind: str
@@ -127,9 +127,9 @@ def _stamp(path: Path) -> tuple[int, int] | None:
     return found.st_size, found.st_mtime_ns
 
 
-def _rows_of(path: Path) -> Rows:
+def _rows_of(path: Path) -> SqliteRows:
     if not path.stat().st_size:
-        return Rows({}, (), 0)
+        return SqliteRows({}, (), 0)
     with path.open("rb") as file, mmap(file.fileno(), 0, access=ACCESS_READ) as pages:
         return rows_in(pages)
 
@@ -137,7 +137,7 @@ def _rows_of(path: Path) -> Rows:
 # --- its rows in tables of ours -------------------------------------------------------
 
 
-def _fill(tables: sqlite3.Connection, found: Rows) -> Iterator[str]:
+def _fill(tables: sqlite3.Connection, found: SqliteRows) -> Iterator[str]:
     """Put rows into tables of the current version; yields what does not fit."""
     version = max(
         range(1, schema.VERSION + 1), key=lambda it: _count_fitting(it, found)
@@ -152,7 +152,7 @@ def _fill(tables: sqlite3.Connection, found: Rows) -> Iterator[str]:
         schema.migrate(tables)
 
 
-def _count_fitting(version: int, found: Rows) -> int:
+def _count_fitting(version: int, found: SqliteRows) -> int:
     """The number of rows that could belong to a memory of this version."""
     with closing(sqlite3.connect(":memory:")) as tables:
         schema.migrate(tables, schema.MIGRATIONS[:version])
@@ -160,7 +160,7 @@ def _count_fitting(version: int, found: Rows) -> int:
 
 
 def _fitted_rows(
-    tables: sqlite3.Connection, found: Rows
+    tables: sqlite3.Connection, found: SqliteRows
 ) -> list[tuple[str, tuple[Value, ...] | None]]:
     """The table and the values of every row; None if they do not fit in it."""
     columns = {it: _columns(tables, it) for it in _names(tables)}
@@ -169,7 +169,7 @@ def _fitted_rows(
     return [(name, _fit_row(row, columns[name])) for name, row in rows]
 
 
-def _insert(tables: sqlite3.Connection, found: Rows) -> int:
+def _insert(tables: sqlite3.Connection, found: SqliteRows) -> int:
     """Insert all rows that fit; return how many do not."""
     lost = 0
     for name, values in _fitted_rows(tables, found):
@@ -188,22 +188,22 @@ def _names(tables: sqlite3.Connection) -> list[str]:
     return [it for it in found if not it.startswith("sqlite_")]
 
 
-def _columns(tables: sqlite3.Connection, table: str) -> list[Column]:
+def _columns(tables: sqlite3.Connection, table: str) -> list[TableColumn]:
     found = tables.execute(f"PRAGMA table_info({table})")
     return [
-        Column(kind, bool(key), bool(required))
+        TableColumn(kind, bool(key), bool(required))
         for _, _, kind, required, _, key in found
     ]
 
 
-def _table_of(row: Row, columns: dict[str, list[Column]]) -> str:
+def _table_of(row: SqliteRow, columns: dict[str, list[TableColumn]]) -> str:
     """The only table in which a row fits, or "": none, or one of several."""
     fitting = [it for it, kinds in columns.items() if _fit_row(row, kinds, strict=True)]
     return fitting[0] if len(fitting) == 1 else ""
 
 
 def _fit_row(
-    row: Row, columns: Sequence[Column], *, strict: bool = False
+    row: SqliteRow, columns: Sequence[TableColumn], *, strict: bool = False
 ) -> tuple[Value, ...] | None:
     """The values of a row for these columns; None if one has another type.
 

@@ -31,7 +31,7 @@ class BrokenPageError(Exception):
 
 
 @dataclass(frozen=True)
-class Row:
+class SqliteRow:
     """A row of a table: its rowid, and its values as they are stored.
 
     The value of the rowid's own column is None.
@@ -42,18 +42,18 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Rows:
+class SqliteRows:
     """The rows found in a file."""
 
-    tables: Mapping[str, Sequence[Row]]
+    tables: Mapping[str, Sequence[SqliteRow]]
     """The rows of each table that the schema leads to."""
-    strays: Sequence[Row]
+    strays: Sequence[SqliteRow]
     """Rows on leaves that no tree reaches, if a tree is broken."""
     unreadable: int
     """How many rows and pages could not be read."""
 
 
-def rows_in(content: Content) -> Rows:
+def rows_in(content: Content) -> SqliteRows:
     """All rows that can be read from the bytes of a file.
 
     A file whose beginning is lost is read with each size of pages that there is; the
@@ -73,7 +73,7 @@ def page_size(content: Content) -> int | None:
     return size if size in _SIZES else None
 
 
-def _count(found: Rows) -> int:
+def _count(found: SqliteRows) -> int:
     return len(found.strays) + sum(map(len, found.tables.values()))
 
 
@@ -89,20 +89,20 @@ class _File:
         self._seen: set[int] = set()
         self._unreadable = 0
 
-    def rows(self) -> Rows:
+    def rows(self) -> SqliteRows:
         schema = list(self._tree(1)) if self._known else []
-        tables = defaultdict[str, list[Row]](list)
+        tables = defaultdict[str, list[SqliteRow]](list)
         for row in schema:
             match row.values:
                 case ("table", str(name), _, int(root), *_):
                     tables[name] += self._tree(root)
-        strays: list[Row] = []
+        strays: list[SqliteRow] = []
         if self._unreadable or not self._known:
             rest = set(range(1, self._pages + 1)) - self._seen - set(self._free())
             strays = [row for it in sorted(rest) for row in self._stray_leaf(it)]
-        return Rows(tables, strays, self._unreadable)
+        return SqliteRows(tables, strays, self._unreadable)
 
-    def _tree(self, root: int) -> Iterator[Row]:
+    def _tree(self, root: int) -> Iterator[SqliteRow]:
         """The rows of the tree with this root, as far as they can be reached."""
         waiting = [root]
         while waiting:
@@ -122,12 +122,12 @@ class _File:
             if page[start] == _LEAF:
                 yield from self._leaf(page, start)
 
-    def _stray_leaf(self, number: int) -> Iterator[Row]:
+    def _stray_leaf(self, number: int) -> Iterator[SqliteRow]:
         page, start = self._page(number), self._start(number)
         if page[start] == _LEAF:
             yield from self._leaf(page, start)
 
-    def _leaf(self, page: bytes, start: int) -> Iterator[Row]:
+    def _leaf(self, page: bytes, start: int) -> Iterator[SqliteRow]:
         for place in self._cells(page, start, start + 8):
             try:
                 yield self._row(page, place)
@@ -154,7 +154,7 @@ class _File:
         places.append(start + 8)
         return [int.from_bytes(page[it : it + 4], "big") for it in places]
 
-    def _row(self, page: bytes, place: int) -> Row:
+    def _row(self, page: bytes, place: int) -> SqliteRow:
         """The row whose cell begins at this place of a leaf."""
         length, at = _varint(page, place)
         key, at = _varint(page, at)
@@ -167,7 +167,7 @@ class _File:
         if inside < length:
             following = int.from_bytes(page[at + inside : at + inside + 4], "big")
             payload += self._overflow(following, length - inside)
-        return Row(key - 2**64 if key >= 2**63 else key, _record(payload))
+        return SqliteRow(key - 2**64 if key >= 2**63 else key, _record(payload))
 
     def _bytes_inside(self, length: int) -> int:
         """How many bytes of a payload of this length are in the leaf itself."""

@@ -12,7 +12,7 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from kille.speech.pattern_expansion import EndlessError, spellings
+from kille.speech.pattern_expansion import UncountablePatternError, spellings
 from kille.speech.word_network import NOTHING, State, concatenation, sequence, union
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ def _terminal_network(pattern: str, unsaid: frozenset[str]) -> State:
     """The ways to say a terminal; none, if it stands for any word."""
     try:
         ways = [split_words(it.replace("-", " ")) for it in spellings(pattern)]
-    except EndlessError:
+    except UncountablePatternError:
         return NOTHING
     return union(sequence(way) for way in ways if way and unsaid.isdisjoint(way))
 

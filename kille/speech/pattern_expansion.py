@@ -12,15 +12,15 @@ Texts = tuple[str, ...]
 """Different texts, in the order of the pattern."""
 
 
-class EndlessError(ValueError):
+class UncountablePatternError(ValueError):
     """A pattern that stands for any word, or is not of the simple kind read here."""
 
 
 def spellings(pattern: str) -> Texts:
     r"""All that a pattern matches, in lower case; what may be repeated, once.
 
-    What a pattern only looks ahead for is not part of it. Raises `EndlessError` for
-    what cannot be listed.
+    What a pattern only looks ahead for is not part of it. Raises
+    `UncountablePatternError` for what cannot be listed.
 
     >>> spellings(r"(seen )?from\b")
     ('seen from', 'from')
@@ -28,14 +28,14 @@ def spellings(pattern: str) -> Texts:
     ('good bye', 'goodbye', "'s", '’s')
     >>> spellings(r"\w+")
     Traceback (most recent call last):
-    kille.speech.pattern_expansion.EndlessError: \w+: \w stands for any character
+    kille.speech.pattern_expansion.UncountablePatternError: \w+: \w stands for any c...
     """
     try:
         found, at = _alternatives(pattern, 0)
         if at != len(pattern):
-            raise EndlessError(f"character {at + 1} is not expected")
-    except (EndlessError, IndexError) as error:
-        raise EndlessError(f"{pattern}: {error}") from None
+            raise UncountablePatternError(f"character {at + 1} is not expected")
+    except (UncountablePatternError, IndexError) as error:
+        raise UncountablePatternError(f"{pattern}: {error}") from None
     return tuple(dict.fromkeys(text.lower() for text in found))
 
 
@@ -59,7 +59,7 @@ def _sequence(pattern: str, at: int) -> tuple[Texts, int]:
             case "+":
                 at += 1
             case "*" | "{":
-                raise EndlessError(f"{pattern[at]} may go on for ever")
+                raise UncountablePatternError(f"{pattern[at]} may go on for ever")
         found = tuple(a + b for a, b in product(found, piece))
     return found, at
 
@@ -72,12 +72,12 @@ def _piece(pattern: str, at: int) -> tuple[Texts, int]:
         case "[":
             end = pattern.index("]", at)
             if pattern[at + 1] == "^":
-                raise EndlessError("[^ stands for nearly any character")
+                raise UncountablePatternError("[^ stands for nearly any character")
             return tuple(pattern[at + 1 : end]), end + 1
         case "\\":
             return _escaped_character(pattern, at + 1)
         case ".":
-            raise EndlessError(". stands for any character")
+            raise UncountablePatternError(". stands for any character")
     return (pattern[at],), at + 1
 
 
@@ -85,7 +85,7 @@ def _escaped_character(pattern: str, at: int) -> tuple[Texts, int]:
     if pattern[at] == "b":
         return ("",), at + 1
     if pattern[at].isalpha():
-        raise EndlessError(f"\\{pattern[at]} stands for any character")
+        raise UncountablePatternError(f"\\{pattern[at]} stands for any character")
     return (pattern[at],), at + 1
 
 
@@ -99,5 +99,5 @@ def _group(pattern: str, at: int) -> tuple[Texts, int]:
             inside = pattern.index(":", at) + 1
     found, end = _alternatives(pattern, inside)
     if pattern[end] != ")":
-        raise EndlessError(f"character {end + 1} is not expected")
+        raise UncountablePatternError(f"character {end + 1} is not expected")
     return (("",) if ahead else found), end + 1

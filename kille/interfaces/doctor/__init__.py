@@ -6,17 +6,17 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 
 from kille.interfaces.doctor.basics import line_editing, memory, python, synthetic
-from kille.interfaces.doctor.findings import Finding
+from kille.interfaces.doctor.findings import DoctorFinding
 from kille.interfaces.doctor.kinect import kinect
 from kille.interfaces.doctor.packages import extras, packages
 from kille.interfaces.doctor.ros import ros
 from kille.interfaces.doctor.speech import speech
 from kille.interfaces.terminal import FAILED, FINE, console, hang_text, print_json
 
-Report = Callable[[Sequence[Finding]], None]
+Report = Callable[[Sequence[DoctorFinding]], None]
 """How findings are printed."""
 
-Search = Callable[[], Iterator[Finding]]
+Search = Callable[[], Iterator[DoctorFinding]]
 """Finds out the state of a part."""
 
 _PARTS: tuple[tuple[str, bool, Search], ...] = (
@@ -42,12 +42,12 @@ def doctor(report: Report) -> int:
     return FAILED if _has_broken_part(findings) else FINE
 
 
-def as_json(findings: Sequence[Finding]) -> None:
+def as_json(findings: Sequence[DoctorFinding]) -> None:
     """Print the findings as a list of objects, for machines."""
     print_json([asdict(finding) for finding in findings])
 
 
-def as_text(findings: Sequence[Finding]) -> None:
+def as_text(findings: Sequence[DoctorFinding]) -> None:
     """Print each finding in a line or two, and a conclusion, for people."""
     width = max(len(finding.part) for finding in findings)
     out = console()
@@ -62,27 +62,27 @@ def as_text(findings: Sequence[Finding]) -> None:
     out.print(f"\n{_upshot(findings)}", markup=False)
 
 
-def _search_part(part: str, needed: bool, search: Search) -> Iterator[Finding]:
+def _search_part(part: str, needed: bool, search: Search) -> Iterator[DoctorFinding]:
     """Search for a part; an unexpected failure becomes a finding, too."""
     try:
         yield from search()
     except Exception as error:
         told = " ".join(str(error).split()) or type(error).__name__
-        yield Finding(part, False, needed, told)
+        yield DoctorFinding(part, False, needed, told)
 
 
-def _has_broken_part(findings: Sequence[Finding]) -> bool:
+def _has_broken_part(findings: Sequence[DoctorFinding]) -> bool:
     return any(finding.needed and not finding.works for finding in findings)
 
 
-def _mark(finding: Finding) -> tuple[str, str]:
+def _mark(finding: DoctorFinding) -> tuple[str, str]:
     """The word for the state, and its colour."""
     if finding.works:
         return "ok", "green"
     return ("FAILS", "red") if finding.needed else ("no", "yellow")
 
 
-def _with_room(head: str, finding: Finding) -> tuple[str, str]:
+def _with_room(head: str, finding: DoctorFinding) -> tuple[str, str]:
     """The state and its remedy in one line, or in two if there is no room for both.
 
     A command in a line of its own is not wrapped, so that it can be copied.
@@ -93,7 +93,7 @@ def _with_room(head: str, finding: Finding) -> tuple[str, str]:
     return hang_text(head, finding.state), finding.remedy
 
 
-def _upshot(findings: Sequence[Finding]) -> str:
+def _upshot(findings: Sequence[DoctorFinding]) -> str:
     if _has_broken_part(findings):
         return "What FAILS has to be mended before the robot works here."
     return 'All that is needed works; "no" marks what only some uses need.'

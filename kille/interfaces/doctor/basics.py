@@ -9,26 +9,26 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
-from kille.interfaces.doctor.findings import Finding, failed_part
+from kille.interfaces.doctor.findings import DoctorFinding, failed_part
 
 
-def python() -> Iterator[Finding]:
+def python() -> Iterator[DoctorFinding]:
     """The version of Python."""
     found = platform.python_version()
-    yield Finding("Python", sys.version_info >= (3, 11), True, found)
+    yield DoctorFinding("Python", sys.version_info >= (3, 11), True, found)
 
 
-def synthetic() -> Iterator[Finding]:
+def synthetic() -> Iterator[DoctorFinding]:
     """The simulated Kinect, checked by a look at an empty table."""
     from kille.sensors.sources import open_sensor
 
     sensor = open_sensor("synthetic:empty")
     height, width = sensor.frame().colour.shape[:2]
     sensor.close()
-    yield Finding("synthetic Kinect", True, True, f"{width}x{height} frames")
+    yield DoctorFinding("synthetic Kinect", True, True, f"{width}x{height} frames")
 
 
-def memory() -> Iterator[Finding]:
+def memory() -> Iterator[DoctorFinding]:
     """The memory that `kille talk` uses: can it be read, or made, and written?"""
     from kille.memory import Memory, MemoryFileError, default_path
 
@@ -44,19 +44,19 @@ def memory() -> Iterator[Finding]:
         return
     state = f"{words} word{'s' * (words != 1)} in {path}"
     if _writable(path) and _writable(path.parent):
-        yield Finding("memory", True, True, state)
+        yield DoctorFinding("memory", True, True, state)
     else:
         remedy = "make the file and its folder writable, or set KILLE_MEMORY to another"
         state = f"{state}, where nothing can be added"
-        yield Finding("memory", False, True, state, remedy)
+        yield DoctorFinding("memory", False, True, state, remedy)
 
 
-def line_editing() -> Iterator[Finding]:
+def line_editing() -> Iterator[DoctorFinding]:
     """Arrow keys and a history in the terminal."""
     if find_spec("readline") is not None:
-        yield Finding("line editing", True, False, "arrow keys and history")
+        yield DoctorFinding("line editing", True, False, "arrow keys and history")
         return
-    yield Finding(
+    yield DoctorFinding(
         "line editing",
         False,
         False,
@@ -65,13 +65,15 @@ def line_editing() -> Iterator[Finding]:
     )
 
 
-def _to_be_made(path: Path) -> Finding:
+def _to_be_made(path: Path) -> DoctorFinding:
     """A memory that does not exist yet, in folders that may not exist yet."""
     there = next(it for it in path.absolute().parents if os.path.exists(it))
     if there.is_dir() and _writable(there):
-        return Finding("memory", True, True, f"none yet; it will be {path}")
+        return DoctorFinding("memory", True, True, f"none yet; it will be {path}")
     state = f"none yet, and {path} cannot be made in {there}"
-    return Finding("memory", False, True, state, "set KILLE_MEMORY to a file elsewhere")
+    return DoctorFinding(
+        "memory", False, True, state, "set KILLE_MEMORY to a file elsewhere"
+    )
 
 
 def _writable(path: Path) -> bool:

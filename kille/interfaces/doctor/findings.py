@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Finding:
+class DoctorFinding:
     """The state of one part; `remedy` is the command or step that mends it."""
 
     part: str
@@ -17,11 +17,11 @@ class Finding:
     remedy: str = ""
 
 
-def failed_part(part: str, needed: bool, complaint: Exception) -> Finding:
+def failed_part(part: str, needed: bool, complaint: Exception) -> DoctorFinding:
     """The finding for an error: what is wrong, and after `: ` or `; ` what to do.
 
     >>> failed_part("lamp", False, OSError("the lamp is dark: light it")).remedy
     'light it'
     """
     state, *remedy = re.split("[:;] ", str(complaint), maxsplit=1)
-    return Finding(part, False, needed, state, "".join(remedy))
+    return DoctorFinding(part, False, needed, state, "".join(remedy))

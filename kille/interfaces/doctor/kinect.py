@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from kille.interfaces.doctor.findings import Finding, failed_part
+from kille.interfaces.doctor.findings import DoctorFinding, failed_part
 
 if TYPE_CHECKING:
     from kille.sensors.kinect.devices import Kinect
@@ -16,7 +16,7 @@ _PATIENCE = 5.0
 """Seconds to wait for the first picture."""
 
 
-def kinect() -> Iterator[Finding]:
+def kinect() -> Iterator[DoctorFinding]:
     """The Kinects on this computer's USB, and whether they give pictures."""
     from kille.sensors.kinect import usb_driver
     from kille.sensors.kinect.transport import TransportError
@@ -27,7 +27,7 @@ def kinect() -> Iterator[Finding]:
         yield _failed_kinect("Kinect", error)
 
 
-def kinect_findings(bus: TransportBus | Driver) -> Iterator[Finding]:
+def kinect_findings(bus: TransportBus | Driver) -> Iterator[DoctorFinding]:
     """One finding for each Kinect on the bus, or why there is none."""
     from kille.sensors.kinect.devices import choose_kinect, kinects
     from kille.sensors.kinect.driver import driver_of
@@ -45,7 +45,7 @@ def kinect_findings(bus: TransportBus | Driver) -> Iterator[Finding]:
         driver.close()
 
 
-def _try_kinect(driver: Driver, found: Kinect) -> Finding:
+def _try_kinect(driver: Driver, found: Kinect) -> DoctorFinding:
     """Check whether this Kinect gives pictures, by looking as the robot would."""
     from kille.sensors.kinect.commands import BadReplyError
     from kille.sensors.kinect.devices import again
@@ -64,7 +64,9 @@ def _try_kinect(driver: Driver, found: Kinect) -> Finding:
     except (TransportError, BadReplyError, SensorError) as error:
         return _failed_kinect(part, error)
     named = f":{found.serial}" if found.serial else ""
-    return Finding(part, True, False, f"try kille talk --sensor kinect{named}{head}")
+    return DoctorFinding(
+        part, True, False, f"try kille talk --sensor kinect{named}{head}"
+    )
 
 
 def _head(streams: Streams) -> str:
@@ -87,8 +89,8 @@ def _head(streams: Streams) -> str:
     return ""
 
 
-def _failed_kinect(part: str, error: Exception) -> Finding:
+def _failed_kinect(part: str, error: Exception) -> DoctorFinding:
     from kille.sensors.kinect.diagnosis import trouble
 
     state, remedy = trouble(error)
-    return Finding(part, False, False, state, remedy)
+    return DoctorFinding(part, False, False, state, remedy)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, metadata, requires, version
 from pathlib import Path
 
-from kille.interfaces.doctor.findings import Finding
+from kille.interfaces.doctor.findings import DoctorFinding
 
 _USES = {
     "plots": "figures in reports",
@@ -28,19 +28,19 @@ _USES = {
 """What each extra is for."""
 
 
-def packages() -> Iterator[Finding]:
+def packages() -> Iterator[DoctorFinding]:
     """The packages that are always needed: those that are missing, or all."""
     wanted = {_name(requirement): requirement for requirement in _requirements("")}
     found = {name: _installed_version(name) for name in wanted}
     for name, requirement in wanted.items():
         if found[name] is None:
-            yield Finding(name, False, True, "not installed", pip(requirement))
+            yield DoctorFinding(name, False, True, "not installed", pip(requirement))
     if all(found.values()):
         told = ", ".join(f"{name} {number}" for name, number in found.items())
-        yield Finding("packages", True, True, told)
+        yield DoctorFinding("packages", True, True, told)
 
 
-def extras() -> Iterator[Finding]:
+def extras() -> Iterator[DoctorFinding]:
     """The packages that only some uses need, such as drawing or testing."""
     for extra in metadata("kille").get_all("Provides-Extra") or ():
         yield _extra(extra)
@@ -58,14 +58,14 @@ def pip(wanted: str) -> str:
     return f"{program} install '{wanted}'"
 
 
-def _extra(extra: str) -> Finding:
+def _extra(extra: str) -> DoctorFinding:
     part, use = f"extra [{extra}]", _USES.get(extra, "")
     wanted = [_name(it) for it in _requirements(extra)]
     missing = [it for it in wanted if _installed_version(it) is None]
     if not missing:
-        return Finding(part, True, False, _describe_use(use, ", ".join(wanted)))
+        return DoctorFinding(part, True, False, _describe_use(use, ", ".join(wanted)))
     state = _describe_use(use, f"lacks {', '.join(missing)}")
-    return Finding(part, False, False, state, pip(f"kille[{extra}]"))
+    return DoctorFinding(part, False, False, state, pip(f"kille[{extra}]"))
 
 
 def _describe_use(use: str, packages: str) -> str:

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from kille.agent.attention import Attention, View
+from kille.agent.attention import Attention, NumberedLook
 from kille.lab.errors import StudyError
 from kille.lab.scenes.occasions import Occasion
 from kille.lab.scenes.stills import look_at_outlined, look_at_picture
@@ -110,8 +110,8 @@ class Theatre:
         pointed: Sighting = (seen.frame, seen.percepts[0].region)
         return Attention(pointed)
 
-    def number_in_view(self, occasion: Occasion, number: int, view: View) -> int | None:
-        """The number that a thing of the world has in the robot's view."""
+    def found(self, occasion: Occasion, number: int, view: NumberedLook) -> int | None:
+        """The number that a thing of the world has in a view of the robot's."""
         name = occasion.world.thing(number).kind
         outline = view.look.frame.outlines.get(name)
         if outline is None:

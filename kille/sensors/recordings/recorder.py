@@ -55,7 +55,7 @@ class Limits:
     frames: int | None = None
     seconds: float | None = None
 
-    def are_reached(self, so_far: Progress) -> bool:
+    def are_reached(self, so_far: RecordingProgress) -> bool:
         """Whether it is enough."""
         enough = self.frames is not None and so_far.frames >= self.frames
         # A thirtieth of a second, thirty times, may be a hair less than a second.
@@ -72,7 +72,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Progress:
+class RecordingProgress:
     """How far it is: frames, the sensor's seconds, and the bytes that are left free."""
 
     frames: int = 0
@@ -127,9 +127,9 @@ def record(
     folder: Path,
     limits: Limits,
     disk: Disk,
-    tell: Callable[[Progress], None],
+    tell: Callable[[RecordingProgress], None],
     began: float | None = None,
-) -> Progress:
+) -> RecordingProgress:
     """Record into a new or empty folder until something ends it; how far it came.
 
     `tell` is called after every capture. A full disk ends it, Ctrl-C ends it, and what
@@ -143,7 +143,7 @@ def record(
     start = time.time() if began is None else began
     known = (source.calibration, lens_of(source), start)
     behind = _BackgroundWriter(partial(FakenectWriter, folder, *known))
-    progress = Progress()
+    progress = RecordingProgress()
     try:
         for progress in _capture_all(source, behind, limits, disk, folder):
             tell(progress)
@@ -175,16 +175,16 @@ def _capture_all(
     limits: Limits,
     disk: Disk,
     folder: Path,
-) -> Iterator[Progress]:
+) -> Iterator[RecordingProgress]:
     """Hands captures on to be written, and says how far it is after each."""
-    progress, first = Progress(), 0.0
+    progress, first = RecordingProgress(), 0.0
     while progress.end is None and behind.error is None:
         capture = source.capture()
         behind.write(capture)
         if not progress.frames:
             first = capture.time
         frames, free = progress.frames + 1, disk.free(home(folder))
-        progress = Progress(frames, capture.time - first, free)
+        progress = RecordingProgress(frames, capture.time - first, free)
         if limits.are_reached(progress):
             progress = replace(progress, end=RecordingEnd.ASKED)
         elif free < disk.reserve:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kille.agent.attention import AttentiveSensor, View
+from kille.agent.attention import AttentiveSensor, NumberedLook
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
 
@@ -25,7 +25,7 @@ def gaze_at(*scenes: tuple[Card, ...]) -> AttentiveSensor:
     return AttentiveSensor(Camera(*(frame_of(*cards) for cards in scenes)), scans=1)
 
 
-def numbers(view: View, frame: Frame) -> list[int]:
+def numbers(view: NumberedLook, frame: Frame) -> list[int]:
     """The number in view of each thing in the frame, in the order of its outlines."""
     return [
         1 + int(np.argmax([share(mask, it.region) for it in view.look.percepts]))

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from kille.interfaces.doctor import as_text
-from kille.interfaces.doctor.findings import Finding
+from kille.interfaces.doctor.findings import DoctorFinding
 from kille.interfaces.doctor.packages import pip
 from kille.memory import Memory
 
@@ -70,7 +70,7 @@ def test_a_command_is_never_broken_into_lines(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     command = "echo 'a long rule' | sudo tee /etc/a-file && " * 5 + "true"
-    as_text([Finding("Kinect", False, False, "it may not be opened", command)])
+    as_text([DoctorFinding("Kinect", False, False, "it may not be opened", command)])
     _, remedy, *_ = capsys.readouterr().out.splitlines()
     assert remedy.strip() == command
 
@@ -78,8 +78,8 @@ def test_a_command_is_never_broken_into_lines(
 def test_a_needed_part_that_is_missing_stands_out(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    numpy = Finding("numpy", False, True, "not installed", "pip install numpy")
-    as_text([Finding("Python", True, True, "3.11"), numpy])
+    numpy = DoctorFinding("numpy", False, True, "not installed", "pip install numpy")
+    as_text([DoctorFinding("Python", True, True, "3.11"), numpy])
     text = capsys.readouterr().out
     assert "  FAILS  numpy   not installed: pip install numpy\n" in text
     assert text.endswith("has to be mended before the robot works here.\n")

@@ -16,7 +16,7 @@ import pytest
 from rich.cells import cell_len
 
 from kille.interfaces.doctor import as_json, as_text
-from kille.interfaces.doctor.findings import Finding
+from kille.interfaces.doctor.findings import DoctorFinding
 from kille.interfaces.grids import print_table
 from kille.interfaces.replay import in_brief, replay
 from kille.interfaces.standard_streams import prepare_streams
@@ -167,7 +167,7 @@ def test_a_file_may_be_named_as_markup(
 def test_a_device_is_called_what_it_says(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    found = [Finding(f"Kinect {WORD}", True, False, WORD, WORD)]
+    found = [DoctorFinding(f"Kinect {WORD}", True, False, WORD, WORD)]
     as_text(found)
     shown = capsys.readouterr().out
     assert obeyed(shown) == []

@@ -36,8 +36,8 @@ from kille.sensors.recordings.recorder import (
     Disk,
     Limits,
     NoRoomError,
-    Progress,
     RecordingEnd,
+    RecordingProgress,
     check_room,
     record,
 )
@@ -353,7 +353,7 @@ def test_what_has_no_depth_cannot_be_recorded_so(tmp_path: Path) -> None:
 # --- limits and the disk -------------------------------------------------------------
 
 
-def told_nobody(progress: Progress) -> None:
+def told_nobody(progress: RecordingProgress) -> None:
     """Nobody wants to know."""
 
 
@@ -368,7 +368,7 @@ def source(tmp_path: Path) -> RawSource:
     [(Limits(1), 1), (Limits(5), 5), (Limits(seconds=0.1), 3), (Limits(seconds=1), 30)],
 )
 def test_it_is_as_long_as_asked(tmp_path: Path, limits: Limits, frames: int) -> None:
-    told: list[Progress] = []
+    told: list[RecordingProgress] = []
     done = record(source(tmp_path), tmp_path / "walk", limits, ROOMY, told.append)
     assert [it.frames for it in told] == list(range(1, frames + 1))
     assert (done.frames, done.end) == (frames, RecordingEnd.ASKED)
@@ -376,7 +376,7 @@ def test_it_is_as_long_as_asked(tmp_path: Path, limits: Limits, frames: int) -> 
 
 
 def test_ctrl_c_ends_it_and_what_is_there_is_whole(tmp_path: Path) -> None:
-    def interrupt(progress: Progress) -> None:
+    def interrupt(progress: RecordingProgress) -> None:
         if progress.frames == 2:
             raise KeyboardInterrupt
 

@@ -16,8 +16,8 @@ from kille.sensors.recordings.playback import RawRecording
 from kille.sensors.recordings.recorder import (
     Disk,
     Limits,
-    Progress,
     RecordingEnd,
+    RecordingProgress,
     record,
 )
 from kille.sensors.sensor import SensorError
@@ -82,9 +82,9 @@ def test_a_kinect_that_is_unplugged_leaves_what_was_seen(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    told: list[Progress] = []
+    told: list[RecordingProgress] = []
 
-    def tell(progress: Progress) -> None:
+    def tell(progress: RecordingProgress) -> None:
         told.append(progress)
         if progress.frames == 4:
             bus.unplug(kinect)
