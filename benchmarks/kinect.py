@@ -167,7 +167,7 @@ def fuzzed(packets: int) -> Iterator[Row]:
 def client(seconds: float) -> None:
     """Look for so long and print what it took: run as a program of its own."""
     spent, asked = [0.0], [0.0]
-    completed, submit = IsoStream.complete, IsoStream._submitted
+    completed, submit = IsoStream.complete, IsoStream._submit
 
     def timed(self: IsoStream, slot: object, status: int) -> None:
         began = time.thread_time()
@@ -190,9 +190,9 @@ def client(seconds: float) -> None:
 
         return counting
 
-    IsoStream.complete, IsoStream._submitted = timed, submitted
+    IsoStream.complete, IsoStream._submit = timed, submitted
     developing.unpack_11 = counted(developing.unpack_11)
-    capturing.registered = counted(capturing.registered)
+    capturing.register_depth = counted(capturing.register_depth)
     sensor = KinectSensor("kinect", UsbBus())
     sensor.frame()
     before = sensor.counts
