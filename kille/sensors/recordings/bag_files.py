@@ -59,8 +59,8 @@ def is_bag(path: Path) -> bool:
 
 
 class Stamp(NamedTuple):
-    """When a message was made, in seconds, and where the bag keeps it: its nanoseconds
-    there, and how many of the topic with the same come before."""
+    """When a message was made, in seconds, and its place in the bag: its nanoseconds
+    there, and how many messages of the topic with the same nanoseconds come before."""
 
     time: float
     kept: int
@@ -109,7 +109,7 @@ class Bag:
     def stamps(self, topic: str) -> list[Stamp]:
         """When the topic's messages were made, in order of that.
 
-        Where their heads do not say, it is when they were recorded.
+        For messages whose heads do not say, it is when they were recorded.
         """
         row: list[tuple[int, int]] = []
         with explain_errors(self.name):

@@ -1,8 +1,8 @@
 """Limits for rosbags, which believes what a bag says of the sizes in it.
 
-It opens files by their paths, decompresses chunks by tables of its own, and reads
-databases by apsw: each of the three is given here in a form that refuses, with an
-`OSError`, what is larger than `ttr.safety.limits.MESSAGE`.
+rosbags opens files by their paths, decompresses chunks, and reads databases by apsw.
+This module replaces each of the three by a form that refuses anything larger than
+`ttr.safety.limits.MESSAGE` with an `OSError`.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class BagPath(type(Path())):  # type: ignore[misc]
 
 
 class _Pieces(io.BufferedReader):
-    """A file of which only so much is read at once, whatever is asked for."""
+    """A file that refuses to read too much at once."""
 
     def read(self, size: int | None = -1, /) -> bytes:
         if size is not None:
@@ -80,7 +80,7 @@ def limit_databases() -> Iterator[None]:
 
 
 def _limit(database: apsw.Connection) -> None:
-    """What is in the database runs nothing, and no value in it is too large."""
+    """Let nothing in the database run, and refuse values that are too large."""
     database.limit(apsw.SQLITE_LIMIT_LENGTH, MESSAGE.maximum)
     database.config(apsw.SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0)
     database.config(apsw.SQLITE_DBCONFIG_ENABLE_VIEW, 0)

@@ -1,8 +1,8 @@
 """ROS bags, read without ROS: `.bag` of ROS 1, `.mcap` and folders of ROS 2.
 
-What is colour and what is depth is told by the messages' encodings, not by the names of
-topics; of several, those are taken whose names say that they are registered colour and
-depth, or the topics that the options name.
+The encodings of messages say what is colour and what is depth, not the names of topics.
+Of several topics those are taken whose names say that they are registered colour and
+depth, or those that the options name.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Writing ROS bags without ROS: images and what calibrates them, as cameras publish.
+"""Write ROS bags without ROS: images and calibrations, as cameras publish them.
 
 Colour is `rgb8`, depth `32FC1` in metres, on the topics of the usual Kinect drivers,
 where depth lies on the colour picture. So a bag keeps frames bit for bit.

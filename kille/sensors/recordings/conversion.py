@@ -1,4 +1,4 @@
-"""From one format to another: which there are, and what each keeps."""
+"""Convert recordings: the formats that can be written, and what each keeps."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ class SizeEstimate:
 
 
 def estimate(recording: Recording, into: Format) -> SizeEstimate:
-    """How much there is to write, as its first frame tells."""
+    """How much there is to write, estimated by the first frame."""
     height, width = recording.rest[0].read().colour.shape[:2]
     frames = len(recording.rest)
     return SizeEstimate(frames, frames * height * width * into.pixel)
@@ -118,7 +118,7 @@ def convert(
 
 
 def _make_times_rise(moments: Iterable[Moment]) -> Iterator[Moment]:
-    """The same, no two of the same time."""
+    """The same moments, with times that rise strictly."""
     last = -inf
     for moment in moments:
         last = after(last, moment.time)

@@ -1,8 +1,8 @@
-"""ROS bags that were cut short: what is whole is found by reading them from the start.
+"""ROS bags that were cut short: read them from the start, as far as they are whole.
 
-A bag ends with an index of what is where. Who is killed while recording has not written
-it; the messages before are there all the same, in chunks that tell their own size. A
-database has its index everywhere, but messages come in the order of their pages.
+A bag ends with an index. A recorder that was killed has not written it, but the
+messages before it are there, in chunks that say their own size. The index of a database
+is spread over it, and its messages are read in the order of their pages.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from rosbags.rosbag2.storage_sqlite3 import Sqlite3Reader
 from rosbags.typesys.msg import normalize_msgtype
 
 _NO_RECORD = (ReaderError, ValueError, struct.error, OSError, EOFError)
-"""What comes of reading on where a file was cut, or something else was written."""
+"""The errors of reading on where a file was cut or overwritten."""
 
 
 class UnindexedBag(Reader):

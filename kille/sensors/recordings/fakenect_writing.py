@@ -1,8 +1,8 @@
-"""Writing fakenect folders, so that whatever happens, what is named is whole.
+"""Write fakenect folders, in which all that the index names is always whole.
 
-A file is written first and named in the index after; a program that is killed leaves at
-most one file that nothing names. What the computer itself has not yet written is
-asked for at intervals by `sync`.
+A file is written first and named in the index afterwards; a program that is killed
+leaves at most one file that is not named. `sync` makes the computer write its buffers
+to the disk.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class FakenectWriter:
         self._add("d", time, capture.ticks_depth, depth.data)
 
     def sync(self) -> None:
-        """Have the disk hold all that was written so far."""
+        """Make sure that the disk holds everything written so far."""
         waiting, self._unsynced = self._unsynced, []
         for path in waiting:
             _sync(path)

@@ -1,4 +1,4 @@
-"""What lies at a path: its format is found by its content, never by its name."""
+"""Detect the format of a recording by its content, never by its name."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def open_recording(name: str) -> Sensor:
 
     `FOLDER/SCENE` names one scene of a folder of scenes. SensorError if nothing is
     there, it cannot be read, is empty or of no known format, or its first frame fails.
-    What of a recording is lost is told once, by a warning in the log.
+    A warning in the log says, once, what of the recording is lost.
     """
     try:
         path, options = split_options(name)
@@ -97,7 +97,7 @@ def _opener(path: Path) -> Opener | None:
 
 
 def _play(name: str, reel: RecordedMoments, options: Options) -> Recording:
-    """The reel as a sensor; what is lost of it is told."""
+    """The moments as a sensor; a warning says what of them is lost."""
     if reel.remark:
         logging.getLogger(__name__).warning("%s: %s", name, reel.remark)
     try:

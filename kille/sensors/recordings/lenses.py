@@ -1,4 +1,4 @@
-"""Numbers that are to be those of a lens."""
+"""Check numbers that should be those of a lens."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from kille.scene import Intrinsics
 
 
 def lens_from(numbers: Sequence[float]) -> Intrinsics | None:
-    """The lens of these fx, fy, cx, cy in pixels; None if they are those of none.
+    """The lens of these fx, fy, cx, cy in pixels; None if no lens has them.
 
     >>> lens_from([525, 525, 319.5, 239.5])
     Intrinsics(fx=525, fy=525, cx=319.5, cy=239.5)

@@ -1,4 +1,4 @@
-"""A recording as it lies on disk: moments in order of time, read when asked for."""
+"""The moments of a recording in order of time, read from disk when needed."""
 
 from __future__ import annotations
 

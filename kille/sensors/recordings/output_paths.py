@@ -1,4 +1,4 @@
-"""Where a recording goes: never over what is there by accident, and whole or not."""
+"""Output paths: nothing is replaced by accident, and a recording is whole or absent."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def whole(out: Path, may_write: Callable[[Path], None]) -> Iterator[Path]:
 
 
 def _unpack(draft: Path, out: Path) -> None:
-    """What is in the one folder goes into the other."""
+    """Move all that is in one folder into the other."""
     for path in draft.iterdir():
         path.rename(out / path.name)
 

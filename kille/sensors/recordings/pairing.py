@@ -1,4 +1,4 @@
-"""Colour and depth that were taken together, where each has times of its own."""
+"""Pair colour and depth that were taken together, by their times."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ That of the tool that comes with the TUM recordings; less than a frame's time.
 def pair_times(
     first: Sequence[float], second: Sequence[float], within: float = WITHIN
 ) -> Iterator[tuple[int, int]]:
-    """The places of those that belong together, of two ascending rows of times.
+    """The indices of pairs, in two ascending rows of times.
 
-    In order of time, each at most once, and never further apart than `within`. Of two
-    that could have the same partner, the nearer has it.
+    Pairs are in order of time. Each time is in one pair at most, and they are never
+    further apart than `within`. Of two candidates for one partner the nearer has it.
 
     >>> list(pair_times([0.0, 0.033, 0.066], [0.001, 0.065, 0.5]))
     [(0, 0), (2, 1)]

@@ -27,14 +27,14 @@ class RecordingOverError(SensorError):
 
 @dataclass(frozen=True)
 class PlaybackClock:
-    """How time is told and spent: seconds since some moment, and waiting for some."""
+    """A clock: seconds since some moment, and a way to wait."""
 
     now: Callable[[], float] = time.monotonic
     wait: Callable[[float], None] = time.sleep
 
 
 class Pace(Protocol):
-    """Which moment is to be given next, as a count over all laps."""
+    """Decides which moment is next, as a count over all laps."""
 
     def next(self, reel: RecordedMoments, given: int) -> int:
         """The number of the next one, not below `given`."""
@@ -46,7 +46,7 @@ class Pace(Protocol):
 
 
 class OnDemandPace:
-    """One moment after another, whenever the next is asked for."""
+    """Gives one moment after another, whenever the next is asked for."""
 
     def next(self, reel: RecordedMoments, given: int) -> int:
         """The one that was not given yet."""
@@ -57,7 +57,7 @@ class OnDemandPace:
 
 
 class RealTimePace:
-    """As a camera gives them: waits for the next, leaves out what came meanwhile."""
+    """Gives moments as a camera does: waits for the next, and skips missed ones."""
 
     def __init__(self, speed: float, clock: PlaybackClock) -> None:
         self._speed = speed

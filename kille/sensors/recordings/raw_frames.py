@@ -1,4 +1,4 @@
-"""Raw readings of any sensor: those it has, or those a Kinect would have had."""
+"""Raw readings of any sensor: its own, or those that a Kinect would have had."""
 
 from __future__ import annotations
 

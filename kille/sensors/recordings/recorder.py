@@ -73,7 +73,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class RecordingProgress:
-    """How far it is: frames, the sensor's seconds, and the bytes that are left free."""
+    """Frames and seconds recorded so far, and the bytes that are left free."""
 
     frames: int = 0
     seconds: float = 0.0
@@ -93,7 +93,7 @@ class RecordingProgress:
 
 
 class NoRoomError(Exception):
-    """The disk has not room for what is to be recorded: needed and free, in bytes."""
+    """The disk has no room for the recording: bytes needed and free."""
 
     def __init__(self, needed: int, free: int) -> None:
         super().__init__(needed, free)
@@ -103,7 +103,7 @@ class NoRoomError(Exception):
 
 @dataclass(frozen=True)
 class Disk:
-    """What is free where the recording goes, and how much of it stays so."""
+    """The free space on the disk of the recording, and how much must stay free."""
 
     free: Callable[[Path], int]
     reserve: int = RESERVE
@@ -115,7 +115,7 @@ class Disk:
 
 
 def check_room(folder: Path, limits: Limits, disk: Disk) -> None:
-    """NoRoom if what is asked for does not fit, as far as it is known beforehand."""
+    """Raise NoRoomError if the recording will not fit, as far as its size is known."""
     free = disk.free(folder)
     needed = max(limits.bytes, CAPTURE_BYTES) + disk.reserve
     if free < needed:
