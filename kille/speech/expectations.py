@@ -1,7 +1,7 @@
 """What a tutor is expected to say, by the words that the robot knows.
 
-Words that are known may stand wherever the grammar has words; in lessons, nouns that
-are not known too. Neighbours agree: "an apple", but "a cup".
+Known words may stand wherever the grammar has words, and unknown nouns in lessons.
+Neighbours agree: "an apple", but "a cup".
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class Speech:
     asking: tuple[str, ...]
     """The words that questions begin with."""
     sorry: str
-    """What is said to what could not be understood."""
+    """The answer to speech that could not be understood."""
 
 
 @dataclass(frozen=True)

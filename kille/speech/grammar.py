@@ -78,7 +78,7 @@ _FULL = {
 
 @cache
 def tutors_grammar(language: str, *unsaid: str) -> State:
-    """All that a tutor may say in a language, with slots for his words."""
+    """All that a tutor may say in a language, with slots for their words."""
     source = files("kille.grammars").joinpath(f"tutor.{language}.lark")
     return sayable(source.read_text(encoding="utf-8"), unsaid)
 

@@ -1,7 +1,7 @@
 """The words that a pattern of the grammar stands for, when these can be counted.
 
 The small words of a language are terminals of its grammar: `/(right|quite right)/`. To
-be heard, they must be spelled out, each way to say them.
+be recognised, each way to say them must be spelled out.
 """
 
 from __future__ import annotations

@@ -66,7 +66,7 @@ class Hypothesis(NamedTuple):
 
 
 class Recogniser:
-    """Hears what is expected; `expect` says what that is.
+    """Recognises expected speech; `expect` sets what is expected.
 
     Raises ModuleNotFoundError where pocketsphinx is not installed.
     """
@@ -90,7 +90,7 @@ class Recogniser:
         return self._pronouncing.of(word)
 
     def expect(self, what: ExpectedSpeech) -> None:
-        """Listen for this from now on. New words are pronounced as is guessed."""
+        """Listen for this from now on. The pronunciation of new words is guessed."""
         for word in sorted(what.learned):
             if self._decoder.lookup_word(self._entry_name(word)) is None:
                 self._add(word, (self._pronouncing.of(word),))
@@ -102,7 +102,7 @@ class Recogniser:
     def hear(self, sound: bytes) -> tuple[Hypothesis, ...]:
         """What was perhaps said in a sound (16 kHz, 16 bits), the likeliest first.
 
-        What is missing to 1 is that it was something else, or nothing at all.
+        What the probabilities lack to 1 is that of something else, or of nothing.
         """
         if self._network is NOTHING or not any(sound):
             return ()
