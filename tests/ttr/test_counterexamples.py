@@ -128,6 +128,10 @@ COUNTEREXAMPLES = [
     ("(A -> A)", "list(A)", r"\x:A. x"),
     ("(A -> (A -> A))", "(A -> (A -> B))", r"\x:A. \x1:A. x1"),
     ("[x = y : A, y = x : A, z : A]", "[z : B]", "{x = a1, y = a1, z = a2}"),
+    ("[l : list(plus(A))]", "[l : list(str(A, A))]", "{l = [<a1>]}"),
+    ("[l : nelist(plus(A))]", "[l : nelist(str(A, A))]", "{l = [<a1>]}"),
+    ("[s : plus(A) /\\ plus(C)]", "[s : str(A)]", "{s = <a1 a2>}"),
+    ("[r : Rec, s : plus(A)]", "[r : Rec, s : str(A, A)]", "{r = {}, s = <a1>}"),
 ]
 """A type, another one, and what is of the first and not of the other."""
 

@@ -103,6 +103,15 @@ def test_what_is_asked_of_a_whole_part():
     assert why("b", Str(Str() & C, B), empty).p == (0.5, 0.5)
 
 
+def test_one_certain_way_is_enough_among_more_than_can_be_told():
+    word = [f"u{number}" for number in range(10)]
+    model = Model().given(EventString(*word), C)
+    for event in word:
+        model = model.given(event, A).given(event, B, 0.5)
+    found = why(word, Plus((Plus(A) & C) | Str(B) | Str(B, B)), model)
+    assert (found.p, len(found.parts)) == ((1, 1), 1)
+
+
 def test_what_is_open_leaves_a_string_open():
     opened = M.given("x", A, 0.5)
     assert why(("a", "new"), Plus(A), opened).p == (0, 1)

@@ -279,7 +279,7 @@ class Assignment:
         facts = self.known.get(identity(sit), _EMPTY)
         kinds = (T, *(upper for _, upper in supertypes(T, self.theory.axioms)))
         for kind in kinds:
-            if p.lo > 0.0 and self._refuses(sit, kind, p):
+            if self._refuses(sit, kind, p):
                 raise RefusedError(
                     f"{notation(sit)} : {T} is refused by the witness function of "
                     f"{head(kind).name}"
