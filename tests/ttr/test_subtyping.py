@@ -13,6 +13,7 @@ from ttr import (
     Rec,
     RecType,
     Str,
+    Theory,
     Type,
     fun,
     outer,
@@ -168,6 +169,45 @@ WHY = [
 @pytest.mark.parametrize(("S", "T", "why"), WHY)
 def test_why(S, T, why):
     assert subtype(S, T).why == why
+
+
+@pytest.mark.parametrize(
+    ("S", "T"),
+    [
+        (r"(B \/ C) /\ (B \/ D)", r"A \/ C"),
+        (r"(C \/ D) /\ (B \/ ~D)", r"B \/ C"),
+        (r"(C \/ D) /\ (B \/ ~D) /\ (B \/ ~C)", "A"),
+        (r"[x : (C \/ D) /\ (B \/ ~D) /\ (B \/ ~C)]", "[x : A]"),
+        (r"(C \/ D) /\ (B \/ D)", r"A \/ D"),
+    ],
+)
+def test_what_follows_whichever_part_of_a_join_it_is(S, T):
+    theory = Theory.parse(f"basic A, B, C, D\nB <: A\nS := {S}\nT := {T}\n")
+    assert subtype(theory.S, theory.T, theory).yes
+    assert subtype(theory.S, theory.C, theory).no
+
+
+@pytest.mark.parametrize(
+    ("S", "T", "verdict"),
+    [
+        ("[l : nelist(B), y = fst(l) : C]", "[y : A]", "yes"),
+        ("[l : list(B) /\\ nelist(C), y = fst(l) : C]", "[y : A]", "yes"),
+        ("[l : list(B), y = fst(l) : C]", "[y : A]", "no"),
+        ("[l : nelist(A), y = fst(l) : C]", "[y : B]", "no"),
+        ("[f : (B -> C), x : B, y = f(x) : D]", "[y : C]", "yes"),
+        ("[f : (A -> C), x : B, y = f(x) : D]", "[y : C]", "yes"),
+        ("[f : (B -> B), x : B, y = f(x) : D]", "[y : A]", "yes"),
+        ("[f : (B -> C), x : B, y = f(x) : D]", "[y : B]", "no"),
+        ("[f : (A -> B \\/ C), x : A, y = f(x) : D]", "[y : A \\/ C]", "yes"),
+        ("[f : (B -> C) /\\ (A -> D), x : B, y = f(x) : E]", "[y : C /\\ D]", "yes"),
+        # what f gives for what is of B says nothing of what it gives for x
+        ("[f : (B -> C) /\\ (A -> D), x : A, y = f(x) : E]", "[y : C]", "unknown"),
+        ("[f : (B -> C) /\\ (A -> D), x : A, y = f(x) : E]", "[y : D]", "yes"),
+    ],
+)
+def test_what_a_list_has_first_and_what_a_function_gives(S, T, verdict):
+    theory = Theory.parse(f"basic A, B, C, D, E\nB <: A\nS := {S}\nT := {T}\n")
+    assert subtype(theory.S, theory.T, theory).verdict == verdict
 
 
 def test_axioms():
