@@ -110,6 +110,14 @@ def test_a_folder_that_cannot_be_made_is_named() -> None:
     assert "is no folder" in refusal(Memory.open, Path("/proc/kille/memory.db"))
 
 
+def test_a_file_that_cannot_be_made_is_named(tmp_path: Path) -> None:
+    path = tmp_path / f"{'n' * 300}.db"
+    with pytest.raises(MemoryFileError) as caught:
+        Memory.open(path)
+    assert str(caught.value).startswith(f"{path} cannot be opened, or its folder not")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_reading_makes_no_file(path: Path) -> None:
     assert "does not exist" in refusal(Memory.open_to_read, path)
     assert not path.parent.exists()
