@@ -172,6 +172,34 @@ def test_why(S, T, why):
 
 
 @pytest.mark.parametrize(
+    "S",
+    [
+        r"B /\ ~A",
+        r"[x : B /\ ~A]",
+        r"str(A) /\ str(A, A)",
+        r"[s : str(A) /\ str(A, A)]",
+        r"[r : [s : plus(str(A, A)) /\ str(A)]]",
+        r"nelist(str(A) /\ str(A, A))",
+        r"list(A) /\ [x : A]",
+        r"nelist(list(A) /\ [x : A])",
+        r"[l : nelist(list(A) /\ [x : A])]",
+        r"(A@a) /\ (A@b)",
+        r"[x = a : A, y = x : A, z = y : A] /\ [z = b : A]",
+        r"[r = {x = a} : [x : A]] /\ [r : [x = b : A]]",
+        "[r = {x = a} : [x : A, y : A]]",
+        "[r = {x = a} : Rec, l = r : list(A)]",
+        "[l = [] : nelist(A)]",
+    ],
+)
+def test_nothing_is_of_it_so_that_anything_follows(S):
+    """A list of such things is empty."""
+    names = "basic A, B, C\nB <: A\nobject a, b : A"
+    theory = Theory.parse(f"{names}\nS := {S}\nSome := list({S})\nNone_ := list(C)\n")
+    assert subtype(theory.S, theory.C, theory).yes
+    assert subtype(theory.Some, theory.None_, theory).yes
+
+
+@pytest.mark.parametrize(
     ("S", "T"),
     [
         (r"(B \/ C) /\ (B \/ D)", r"A \/ C"),
