@@ -1,6 +1,6 @@
 """Writes docs/reference/games.md: every game as a table, played as it is now.
 
-Each table is a dialogue with the simulated robot of `kille.simulation`: what is said,
+Each table is a dialogue with the simulated robot of `kille.lab.worlds`: what is said,
 the rules that answer it, and what they change in the state. Run from the top folder:
 
     python docs/pictures/games.py
@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from kille.interfaces.formatting import in_short
-from kille.lab.worlds.games import simulated
-from kille.lab.worlds.perception import seen
+from kille.lab.worlds.games import simulated_game
+from kille.lab.worlds.perception import look_event
 from kille.lab.worlds.worlds import Thing, World
 from ttr import Record
 from ttr.types.records import differences

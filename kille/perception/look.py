@@ -96,7 +96,7 @@ def _percept(
     """The percept of a thing from its sightings, the first of which is measured."""
     frame, region = track[0]
     begun = traits.get(region)
-    measure = partial(measured, frame, region) if begun is None else begun.result
+    measure = partial(measure_cues, frame, region) if begun is None else begun.result
     return Percept(region, Scans(track), measure, frame)
 
 
@@ -104,10 +104,10 @@ class _Captured(NamedTuple):
     """The frames of a look, and what a thread makes out in the first ones."""
 
     frames: Sequence[Frame]
-    scenes: Mapping[Frame, Future[Scene]]
+    scenes: Mapping[Frame, Future[SegmentedFrame]]
     traits: Mapping[Region, Future[Traits]]
 
-    def scene(self, number: int) -> Scene:
+    def scene(self, number: int) -> SegmentedFrame:
         """The scene in this frame, segmented here if the thread does not do it."""
         begun = self.scenes.get(self.frames[number])
         return segment(self.frames[number]) if begun is None else begun.result()
@@ -139,7 +139,7 @@ def _capture_with(
 
     def begin_traits() -> None:
         for region in scenes[first].result().regions:
-            traits[region] = worker.submit(measured, first, region)
+            traits[region] = worker.submit(measure_cues, first, region)
 
     for number in range(len(frames), scans):
         frames.append(frame := sensor.frame())

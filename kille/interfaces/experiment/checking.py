@@ -37,7 +37,7 @@ def _check_file(path: Path, consent: Consent) -> int:
 
 def tell_doubts(study: Study) -> None:
     """Warn of what is no mistake, but probably not intended."""
-    for it in doubts(study):
+    for it in warnings_of(study):
         complain(f"{it} (this can be played)")
 
 

@@ -110,7 +110,9 @@ class Theatre:
         pointed: Sighting = (seen.frame, seen.percepts[0].region)
         return Attention(pointed)
 
-    def found(self, occasion: Occasion, number: int, view: NumberedLook) -> int | None:
+    def number_in_view(
+        self, occasion: Occasion, number: int, view: NumberedLook
+    ) -> int | None:
         """The number that a thing of the world has in a view of the robot's."""
         name = occasion.world.thing(number).kind
         outline = view.look.frame.outlines.get(name)

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from tabletop import UP, Camera, Card, frame_of, share
 
-from kille.experiments.table import OnTable
-from kille.perception.cues import measured
+from kille.lab.scenes.shown_things import OnTable
+from kille.perception.cues import measure_cues
 from kille.perception.features import features_of
 from kille.perception.look import look
 from kille.perception.pointing import region_at
@@ -23,7 +23,7 @@ from kille.perception.segment import SegmentedFrame, region_of, segment
 from kille.scene import Frame
 from kille.sensors.recordings import open_recording
 from kille.sensors.sensor import SensorError
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.catalogue import TOY_NAMES
 
 LEFT, RIGHT = Card(-0.12, 0.8, seed=1), Card(0.12, 0.9, seed=2)
 
@@ -79,7 +79,7 @@ def test_what_is_done_while_the_frames_come_makes_no_difference(
         assert np.array_equal(one.region.mask, other.region.mask)
         assert one.region.place == other.region.place
         assert one.frame is not None
-        now = measured(one.frame, one.region)
+        now = measure_cues(one.frame, one.region)
         assert one.traits.keys() == other.traits.keys() == now.keys()
         for cue, vector in now.items():
             assert np.array_equal(one.traits[cue], vector)

@@ -6,8 +6,7 @@ import pytest
 
 from kille.dialogue.language import LANGUAGES, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import (
-    denial,
+from kille.dialogue.meanings import denial, (
     kind_in,
     meaning_at,
     noun,
@@ -69,7 +68,7 @@ def test_he_knows_what_is_true():
 
     assert is_true(WorldTalk(ENGLISH, world), naming("cup", "o1"))
     assert not is_true(WorldTalk(ENGLISH, world), naming("cup", "o2"))
-    assert is_true(WorldTalk(ENGLISH, world), denied(naming("cup", "o2")))
+    assert is_true(WorldTalk(ENGLISH, world), denial(naming("cup", "o2")))
     assert not is_true(WorldTalk(ENGLISH, world.move(1, None)), naming("cup", "o1"))
 
 
