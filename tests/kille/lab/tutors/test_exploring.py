@@ -6,7 +6,8 @@ import pytest
 
 from kille.dialogue.language import LANGUAGES, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import denial, (
+from kille.dialogue.meanings import (
+    denial,
     kind_in,
     meaning_at,
     noun,
