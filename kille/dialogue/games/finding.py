@@ -66,7 +66,7 @@ def _where(
     if not nouns or is_placed or x not in s.view.placed:
         return content, []
     thing = record(sit=record(x=x), sign=nouns[0])
-    landmark, model = landmark_for(s, model, thing)
+    landmark = landmark_for(s, model, thing)
     if landmark is None:
         return content, []
     y, at = landmark.sit.x, landmark.sign

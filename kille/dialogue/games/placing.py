@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import (
     Beliefs,
+    believed,
     certainty,
     knows,
-    nouns_of,
     relations_of,
     thinks,
 )
@@ -26,10 +26,10 @@ def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None
     x = thing_at(content_of(s), "target")
     if x is None or x not in s.view.placed:
         return None
-    thing, model = asked_thing(s, model, x)
+    thing = asked_for(s, model, x)
     if thing is None:
         return plan(s, "AdmitName", types=types), model
-    landmark, model = landmark_for(s, model, thing)
+    landmark = landmark_for(s, model, thing)
     if landmark is None:
         return plan(
             s, "NeedLandmark", thing.sign.meaning, signs=[thing.sign], types=types
@@ -45,33 +45,35 @@ def need_place(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "NeedDepth", types=types)
 
 
-def asked_thing(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:
+def asked_for(s: Record, model: Model, x: str) -> Record | None:
     """The thing of which the tutor asks where it is, by the noun for it in the answer.
 
     That is the tutor's own noun, if they used one, or else the one that fits best.
     """
     target = phrase_at(content_of(s), "target")
     for noun in nouns_said(s.shared.latest, target):
-        return record(sit=record(x=x), sign=noun), model
-    beliefs, model = nouns_of(s, model, x)
-    return (beliefs[0] if beliefs else None), model
+        return record(sit=record(x=x), sign=noun)
+    beliefs = believed(s, model, s.private.nouns, x)
+    return beliefs[0] if beliefs else None
 
 
-def landmark_for(s: Record, model: Model, thing: Record) -> tuple[Record | None, Model]:
+def landmark_for(s: Record, model: Model, thing: Record) -> Record | None:
     """The other thing with a place that it knows best, as a belief worth saying.
 
     It is called something else: "The cup is to the left of the cup." would say nothing.
     """
     best: Record | None = None
     for y in s.view.placed:
-        beliefs, model = nouns_of(s, model, y)
-        if y == thing.sit.x or not thinks(s, beliefs):
+        if y == thing.sit.x:
+            continue
+        beliefs = believed(s, model, s.private.nouns, y)
+        if not thinks(s, beliefs):
             continue
         if knows([thing.sign], beliefs[0].sign):
             continue
         if best is None or beliefs[0].p > best.p:
             best = beliefs[0]
-    return best, model
+    return best
 
 
 def _plan_place(
