@@ -14,7 +14,7 @@ def describe_event(given: str) -> str:
     >>> world = World((Thing("cup", "red", 0.5, (2, 3)), Thing("car", "blue")))
     >>> describe_event(world.name)
     'sees a red cup at 2.0,3.0'
-    >>> describe_event(world.cleared().name), describe_event("stage=empty")
+    >>> describe_event(world.clear().name), describe_event("stage=empty")
     ('sees nothing', 'stage=empty')
     """
     world = World.from_name(given)
@@ -25,7 +25,7 @@ def describe_event(given: str) -> str:
 
 def _describe_things(world: World) -> str:
     """The things in view, that which is attended to first."""
-    numbers = sorted(world.in_view, key=lambda it: (it != world.attended, it))
+    numbers = sorted(world.in_view, key=lambda it: (it != world.attended_thing, it))
     return ", ".join(_describe_thing(world, number) for number in numbers)
 
 

@@ -91,7 +91,7 @@ def test_traits_are_measured_while_the_frames_come(
 ) -> None:
     monkeypatch.setattr("kille.perception.look.ThreadPoolExecutor", Quick)
     seen = look(Camera(*frames(10, LEFT, RIGHT)))
-    monkeypatch.setattr("kille.perception.look.measured", None)
+    monkeypatch.setattr("kille.perception.look.measure_cues", None)
     assert all(percept.traits for percept in seen.percepts)
 
 
