@@ -17,11 +17,6 @@ from ttr.types import PType
 Beliefs = Sequence[Record]
 
 
-def nouns_of(s: Record, model: Model, x: str) -> tuple[Beliefs, Model]:
-    """How probably each noun is true of x, the most probable first."""
-    return about(model, record(x=x, look=s.view.look), s.private.nouns)
-
-
 def relations_of(s: Record, model: Model, x: str, y: str) -> tuple[Beliefs, Model]:
     """How probably x stands in each relation to y, the most probable first.
 

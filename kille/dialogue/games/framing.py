@@ -207,9 +207,9 @@ def ask_frame_of_place(
     x = thing_at(content_of(s), "target")
     if s.shared.frame != OPEN or not s.shared.turned or x not in s.view.placed:
         return None
-    thing = asked_for(s, model, str(x))
+    thing = asked_thing(s, model, str(x))
     landmark = landmark_for(s, model, thing) if thing else None
-    if landmark is None or facing(s, landmark.sit.x) is None:
+    if landmark is None or known_front(s, landmark.sit.x) is None:
         return None
     said = []
     for frame in FRAMES:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import (
     Beliefs,
-    believed,
+    beliefs_about,
     certainty,
     knows,
     relations_of,
@@ -26,7 +26,7 @@ def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None
     x = thing_at(content_of(s), "target")
     if x is None or x not in s.view.placed:
         return None
-    thing = asked_for(s, model, x)
+    thing = asked_thing(s, model, x)
     if thing is None:
         return plan(s, "AdmitName", types=types), model
     landmark = landmark_for(s, model, thing)
@@ -45,7 +45,7 @@ def need_place(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "NeedDepth", types=types)
 
 
-def asked_for(s: Record, model: Model, x: str) -> Record | None:
+def asked_thing(s: Record, model: Model, x: str) -> Record | None:
     """The thing of which the tutor asks where it is, by the noun for it in the answer.
 
     That is the tutor's own noun, if they used one, or else the one that fits best.
@@ -53,7 +53,7 @@ def asked_for(s: Record, model: Model, x: str) -> Record | None:
     target = phrase_at(content_of(s), "target")
     for noun in nouns_said(s.shared.latest, target):
         return record(sit=record(x=x), sign=noun)
-    beliefs = believed(s, model, s.private.nouns, x)
+    beliefs = beliefs_about(s, model, s.private.nouns, x)
     return beliefs[0] if beliefs else None
 
 
@@ -66,7 +66,7 @@ def landmark_for(s: Record, model: Model, thing: Record) -> Record | None:
     for y in s.view.placed:
         if y == thing.sit.x:
             continue
-        beliefs = believed(s, model, s.private.nouns, y)
+        beliefs = beliefs_about(s, model, s.private.nouns, y)
         if not thinks(s, beliefs):
             continue
         if knows([thing.sign], beliefs[0].sign):
