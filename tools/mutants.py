@@ -323,7 +323,10 @@ def outcome(mutant: Mutant, folder: Path, reach: Reach) -> tuple[str, str]:
     """
     path = folder / mutant.file
     code = path.read_text()
-    mutated = mutant.mutate(code)
+    try:
+        mutated = mutant.mutate(code)
+    except AttributeError:
+        return "invalid", ""
     if mutated is None or mutated == code:
         return "same", ""
     diff = "".join(

@@ -138,12 +138,13 @@ COUNTEREXAMPLES = [
 
 @pytest.mark.parametrize(("S", "T", "shown"), COUNTEREXAMPLES)
 def test_a_counterexample_is_of_one_type_and_not_of_the_other(S, T, shown):
-    theory = Theory.parse(f"{NAMES}\nS := {S}\nT := {T}\n")
-    against = subtype(theory.S, theory.T, theory).counter
+    theory = Theory.parse(NAMES)
+    lower, upper = theory.parse(S), theory.parse(T)
+    against = subtype(lower, upper, theory).counter
     assert str(against.sit) == shown
     assert against.p == REFUTED
-    assert against.model.judge(against.sit, theory.S).holds
-    assert against.model.judge(against.sit, theory.T).p == REFUTED
+    assert against.model.judge(against.sit, lower).holds
+    assert against.model.judge(against.sit, upper).p == REFUTED
 
 
 @pytest.mark.parametrize(

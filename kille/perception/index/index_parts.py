@@ -61,49 +61,22 @@ class Exact:
         self._spans = list(starmap(slice, pairwise([*firsts.tolist(), len(owners)])))
         self._rows = rooted(stack_descriptors(ordered))
 
-    def neighbours(self, query: Rows, repeats: Repeats | None = None) -> Neighbours:
-        """The nearest descriptor of each word, one column for each word.
-
-        Where features are repeated, that of the ten nearest words, and nearly so.
-        """
+    def neighbours(self, query: Rows) -> Neighbours:
+        """The nearest descriptor of each word, one column for each word."""
         words = np.broadcast_to(self._words, (len(query), len(self._words)))
         if not len(self._words):
             return Neighbours(words, np.empty((len(query), 0), np.float32))
-        if repeats is not None:
-            return self._neighbours_of_repeated(query, repeats)
         alike = np.empty((len(query), len(self._words)), np.float32)
         for some, products in self._products(query):
             for word, own in enumerate(self._spans):
                 products[:, own].max(axis=1, out=alike[some, word])
         return Neighbours(words, apart(alike))
 
-    def _neighbours_of_repeated(self, query: Rows, repeats: Repeats) -> Neighbours:
-        firsts, same = repeats
-        shape = len(firsts), len(self._words)
-        rows, alike = np.empty(shape, np.intp), np.empty(shape, np.float32)
-        for some, products in self._products(query[firsts]):
-            for word, own in enumerate(self._spans):
-                theirs = products[:, own]
-                best = theirs.argmax(axis=1)
-                rows[some, word] = best + own.start
-                alike[some, word] = theirs[np.arange(len(best)), best]
-        columns = _greatest(alike, NEIGHBOURS)
-        near = self._rows[np.take_along_axis(rows, columns, axis=1)]
-        found = products_with_found(near, query, same)
-        return Neighbours(self._words[columns][same], apart(found))
-
     def _products(self, query: Rows) -> Iterator[tuple[slice, Rows]]:
         """The dot products of some of the query at a time with all descriptors."""
         for start in range(0, len(query), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
             yield some, query[some] @ self._rows.T
-
-
-def _greatest(numbers: Rows, count: int) -> NDArray[np.intp]:
-    """The columns (n, count) of the greatest numbers in each row, in any order."""
-    if numbers.shape[1] <= count:
-        return np.broadcast_to(np.arange(numbers.shape[1]), numbers.shape)
-    return np.argpartition(numbers, -count, axis=1)[:, -count:]
 
 
 class Part:

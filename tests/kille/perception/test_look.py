@@ -159,7 +159,7 @@ def test_the_thing_that_is_shown_is_the_nearest_and_seldom_a_part() -> None:
     """Of seeds and specimens that the merge was not fitted to."""
     missed = []
     for seed, turn, thing in product(range(400, 404), (0, 45), TOY_NAMES):
-        seen = OnTable(seed, specimen=seed).shown(thing, turn=turn, scans=3)
+        seen = OnTable(seed, specimen=seed).look_at(thing, turn=turn, scans=3)
         assert seen.frame is not None
         if share(seen.frame.outlines[thing], seen.region) < 0.6:
             missed.append((seed, turn, thing))

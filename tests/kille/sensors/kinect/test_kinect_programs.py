@@ -28,8 +28,8 @@ LONG = 120.0
 """Seconds that a program may take on a busy machine, where it needs two or so."""
 
 USING = """
-from kille.sensors.kinect import process
-process._FAREWELL = 60.0  # a busy machine has no part in what is tested
+from kille.sensors.kinect import process_driver
+process_driver._FAREWELL = 60.0  # a busy machine has no part in what is tested
 from kille.sensors.sources import open_sensor
 sensor = open_sensor("kinect")
 for _ in range(3):
@@ -128,8 +128,8 @@ def test_ctrl_c_while_it_looks_ends_cleanly(plugged: Plugged) -> None:
 
 SERVED = """
 import time
-from kille.sensors.kinect import pump
-pump.PATIENCE = 60.0
+from kille.sensors.kinect import isochronous_transfers
+isochronous_transfers.PATIENCE = 60.0
 from kille.sensors.kinect.packets import Assembler
 from kille.sensors.kinect.sensor import KinectSensor
 from kille.sensors.kinect.usb import UsbBus
@@ -148,7 +148,7 @@ except KeyboardInterrupt:
     print("interrupted")
 sensor.frame()
 sensor.close()
-print(len(pump._UNDER_WAY))
+print(len(isochronous_transfers._UNDER_WAY))
 """
 
 
@@ -273,8 +273,8 @@ print(sensor._driver._process.pid != before)
 def test_another_process_that_hangs_is_killed_and_said_so(plugged: Plugged) -> None:
     code = """
 import os, signal
-from kille.sensors.kinect import process
-process._FAREWELL = 0.2
+from kille.sensors.kinect import process_driver
+process_driver._FAREWELL = 0.2
 reader = sensor._driver._process.pid
 os.kill(reader, signal.SIGSTOP)
 sensor.close()
