@@ -22,6 +22,7 @@ from kille.interfaces.standard_streams import (
 )
 from ttr.cli.command_line import Parser, Version
 from ttr.cli.consent_options import add_consent, consent_of
+from ttr.safety.interruptions import keep_interruptions
 
 if TYPE_CHECKING:
     from kille.interfaces.experiment.running import StudyRequest
@@ -53,7 +54,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; 0 is success, 1 failure, 2 wrong use, 130 Ctrl-C."""
     prepare_streams()
     try:
-        code = _run(argv)
+        with keep_interruptions():
+            code = _run(argv)
         sys.stdout.flush()
     except KeyboardInterrupt:
         end_line()

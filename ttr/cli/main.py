@@ -16,6 +16,7 @@ from ttr.cli.output import (
     PIPE_CLOSED,
     complain,
 )
+from ttr.safety.interruptions import keep_interruptions
 from ttr.safety.unforeseen_errors import report_unforeseen
 
 
@@ -25,7 +26,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         if isinstance(stream, TextIOWrapper):  # not where a program has replaced it
             stream.reconfigure(errors="backslashreplace")
     try:
-        code = _run(argv)
+        with keep_interruptions():
+            code = _run(argv)
         sys.stdout.flush()
     except KeyboardInterrupt:
         return INTERRUPTED
