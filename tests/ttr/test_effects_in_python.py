@@ -197,6 +197,7 @@ def test_a_name_of_the_whole_file_may_be_set_anywhere():
         ("0 in s.agenda", False),
         ("OTHER in s.agenda", False),
         ("hasattr(s, OTHER)", False),
+        ("getattr(s.shared, 'n', 'gone')", False),
     ],
 )
 def test_labels_that_are_tested_for_may_be_missing(test, guarded):
@@ -498,6 +499,7 @@ def test_changes_that_are_not_written_out_are_not_known(changes):
         ("return replace(OTHER(s), gone=1)", ["s.gone"]),
         ("return replace(replace(OTHER(s), gone=1), lost=1)", ["s.lost", "s.gone"]),
         ("return replace(OTHER(s), gone=1), model", ["s.gone"]),
+        ("return replace(replace(OTHER(s), gone=1), {'n': 1})", ["s.gone"]),
         ("return replace(OTHER(s), a=1) if s.n else replace(OTHER(s), b=1)", "ab"),
         ("t = replace(OTHER(s), gone=1)\nreturn t", ["s.gone"]),
         ("if s.n: return s\nelse: return replace(OTHER(s), gone=1)", ["s.gone"]),

@@ -302,14 +302,14 @@ class _Derivation:
             value = waiting.pop()
             for term in _terms_in(value):
                 spend()
-                known = self._known(term)
+                known = self._types_known_of(term)
                 for place, T in known:
                     if identity(place) not in seen:
                         seen.add(identity(place))
                         yield place, T
                         waiting.append(T)
 
-    def _known(self, term: Object) -> Iterator[Assumption]:
+    def _types_known_of(self, term: Object) -> Iterator[Assumption]:
         if type(term) is str:
             if term in self._theory.declared:
                 yield term, self._theory.declared[term]

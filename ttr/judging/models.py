@@ -172,7 +172,7 @@ class Model:
         >>> print(M.judge("a", A).p, M.judge("a", A & B).p)
         0.6 [0.42, 0.48]
         """
-        sit, T = self._computed(*_check_closed(sit, T))
+        sit, T = self._normalise(*_check_closed(sit, T))
         p = _degree_of(f"{notation(sit)} : {T}", p)
         pairs = conditions(when)
         if pairs:
@@ -194,7 +194,7 @@ class Model:
             )
         return self._with(facts)
 
-    def _computed(self, sit: Object, T: TypeNode) -> tuple[Object, TypeNode]:
+    def _normalise(self, sit: Object, T: TypeNode) -> tuple[Object, TypeNode]:
         """The object and the type as what they compute to in the theory."""
         theory = self._facts.theory
         if isinstance(sit, TypeNode | Function):
@@ -301,7 +301,7 @@ class Model:
         """
         sit, T = _check_closed(sit, T)
         pairs = conditions(when)
-        computed = self._computed(sit, T)
+        computed = self._normalise(sit, T)
         why = (
             derive_conditional(self._facts, *computed, pairs)
             if pairs
@@ -323,7 +323,7 @@ class Model:
         >>> print(j)
         {c = e1, x = o1} : [x : Ind, c : cup(x)]   p = 0.75
         """
-        sit, T = self._computed(*_check_closed(sit, T))
+        sit, T = self._normalise(*_check_closed(sit, T))
         if not isinstance(sit, Record):
             return self.judge(sit, T)
         seen, facts = fill_fields(self._facts, sit, T)
@@ -339,7 +339,7 @@ class Model:
         >>> a, M.judge(a, Ind).holds
         ('a1', True)
         """
-        _, T = self._computed(*_check_closed((), T))
+        _, T = self._normalise(*_check_closed((), T))
         witness, facts = create_witness(self._facts, T)
         return witness, self._with(facts)
 
@@ -378,7 +378,7 @@ class Model:
         >>> print(*M.witnesses(rectype(x=Ind, c=dog(this.x))))
         {c = s1, x = fido}
         """
-        _, T = self._computed(*_check_closed((), T))
+        _, T = self._normalise(*_check_closed((), T))
         return tuple(witnesses(self._facts, T))
 
     @within_budget(otherwise=_truth_unknown)
