@@ -4,8 +4,11 @@ from generators import models, record_types, samples, types
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import Basic, Ind, Pred, RecType, fun, outer, rectype, this
+from ttr import Basic, Ind, Pred, RecType, Theory, fun, outer, rectype, this
+from ttr.computing.normalisation import normal_value
+from ttr.signature.signature import signature_of
 from ttr.types import Application, Merge, merge_terms
+from ttr.types.paths import mentions
 from ttr.types.substitution import substitute_variable
 
 run = Pred("run", Ind)
@@ -31,7 +34,7 @@ def test_what_is_of_a_merge_is_of_both(S, T, M, sample):
 def test_what_is_not_known_yet_may_be_merged_before_or_after_it_is(others, S, M, a):
     variable = Application(this.f, "a")
     late = merge_terms(variable, *others)
-    assert late is variable or isinstance(late, Merge)
+    assert late is variable or mentions(late, Merge)
     f = fun(f=Basic("A") >> RecType)(late)
     constant = fun(x=Basic("A"))(S)
     found = substitute_variable(f.body, constant)
@@ -45,6 +48,28 @@ def test_record_types_are_merged_label_by_label(S, T):
     for label in merged:
         both = [one[label] for one in (S, T) if label in one]
         assert merged[label] is merge_terms(*both)
+
+
+@given(st.lists(types(), min_size=1, max_size=3), types(), types())
+def test_a_part_of_a_meet_may_be_known_late_too(others, S, also):
+    late = merge_terms(Application(this.f, "a") & also, *others)
+    f = fun(f=Basic("A") >> RecType)(late)
+    constant = fun(x=Basic("A"))(S)
+    whole = Application(constant, "a") & also
+    assert substitute_variable(f.body, constant) is merge_terms(whole, *others)
+    reduced = normal_value(f.body, signature_of(None))
+    assert normal_value(reduced, signature_of(None)) is reduced
+
+
+def test_a_merge_under_a_meet_waits():
+    one, other = rectype(x=Ind), rectype(y=Ind)
+    late = merge_terms(Application(this.f, "a") & Basic("A"), one)
+    body = fun(f=Ind >> RecType)(late).body
+    found = substitute_variable(body, fun(z=Ind)(other))
+    theory = Theory.parse("basic Ind, A\nobject a : Ind")
+    wanted = Basic("A") & rectype(x=Ind, y=Ind)
+    assert normal_value(found, theory) is wanted
+    assert merge_terms(other & Basic("A"), one) is wanted
 
 
 def test_paths_stay_paths_of_the_whole():

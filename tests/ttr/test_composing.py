@@ -2,7 +2,19 @@
 
 import pytest
 
-from ttr import Ind, Model, Pred, RecType, Theory, check, fun, outer, rectype, this
+from ttr import (
+    Basic,
+    Ind,
+    Model,
+    Pred,
+    RecType,
+    Theory,
+    check,
+    fun,
+    outer,
+    rectype,
+    this,
+)
 from ttr.computing import consistent, equal, normal_form, subtype
 from ttr.errors import IllFormedError
 from ttr.types import Application, Function, merge_terms
@@ -109,6 +121,13 @@ def test_it_is_computed_where_more_is_known():
     assert subtype(rectype(x=Ind, r=Man(this.x)), rectype(r=rectype(e=Ind))).no
     kept = rectype(x=rectype(y=Ind), r=Application(Man, this.x))
     assert normal_form(kept) is kept
+
+
+def test_what_is_known_in_one_record_is_not_known_in_another():
+    inner = rectype(x=Basic("B"), r=Man(this.x))
+    T = rectype(a=rectype(x=Ind, r=Man(this.x)), b=inner)
+    computed = rectype(x=Ind, r=rectype(e=man(outer.x)))
+    assert normal_form(T) is rectype(a=computed, b=inner)
 
 
 def test_what_is_given_is_not_assumed():

@@ -1,9 +1,9 @@
 r"""Normal forms: what types and objects compute to.
 
-Functions are applied wherever the
-argument is derivably in the domain; paths into manifest fields lead to what these are
-set to; fields of written records and the first and rest of written lists are looked up;
-merges are done as soon as the form of their parts is known. Not η.
+Functions are applied wherever the argument is derivably in the domain; paths into
+manifest fields lead to what these are set to; fields of written records and the first
+and rest of written lists are looked up; merges are done as soon as the form of their
+parts is known. Not η.
 
 An application (λx:S. φ)(a) is contracted iff Θ; Γ ⊢ a : S, by the axioms and declared
 objects of the theory Θ and by the fields and variables around it, Γ. It is ill-formed
@@ -72,9 +72,13 @@ def normal_form(value: Object, theory: Signature | None = None, /) -> Object:
 
 @dataclass(eq=False)
 class _Scope:
-    """The types at the labels of a record type, or at a variable, as seen inside."""
+    """The types at the labels of a record type, or at a variable, as seen inside.
+
+    Fields that depend on each other in a circle are known, but lead nowhere.
+    """
 
     types: dict[str, TypeNode] = field(default_factory=dict)
+    circular: set[str] = field(default_factory=set)
 
 
 _Scopes = tuple[_Scope, ...]
@@ -111,15 +115,14 @@ class _Normaliser:
             return self._at_path(value, around)
         if isinstance(value, TypeNode | Function):
             return self._of_node(value, around)
-        found = map_parts(value, lambda part, _: self.of(part, around))
-        return found
+        return map_parts(value, lambda part, _: self.of(part, around))
 
     def _of_node(self, value: Node, around: _Scopes) -> Object:
         """The normal form of a type or function, once where it stands several times."""
         outward = max((path.up + 1 for path in free_paths(value)), default=0)
         if outward == 0:
             return self._of_closed(value)
-        key = (value, *map(id, around[:outward]))
+        key = (value, *around[:outward])
         if key not in self._made:
             self._made[key] = self._compute(value, around)
         return self._made[key]
@@ -159,7 +162,10 @@ class _Normaliser:
         scope = _Scope()
         within = (scope, *around)
         for label, kind in T.fields:
-            scope.types[label] = self._type(kind, within)
+            found = self._type(kind, within)
+            if not labels_mentioned(found) <= scope.types.keys():
+                scope.circular.add(label)
+            scope.types[label] = found
         return RecordType(order_fields(scope.types))
 
     # --- paths ---
@@ -178,7 +184,7 @@ class _Normaliser:
 
     def _follow(self, path: Path, around: _Scopes) -> Object:
         """The value of the first manifest field on the way, and on from there."""
-        if path.up >= len(around):
+        if path.up >= len(around) or path.labels[0] in around[path.up].circular:
             return path
         T = around[path.up].types.get(path.labels[0])
         for done in range(1, len(path.labels) + 1):

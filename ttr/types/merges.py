@@ -7,7 +7,7 @@ That both give the same, no axiom and no subtyping may be asked on the way, whic
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.derived_types import order_fields
@@ -46,48 +46,31 @@ def merge_terms(*parts: TypeNode) -> TypeNode:
     >>> print(fun(f=Ind >> RecType)(merge_terms(this.f("j"), rectype(x=Ind))))
     \f:(Ind -> RecType). merge(f(j), [x : Ind])
     """
-    kept: dict[TypeNode, None] = {}
-    known: list[TypeNode] = []
-    for part in map(as_type, parts):
-        for one in part.parts if isinstance(part, Merge) else (part,):
-            if isinstance(one, Application):
-                kept[one] = None
-            else:
-                known.append(one)
-    merged = _merge_known(known) if known else None
-    if not kept:
-        return merged if merged is not None else meet()
-    whole = (*kept, *(() if merged is None else (merged,)))
-    return whole[0] if len(whole) == 1 else Merge(tuple(sort_canonically(whole)))
-
-
-def _merge_known(types: list[TypeNode]) -> TypeNode:
-    """The merge of types of which each has a form."""
-    if all(T is types[0] for T in types):
-        return types[0]
-    plain: dict[TypeNode, None] = {}
+    types = dict.fromkeys(map(as_type, parts))
+    if len(types) < 2:
+        return meet(*types)
     values: dict[object, Object] = {}
-    for one in _plain_parts(types, values):
-        plain[one] = None
+    plain = dict.fromkeys(_plain_parts(types, values))
+    open_ = [T for T in plain if isinstance(T, Application)]
     records = [T for T in plain if isinstance(T, RecordType)]
-    if len(records) > 1:
-        others = [T for T in plain if not isinstance(T, RecordType)]
-        plain = dict.fromkeys((_merge_fields(records), *others))
-    base = meet(*plain)
+    others = [T for T in plain if not isinstance(T, Application | RecordType)]
+    known = [*others, *((_merge_fields(records),) if records else ())]
+    whole = [*open_, *((meet(*known),) if known else ())]
+    base = whole[0] if len(whole) == 1 else Merge(tuple(sort_canonically(whole)))
     if not values:
         return base
     return meet(*[Singleton(base, value) for value in values.values()])
 
 
 def _plain_parts(
-    types: list[TypeNode], values: dict[object, Object]
+    types: Iterable[TypeNode], values: dict[object, Object]
 ) -> Iterator[TypeNode]:
     """The parts of meets, and the bases of singletons, whose values are put aside."""
     for T in types:
         spend()
         match T:
             case Meet(parts):
-                yield from _plain_parts(list(parts), values)
+                yield from _plain_parts(parts, values)
             case Singleton(base, value):
                 values[identity(value)] = value
                 yield from _plain_parts([base], values)
