@@ -26,7 +26,7 @@ BATCH = 40
 """How many dialogues there are in one world."""
 
 
-def played(
+def reports(
     robot: RobotProfile, count: int, options: argparse.Namespace
 ) -> Iterator[Report]:
     """What comes of so many dialogues with a robot, in one world after the other."""
@@ -51,7 +51,7 @@ def facts(options: argparse.Namespace) -> Iterator[dict[str, object]]:
         count = max(1, round(options.dialogues * robot.share))
         start, wrong = time.process_time(), ""
         dialogues, turns, rules = 0, 0, Counter[str]()
-        for report in played(robot, count, options):
+        for report in reports(robot, count, options):
             dialogues += report.coverage.dialogues
             turns += report.coverage.turns
             rules.update(

@@ -143,7 +143,7 @@ class Tutor:
     def go(self) -> None:
         """Go to a scene."""
         gaze = self.robot.gaze
-        gaze.sensor, gaze.attention = opened(self.scenes, self.random), Attention()
+        gaze.sensor, gaze.attention = open_scene(self.scenes, self.random), Attention()
         self.do("look")
         self.show()
 
@@ -234,16 +234,16 @@ def _forms(robot: Agent) -> dict[str, str]:
     return {word_of(sign).name: sign.form for sign in nouns}
 
 
-def opened(scenes: Path, random: Random) -> Scene:
+def open_scene(scenes: Path, random: Random) -> Scene:
     """One of the scenes, from its first frame on."""
     scene = scenes / random.choice(SCENES)
     return Scene(str(scene), frames_of(scene))
 
 
-def played(seed: int, turns: int, scenes: Path) -> Counter[str]:
+def play_dialogue(seed: int, turns: int, scenes: Path) -> Counter[str]:
     """What came of a dialogue."""
     random = Random(seed)
-    with Agent(opened(scenes, random), scans=1) as robot:
+    with Agent(open_scene(scenes, random), scans=1) as robot:
         tutor = Tutor(robot, random, scenes)
         tutor.show()
         while tutor.counts["turns"] < turns:
@@ -251,11 +251,11 @@ def played(seed: int, turns: int, scenes: Path) -> Counter[str]:
         return tutor.counts
 
 
-def all_played(dialogues: int, turns: int, seed: int) -> Iterator[Counter[str]]:
+def play_dialogues(dialogues: int, turns: int, seed: int) -> Iterator[Counter[str]]:
     """What came of each of so many dialogues; what went wrong names its seed."""
     for number in range(seed, seed + dialogues):
         try:
-            yield played(number, turns, captures())
+            yield play_dialogue(number, turns, captures())
         except Exception as error:
             error.add_note(f"in the dialogue of --seed {number}")
             raise
@@ -270,7 +270,7 @@ def main() -> None:
     options = parser.parse_args()
     counts = Counter[str]()
     with suppress(KeyboardInterrupt):
-        for one in all_played(options.dialogues, options.turns, options.seed):
+        for one in play_dialogues(options.dialogues, options.turns, options.seed):
             counts.update(one)
             counts["dialogues"] += 1
     if options.json:

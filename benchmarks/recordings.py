@@ -36,7 +36,7 @@ def milliseconds(laps: Iterator[float]) -> tuple[float, float]:
     return min(row), max(row)
 
 
-def writing(folder: Path, seen: list[KinectCapture]) -> Iterator[float]:
+def write_laps(folder: Path, seen: list[KinectCapture]) -> Iterator[float]:
     """Seconds for each capture that is handed to the disk."""
     source = raw_source(open_sensor("synthetic:desk"))
     lens = open_sensor("synthetic:desk").frame().intrinsics
@@ -51,7 +51,7 @@ def writing(folder: Path, seen: list[KinectCapture]) -> Iterator[float]:
                 yield time.perf_counter() - began
 
 
-def reading(recording: Recording) -> Iterator[float]:
+def read_laps(recording: Recording) -> Iterator[float]:
     """Seconds for each frame, not read before."""
     for moment in recording.rest:
         began = time.perf_counter()
@@ -63,7 +63,7 @@ def main() -> None:
     seen = captures()
     with TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        least, most = milliseconds(writing(folder, seen))
+        least, most = milliseconds(write_laps(folder, seen))
         print(f"a capture handed to the disk     {least:6.2f} ms (at most {most:.2f})")
         source = open_recording(str(folder / "w0"))
         assert isinstance(source, Recording)
@@ -84,7 +84,7 @@ def main() -> None:
             recording = open_recording(str(out))
             assert isinstance(recording, Recording)
             opened = 1000 * (time.perf_counter() - began)
-            least, most = milliseconds(reading(recording))
+            least, most = milliseconds(read_laps(recording))
             recording.close()
             print(
                 f"{name:<10} written {wrote:6.2f} ms a frame, opened {opened:6.1f} ms, "

@@ -140,7 +140,7 @@ MORE = tuple(noun(f"thing {number}") for number in range(200))
 """Nouns that are true of nothing in view."""
 
 
-def seeing(signs: Sequence[Record]) -> Model:
+def model_of(signs: Sequence[Record]) -> Model:
     """Three things in view, of which these words are true as they are."""
     model = blank_model().given("look1", theory()["Look"])
     for x in THINGS:
@@ -152,9 +152,9 @@ def seeing(signs: Sequence[Record]) -> Model:
     return model
 
 
-def opened(signs: Sequence[Record] = SIGNS) -> tuple[Game, Run]:
+def begin_dialogue(signs: Sequence[Record] = SIGNS) -> tuple[Game, Run]:
     """The game, and the run in which the three things are seen."""
-    game = tutoring(signs, model=seeing(signs))
+    game = tutoring(signs, model=model_of(signs))
     view = record(look="look1", things=THINGS, placed=THINGS, focus=["o1"])
     return game, game.take(game.begin(), _glance(view)).run
 
@@ -163,7 +163,7 @@ def _glance(view: Record) -> Record:
     return record(view=view, kept=[], floor="tutor")
 
 
-def answered(game: Game, so_far: Run, text: str) -> Run:
+def answer_text(game: Game, so_far: Run, text: str) -> Run:
     """What comes of a text, its answer worded."""
     assert game.hear is not None
     assert game.say is not None
@@ -181,7 +181,7 @@ def turns(
     signs: Sequence[Record] = SIGNS,
 ) -> list[float]:
     """The milliseconds of each turn, of the second half of the rounds."""
-    game, begun = opened(signs)
+    game, begun = begin_dialogue(signs)
     gc.collect()
     gc.freeze()
     times = []
@@ -189,7 +189,7 @@ def turns(
         so_far = begun
         for text in texts(number):
             start = clock()
-            so_far = answered(game, so_far, text)
+            so_far = answer_text(game, so_far, text)
             times.append(1000 * (clock() - start))
     return times[len(times) // 2 :]
 

@@ -122,7 +122,7 @@ SCRIPT = (
 NOUNS = ("cup", "book", "box", "apple")
 
 
-def seeing() -> Model:
+def seen_model() -> Model:
     """One thing in view, of which four words are true to some degree."""
     model = blank_model().given("look1", theory()["Look"]).given("o1", theory()["Ind"])
     for form, degree in zip(NOUNS, (0.55, 0.4, 0.05, 0.0), strict=True):
@@ -133,7 +133,7 @@ def seeing() -> Model:
 
 def tutored(new: Callable[[int], str], clock: Callable[[], float]) -> list[float]:
     """The milliseconds of each turn of tutoring: heard, taken, answered in words."""
-    game = tutoring([noun(form) for form in NOUNS], model=seeing())
+    game = tutoring([noun(form) for form in NOUNS], model=seen_model())
     view = record(look="look1", things=["o1"], placed=["o1"], focus=["o1"])
     seen = record(view=view, kept=[], floor="tutor")
     begun = game.take(game.begin(), seen).run

@@ -192,18 +192,18 @@ cover = coverage.Coverage.current() or coverage.Coverage(
     data_file=None, source=os.environ["ROOM_SOURCES"].split(os.pathsep))
 cover.start()
 seconds, work = {}, {}
-def worked():
+def spent_seconds():
     spent = os.times()
     return time.process_time() + spent.children_user + spent.children_system
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item, nextitem):
     cover.switch_context(item.nodeid)
-    start, before = time.perf_counter(), worked()
+    start, before = time.perf_counter(), spent_seconds()
     try:
         return (yield)
     finally:
         seconds[item.nodeid] = time.perf_counter() - start
-        work[item.nodeid] = worked() - before
+        work[item.nodeid] = spent_seconds() - before
         cover.switch_context("")
 failed = set()
 def pytest_runtest_logreport(report):

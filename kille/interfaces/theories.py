@@ -62,7 +62,7 @@ def maker_of(named: str, consent: Consent, language: str) -> Callable[..., Agent
 
     `StudyError` where the theory cannot be used, or has another language.
     """
-    theory = theory_named(named, language, "assisted", "paper", consent)
+    theory = theory_named(named, language, "", "", consent)
     if theory.language != language:
         raise StudyError([f"{named} speaks {theory.language}, not {language}"])
     return partial(robot_of, theory)

@@ -58,7 +58,7 @@ def rule_of_body(body, *, parameters="s", **options):
     )
 
 
-def told(one, does):
+def complaints(one, does):
     """What the checks say that a rule does where it goes wrong: reads, replaces, …"""
     start = f"the rule {one} {does} "
     messages = (fault.message for fault in faults(one, Board, model=M))
@@ -104,7 +104,7 @@ def told(one, does):
     ],
 )
 def test_labels_that_are_read(body, read):
-    assert told(rule_of_body(body), "reads") == [read] * (read is not None)
+    assert complaints(rule_of_body(body), "reads") == [read] * (read is not None)
 
 
 @pytest.mark.parametrize(
@@ -118,12 +118,12 @@ def test_labels_that_are_read(body, read):
     ],
 )
 def test_a_name_stands_for_what_it_is_set_to(body):
-    assert told(rule_of_body(body), "reads") == ["s.shared.gone"]
+    assert complaints(rule_of_body(body), "reads") == ["s.shared.gone"]
 
 
 def test_names_are_followed_through_four_others():
     longer = "a = s.shared\nb = a\nc = b\nd = c\ne = d\nreturn e.gone"
-    assert told(rule_of_body(longer), "reads") == []
+    assert complaints(rule_of_body(longer), "reads") == []
 
 
 SET_AGAIN = [
@@ -165,19 +165,19 @@ SET_AGAIN = [
 def test_a_name_that_is_set_twice_stands_for_nothing_known(again):
     again = again.format("t")
     rest = f"if s.n:\n{indent(again, '    ')}\nreturn t.gone"
-    assert told(rule_of_body(f"t = s.shared\n{rest}"), "reads") == []
+    assert complaints(rule_of_body(f"t = s.shared\n{rest}"), "reads") == []
 
 
 @pytest.mark.parametrize("again", SET_AGAIN)
 def test_a_variable_that_is_set_again_is_no_longer_the_state(again):
     again = again.format("s")
     rest = f"if s.n:\n{indent(again, '    ')}\nreturn s.gone"
-    assert told(rule_of_body(rest), "reads") == []
+    assert complaints(rule_of_body(rest), "reads") == []
 
 
 def test_a_name_of_the_whole_file_may_be_set_anywhere():
     body = "global t\nt = s.shared\nOTHER(s)\nreturn t.gone"
-    assert told(rule_of_body(body), "reads") == []
+    assert complaints(rule_of_body(body), "reads") == []
 
 
 @pytest.mark.parametrize(
@@ -203,11 +203,11 @@ def test_a_name_of_the_whole_file_may_be_set_anywhere():
 def test_labels_that_are_tested_for_may_be_missing(test, guarded):
     missing = [] if guarded else ["s.shared.gone"]
     for body in (f"if {test}:\n    return s.shared.gone", f"{test}\nt = s.shared.gone"):
-        assert told(rule_of_body(body), "reads") == missing
+        assert complaints(rule_of_body(body), "reads") == missing
     deeper = rule_of_body(f"if {test}:\n    return s.shared.gone.further")
-    assert told(deeper, "reads") == [one + ".further" for one in missing]
+    assert complaints(deeper, "reads") == [one + ".further" for one in missing]
     set_if = rule_of_body(f"if {test}: return replace(s, {{'shared.gone': 1}})")
-    assert told(set_if, "replaces") == missing
+    assert complaints(set_if, "replaces") == missing
 
 
 @pytest.mark.parametrize(
@@ -235,7 +235,7 @@ def test_what_is_tested_to_be_of_a_type_may_have_other_labels(test, tested):
     one = rule_of_body(
         f"{test}\nreturn s.shared.gone", parameters="s, e, model", on=Move
     )
-    assert told(one, "reads") == ([] if tested else ["s.shared.gone"])
+    assert complaints(one, "reads") == ([] if tested else ["s.shared.gone"])
 
 
 @pytest.mark.parametrize(
@@ -252,7 +252,7 @@ def test_what_is_tested_to_be_of_a_type_may_have_other_labels(test, tested):
     ],
 )
 def test_what_is_tried_may_fail(body, read):
-    assert told(rule_of_body(body), "reads") == read
+    assert complaints(rule_of_body(body), "reads") == read
 
 
 def test_faults_come_in_the_order_in_which_they_are_written():
@@ -262,17 +262,17 @@ def test_faults_come_in_the_order_in_which_they_are_written():
         else: return [s.c, s.d][s.e]
         finally: t = s.f
     """)
-    assert told(one, "reads") == [f"s.{label}" for label in "abcdef"]
+    assert complaints(one, "reads") == [f"s.{label}" for label in "abcdef"]
 
 
 def test_a_path_that_is_read_twice_is_one_fault_for_each_place():
     one = rule_of_body("return s.gone + s.shared.gone + s.gone")
-    assert told(one, "reads") == ["s.gone", "s.shared.gone", "s.gone"]
+    assert complaints(one, "reads") == ["s.gone", "s.shared.gone", "s.gone"]
 
 
 def test_events_and_bindings_are_read_like_the_state():
     def reads(body, **options):
-        return told(rule_of_body(body, **options), "reads")
+        return complaints(rule_of_body(body, **options), "reads")
 
     heard = {"parameters": "s, e", "on": Move}
     assert reads("return e.gone", **heard) == ["e.gone"]
@@ -318,7 +318,7 @@ def test_functions_are_followed_if_they_get_a_variable(call, signature, read):
         """,
         on=Move,
     )
-    assert told(one, "reads") == [read] * (read is not None)
+    assert complaints(one, "reads") == [read] * (read is not None)
 
 
 @pytest.mark.parametrize(("links", "is_followed"), [(4, True), (5, False)])
@@ -327,7 +327,7 @@ def test_four_calls_are_followed(links, is_followed):
     one = rule_of_file(
         "\n".join(["def r(s): return f1(s)", *calls, f"def f{links}(s): return s.gone"])
     )
-    assert told(one, "reads") == ["s.gone"] * is_followed
+    assert complaints(one, "reads") == ["s.gone"] * is_followed
 
 
 def test_functions_that_call_each_other_are_read_once():
@@ -336,7 +336,7 @@ def test_functions_that_call_each_other_are_read_once():
         def there(s, x): return s.b if x else back(s)
         def back(s): return there(s, s.c) or r(s)
     """)
-    assert told(one, "reads") == ["s.a", "s.b", "s.c"]
+    assert complaints(one, "reads") == ["s.a", "s.b", "s.c"]
 
 
 def test_a_function_of_another_file_is_not_followed():
@@ -344,7 +344,7 @@ def test_a_function_of_another_file_is_not_followed():
     one = rule(when=Board)(
         function_in_file("def r(s): return [look(s), s.lost]\n", look=look)
     )
-    assert told(one, "reads") == ["s.lost"]
+    assert complaints(one, "reads") == ["s.lost"]
 
 
 def test_what_the_caller_tests_for_need_not_be_tested_again():
@@ -354,7 +354,7 @@ def test_what_the_caller_tests_for_need_not_be_tested_again():
         def look(s): return further(s, s.gone)
         def further(s, x): return s.gone
     """)
-    assert told(one, "reads") == []
+    assert complaints(one, "reads") == []
 
 
 def test_what_a_function_tests_for_its_caller_has_to_test_as_well():
@@ -362,7 +362,7 @@ def test_what_a_function_tests_for_its_caller_has_to_test_as_well():
         def r(s): return look(s) or s.gone
         def look(s): return "gone" in s
     """)
-    assert told(one, "reads") == ["s.gone"]
+    assert complaints(one, "reads") == ["s.gone"]
 
 
 def test_a_function_sees_its_own_names_only():
@@ -373,7 +373,7 @@ def test_a_function_sees_its_own_names_only():
         def look(board, s): return [t.gone, s.gone, board.lost]
         t = 1
     """)
-    assert told(one, "reads") == ["s.lost"]
+    assert complaints(one, "reads") == ["s.lost"]
 
 
 # --- names that nothing binds --------------------------------------------------------
@@ -437,7 +437,7 @@ def test_names_of_the_function_around_an_effect():
 def test_what_the_library_has_not_loaded_yet_is_known_by_its_name(monkeypatch):
     monkeypatch.delitem(vars(ttr), "replace", raising=False)
     one = rule_of_body("return ttr.replace(s, gone=1)")
-    assert told(one, "replaces") == ["s.gone"]
+    assert complaints(one, "replaces") == ["s.gone"]
 
 
 CHANGES = [
@@ -457,16 +457,18 @@ CHANGES = [
 
 @pytest.mark.parametrize("changes", CHANGES)
 def test_labels_that_are_replaced(changes):
-    assert told(rule_of_body(f"return replace(s, {changes})"), "replaces") == ["s.gone"]
+    assert complaints(rule_of_body(f"return replace(s, {changes})"), "replaces") == [
+        "s.gone"
+    ]
 
 
 @pytest.mark.parametrize("changes", ["t", "**t", "dict(**t)", "{'n': 1}, **t"])
 def test_changes_may_have_a_name(changes):
     for value in ("{'gone': 1}", "dict(gone=1)"):
         one = rule_of_body(f"t = {value}\nreturn replace(s, {changes})")
-        assert told(one, "replaces") == ["s.gone"]
+        assert complaints(one, "replaces") == ["s.gone"]
     again = rule_of_body(f"t = {{'gone': 1}}\nt |= {{}}\nreturn replace(s, {changes})")
-    assert told(again, "replaces") == []
+    assert complaints(again, "replaces") == []
 
 
 @pytest.mark.parametrize(
@@ -484,7 +486,7 @@ def test_changes_may_have_a_name(changes):
     ],
 )
 def test_changes_that_are_not_written_out_are_not_known(changes):
-    assert told(rule_of_body(f"return replace(s, {changes})"), "replaces") == []
+    assert complaints(rule_of_body(f"return replace(s, {changes})"), "replaces") == []
 
 
 @pytest.mark.parametrize(
@@ -520,7 +522,7 @@ def test_changes_that_are_not_written_out_are_not_known(changes):
 def test_calls_of_replace(body, replaced):
     one = rule_of_body(body, parameters="s, model")
     expected = [path if len(path) > 1 else f"s.{path}" for path in replaced]
-    assert told(one, "replaces") == expected
+    assert complaints(one, "replaces") == expected
 
 
 def test_what_is_replaced_in_an_event_or_a_binding():
@@ -531,7 +533,7 @@ def test_what_is_replaced_in_an_event_or_a_binding():
         on=Move,
         where=where,
     )
-    assert told(one, "replaces") == ["e.gone", "b.lost"]
+    assert complaints(one, "replaces") == ["e.gone", "b.lost"]
 
 
 # --- what it is replaced by ----------------------------------------------------------
@@ -623,7 +625,7 @@ def test_what_is_copied_from_elsewhere_is_of_its_type_there(value, found):
     ],
 )
 def test_labels_of_types_that_are_built(body, written):
-    assert told(rule_of_body(body), "writes") == written
+    assert complaints(rule_of_body(body), "writes") == written
 
 
 # --- what is returned ----------------------------------------------------------------
@@ -777,4 +779,4 @@ def test_what_is_wrong_is_underlined(text, underlined, line):
     ],
 )
 def test_the_function_that_is_read_is_the_effect_itself(text, read):
-    assert told(rule_of_file(text), "reads") == read
+    assert complaints(rule_of_file(text), "reads") == read

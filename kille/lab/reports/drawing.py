@@ -26,7 +26,7 @@ from kille.lab.reports.figure_styles import (
     blank_drawing,
     hide_vertical_axis,
     name_axes,
-    styled,
+    styles_of,
 )
 from kille.lab.reports.interval_figures import (
     draw_intervals,
@@ -178,7 +178,7 @@ def _draw_curves(data: Mapping[str, Any]) -> Drawing:
     drawn, axes = blank_drawing(WIDTH, 3.8)
     series = data["series"]
     top = 0.0
-    for name, it, hue, marker in styled(series):
+    for name, it, hue, marker in styles_of(series):
         x = it.get("x", data.get("x"))
         axes.plot(x, it["mean"], color=hue, marker=marker, ms=5, lw=1.8, label=name)
         if it.get("low") is not None and it.get("high") is not None:

@@ -39,7 +39,7 @@ def blank_drawing(width: float, height: float) -> tuple[Drawing, Axes]:
     return drawn, drawn.subplots()
 
 
-def styled(
+def styles_of(
     series: Mapping[str, Mapping[str, Any]],
 ) -> Iterator[tuple[str, Mapping[str, Any], str, str]]:
     """Each series by its name, with its hue and its marker."""

@@ -16,7 +16,7 @@ from kille.lab.reports.figure_styles import (
     blank_drawing,
     hide_vertical_axis,
     name_axes,
-    styled,
+    styles_of,
 )
 from kille.lab.reports.point_labels import label_points
 
@@ -33,7 +33,7 @@ def draw_intervals(data: Mapping[str, Any]) -> Drawing:
     high = 1.1 + (_ROW + _SERIES * len(series)) * len(labels)
     drawn, axes = blank_drawing(WIDTH, high)
     apart = 0.62 / max(len(series), 1)
-    for number, (name, it, hue, marker) in enumerate(styled(series)):
+    for number, (name, it, hue, marker) in enumerate(styles_of(series)):
         places = np.arange(len(labels)) + (number - (len(series) - 1) / 2) * apart
         axes.hlines(places, it["low"], it["high"], color=hue, lw=1.6)
         axes.plot(
@@ -64,7 +64,7 @@ def draw_reliability(data: Mapping[str, Any]) -> Drawing:
         2, 1, sharex=True, gridspec_kw={"height_ratios": (4, 1)}
     )
     axes.plot([0, 1], [0, 1], color=FAINT, lw=1, ls=(0, (4, 3)))
-    for name, it, hue, marker in styled(data["series"]):
+    for name, it, hue, marker in styles_of(data["series"]):
         axes.vlines(it["x"], it["low"], it["high"], color=hue, lw=1.2)
         axes.plot(it["x"], it["y"], color=hue, marker=marker, ms=5, lw=1.4, label=name)
         below.plot(it["x"], it["counts"], color=hue, marker=marker, ms=3.5, lw=1)
@@ -82,7 +82,7 @@ def draw_points(data: Mapping[str, Any]) -> Drawing:
     """Points of each series, with intervals both ways and labels if there are any."""
     drawn, axes = blank_drawing(WIDTH, 3.6)
     series = data["series"]
-    for name, it, hue, marker in styled(series):
+    for name, it, hue, marker in styles_of(series):
         axes.scatter(
             it["x"], it["y"], s=16, color=hue, marker=marker, alpha=0.75, label=name
         )

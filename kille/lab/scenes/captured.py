@@ -111,7 +111,7 @@ def open_captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Capt
         known = ", ".join(scenes.shots)
         raise StudyError([f"{folder} has no scene {missing[0]}: it has {known}"])
 
-    def shown(names: Sequence[str]) -> Iterator[WordView]:
+    def views_of(names: Sequence[str]) -> Iterator[WordView]:
         for scene in names:
             shots = scenes.shots[scene]
             count = min(set_["each"], len(shots))
@@ -119,6 +119,6 @@ def open_captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Capt
                 for name in _outlined_names(shots[number]):
                     yield name, Capture(folder / scene, number, name)
 
-    captured = _scene_of(list(shown(teach)), list(shown(new)), folder.name)
+    captured = _scene_of(list(views_of(teach)), list(views_of(new)), folder.name)
     labelled = {thing for it in (*teach, *new) for thing in scenes.things(it)}
     return replace(captured, labelled=tuple(sorted(labelled)))

@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from kille.interfaces.theories import maker_of
+from ttr.safety.consent import OWN_FOLDER
+
 from .conftest import Run
 
 EMPTY = "synthetic:empty?seed=3"
@@ -253,6 +256,14 @@ def test_stories_are_played_to_the_robot_of_a_theory(
     for named in (study.parent / "mine.ttr", f"{study}:bold"):
         done = kille("replay", str(story), "--theory", str(named))
         assert (done.code, done.err) == (0, "")
+
+
+def test_a_story_is_played_by_the_defaults_of_a_folder(mine: Path) -> None:
+    change(mine / "strategies.toml", 'wording = "paper"', 'wording = "four"')
+    change(mine / "strategies.toml", 'mode = "assisted"', 'mode = "driven"')
+    with maker_of(str(mine), OWN_FOLDER, "en")(EMPTY, None) as robot:
+        strategy = robot.state.private.strategy
+    assert (strategy.wording, strategy.mode) == ("four", "driven")
 
 
 def test_a_story_is_played_in_its_own_language(
