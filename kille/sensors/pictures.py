@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import cv2
-import imagesize
 import numpy as np
 from numpy.typing import NDArray
 
@@ -118,7 +117,7 @@ def decode_picture(content: NDArray[np.uint8], flags: int) -> NDArray[Any] | Non
 
 
 _HEADS = {
-    b"\x89PNG": 1 << 10,
+    b"\x89PNG": 24,
     b"\xff\xd8\xff": 1 << 22,
     b"GIF8": 1 << 10,
     b"BM": 1 << 10,
@@ -140,8 +139,13 @@ def _size(content: NDArray[np.uint8]) -> tuple[int, int] | None:
     """The width and height that the head of a file tells; None if it is no picture."""
     start = content[:4].tobytes()
     within = next((it for head, it in _HEADS.items() if start.startswith(head)), 0)
-    head = io.BytesIO(content[:within].tobytes())
-    width, height = imagesize.get(head, exif_rotation=False)
+    head = content[:within].tobytes()
+    if start == _PNG[:4]:
+        width, height = int.from_bytes(head[16:20]), int.from_bytes(head[20:24])
+    else:
+        import imagesize  # which imports readers of XML and of addresses
+
+        width, height = imagesize.get(io.BytesIO(head), exif_rotation=False)
     return (int(width), int(height)) if width > 0 and height > 0 else None
 
 

@@ -19,6 +19,7 @@ TABLE_NEAR, TABLE_END = -0.60, 0.50
 _WALL = 0.85
 _FLOOR = -0.72
 _FINER = 2
+_PLASTER, _CARPET = (202, 200, 192), (118, 112, 106)
 _WOOD = Path(__file__).with_name("wood.png")  # two millimetres a texel
 
 
@@ -38,43 +39,61 @@ def room(camera: SimulatedCamera) -> Room:
     Every pixel's ray is met with the table, the wall and the floor; colour is the mean
     of four rays, depth that of the pixel's middle.
     """
-    depth, table, _ = _meet_rays(camera, *_grid(1))
-    fine = _paint_places(*_meet_rays(camera, *_grid(_FINER)))
+    met = _meet_rays(camera, 1)
+    fine = _paint(_meet_rays(camera, _FINER))
     colour = cv2.resize(fine, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)
     picture = np.clip(colour, 0, 255).astype(np.uint8)
-    for array in (picture, depth, table):
+    for array in (picture, met.depth, met.table):
         array.flags.writeable = False
-    return Room(picture, depth, table)
+    return Room(picture, met.depth, met.table)
 
 
-def _grid(finer: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """The pixel coordinates of `finer` squared rays in every pixel."""
-    u = ((np.arange(WIDTH * finer) + 0.5) / finer - 0.5).astype(np.float32)
-    v = ((np.arange(HEIGHT * finer) + 0.5) / finer - 0.5).astype(np.float32)
-    columns, rows = np.meshgrid(u, v)
-    return columns, rows
+Grid = NDArray[np.float32]
+"""A number for each ray, in rows and columns, or for each row."""
 
 
-def _meet_rays(
-    camera: SimulatedCamera, u: NDArray[np.float32], v: NDArray[np.float32]
-) -> tuple[Depth, Mask, NDArray[np.float32]]:
-    """Depth, whether it is table, and the place (.., 3) that each pixel's ray meets."""
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Where rays meet the room: the depth, x, y and z in metres, what is table top."""
+
+    depth: Depth
+    x: Grid
+    y: Grid
+    z: Grid
+    table: Mask
+
+
+def _meet_rays(camera: SimulatedCamera, finer: int) -> _Places:
+    """Where `finer` squared rays in every pixel meet the room.
+
+    The camera does not roll, so that a row meets the planes at one depth each.
+    """
     lens = camera.intrinsics
-    rays = np.stack(
-        [(u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy, np.ones_like(u)], axis=2
-    )
-    ways = rays @ camera.rotation.astype(np.float32)
+    u = _middles(WIDTH, finer, lens.cx, lens.fx)
+    v = _middles(HEIGHT, finer, lens.cy, lens.fy)[:, None]
+    (_, y_of_v, z_of_v), (_, y_ahead, z_ahead) = camera.rotation.astype(np.float32)[1:]
+    along_y, along_z = v * y_of_v + y_ahead, v * z_of_v + z_ahead
     lens_x, lens_y, lens_z = camera.position.tolist()
-    down = np.minimum(ways[..., 2], -1e-6)
+    down = np.minimum(along_z, -1e-6)
     to_table = -lens_z / down
-    table = _on_table(
-        lens_x + to_table * ways[..., 0], lens_y + to_table * ways[..., 1]
+    to_wall = (_WALL - lens_y) / np.maximum(along_y, 1e-6)
+    beyond = np.minimum(to_wall, (_FLOOR - lens_z) / down)
+    table = _on_table(lens_x + to_table * u, lens_y + to_table * along_y)
+    depth = np.where(table, to_table, beyond)
+    return _Places(
+        depth,
+        lens_x + depth * u,
+        lens_y + depth * along_y,
+        lens_z + depth * along_z,
+        table,
     )
-    to_wall = (_WALL - lens_y) / np.maximum(ways[..., 1], 1e-6)
-    to_floor = (_FLOOR - lens_z) / down
-    depth = np.where(table, to_table, np.minimum(to_wall, to_floor))
-    places = camera.position.astype(np.float32) + depth[..., None] * ways
-    return depth, table, places
+
+
+def _middles(pixels: int, finer: int, centre: float, focal: float) -> Grid:
+    """How far from the axis the rays in a row of pixels lead, at one metre."""
+    return (((np.arange(pixels * finer) + 0.5) / finer - 0.5 - centre) / focal).astype(
+        np.float32
+    )
 
 
 def _on_table(x: NDArray[np.float32], y: NDArray[np.float32]) -> Mask:
@@ -84,20 +103,19 @@ def _on_table(x: NDArray[np.float32], y: NDArray[np.float32]) -> Mask:
     return inside
 
 
-def _paint_places(
-    depth: Depth, table: Mask, places: NDArray[np.float32]
-) -> NDArray[np.float32]:
+def _paint(at: _Places) -> NDArray[np.float32]:
     """The colour of every place: wood, plaster or carpet, lit from the upper left."""
-    x, y, z = (places[..., axis] for axis in range(3))
-    on_wall = ~table & (y > _WALL - 1e-3)
-    colour = np.full((*depth.shape, 3), (118, 112, 106), np.float32)
-    colour[on_wall] = (202, 200, 192)
-    colour[table] = cv2.remap(
+    wood = cv2.remap(
         read_colour(_WOOD),
-        ((x - TABLE_LEFT) * 500).astype(np.float32),
-        ((TABLE_END - y) * 500).astype(np.float32),
+        (at.x - TABLE_LEFT) * 500,
+        (TABLE_END - at.y) * 500,
         cv2.INTER_LINEAR,
         borderMode=cv2.BORDER_REPLICATE,
-    )[table]
-    light = np.where(on_wall, 1.0 + 0.12 * z - 0.08 * x, 1.0 - 0.10 * x - 0.06 * y)
-    return colour * light[..., None].astype(np.float32)
+    )
+    on_wall = ~at.table & (at.y > _WALL - 1e-3)
+    wood[~at.table] = _CARPET
+    wood[on_wall] = _PLASTER
+    light = np.where(
+        on_wall, 1.0 + 0.12 * at.z - 0.08 * at.x, 1.0 - 0.10 * at.x - 0.06 * at.y
+    )
+    return np.asarray(wood * light[..., None], np.float32)
