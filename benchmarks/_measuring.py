@@ -82,7 +82,7 @@ class Result:
         }
 
 
-def measured(section: str, task: str, it: Measure, clock: Clock) -> Result:
+def measure_task(section: str, task: str, it: Measure, clock: Clock) -> Result:
     times = {n: milliseconds(it.make(n), clock) for n in it.sizes}
     limits = [(f"n = {n:,}", most, times[n]) for n, most in it.limits.items()]
     if it.grows:
@@ -95,13 +95,13 @@ def measured(section: str, task: str, it: Measure, clock: Clock) -> Result:
 def results(measures: Measures, clock: str) -> Iterator[Result]:
     for section, tasks in measures.items():
         for task, it in tasks.items():
-            yield measured(section, task, it, getattr(time, clock))
+            yield measure_task(section, task, it, getattr(time, clock))
 
 
 # --- telling -------------------------------------------------------------------------
 
 
-def told(found: Iterable[Result]) -> Iterator[str]:
+def table_lines(found: Iterable[Result]) -> Iterator[str]:
     """The results as a table, line by line."""
     section = ""
     for one in found:
@@ -143,5 +143,5 @@ def report(found: Iterable[Result], options: argparse.Namespace) -> None:
         facts = [one.facts() for one in found]
         print(json.dumps({"clock": clock_of(options), "results": facts}))
         return
-    for line in told(found):
+    for line in table_lines(found):
         print(line, flush=True)

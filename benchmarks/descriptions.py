@@ -151,7 +151,7 @@ def names_of(percepts: tuple[Percept, ...]) -> dict[str, str]:
     return names
 
 
-def looked(robot: Agent) -> dict[str, str]:
+def look_again(robot: Agent) -> dict[str, str]:
     """The names of the things in a new look."""
     robot.look()
     assert robot.view is not None
@@ -165,30 +165,32 @@ def own(robot: Agent, table: Table, scenes: int) -> Iterator[Outcome]:
             table.put(scene(size, seed))
             told = {
                 name: describe(robot.state, robot.model, x)
-                for x, name in looked(robot).items()
+                for x, name in look_again(robot).items()
             }
-            names = looked(robot)
+            names = look_again(robot)
             for name, description in told.items():
-                text = "" if description is None else worded(description)
-                yield heard(robot, names, f"{size}/{seed}", name, text)
+                text = "" if description is None else words_of(description)
+                yield ask_where(robot, names, f"{size}/{seed}", name, text)
 
 
 def human(robot: Agent, table: Table) -> Iterator[Outcome]:
     """People's descriptions, as they are understood."""
     for place in tomllib.loads(HUMAN.read_text(encoding="utf-8"))["scene"]:
         table.put(scene(place["size"], place["seed"]))
-        names = looked(robot)
+        names = look_again(robot)
         for text, name in place["descriptions"]:
-            yield heard(robot, names, f"{place['size']}/{place['seed']}", name, text)
+            yield ask_where(
+                robot, names, f"{place['size']}/{place['seed']}", name, text
+            )
 
 
-def worded(description: Description) -> str:
+def words_of(description: Description) -> str:
     """The description in words."""
     words = {word_of(sign): sign for sign in description.signs}
     return phrase(lexicon(), description.phrase, words, "definite") or ""
 
 
-def heard(
+def ask_where(
     robot: Agent, names: Mapping[str, str], place: str, name: str, text: str
 ) -> Outcome:
     """Ask where it is, and see which thing is taken to be meant, if one is."""

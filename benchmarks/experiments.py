@@ -87,7 +87,7 @@ def seconds(task: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-def found(dialogues: int, rounds: int) -> Iterator[Found]:
+def measure_rounds(dialogues: int, rounds: int) -> Iterator[Found]:
     with tempfile.TemporaryDirectory() as folder:
         yield from overhead(Path(folder))
     with tempfile.TemporaryDirectory() as folder:
@@ -151,7 +151,7 @@ def main() -> int:
     parser.add_argument("--json", action="store_true", help="print JSON, one object")
     options = parser.parse_args()
     all_found = []
-    for it in found(options.dialogues, options.rounds):
+    for it in measure_rounds(options.dialogues, options.rounds):
         all_found.append(it)
         if not options.json:
             print(told(it).rstrip(), flush=True)

@@ -105,7 +105,7 @@ TEXTS = (
 )
 
 
-def altered(chance: random.Random, data: bytes, others: Sequence[bytes]) -> bytes:
+def alter_bytes(chance: random.Random, data: bytes, others: Sequence[bytes]) -> bytes:
     """The input with a few things about it changed."""
     data = bytearray(data)
     for _ in range(chance.choice((1, 1, 1, 2, 3, 8))):
@@ -150,7 +150,9 @@ def altered_zip(chance: random.Random, data: bytes) -> bytes:
     name = chance.choice([*files] or ["a.npy"])
     match chance.randrange(5):
         case 0:
-            files[name] = altered(chance, files.get(name, b""), list(files.values()))
+            files[name] = alter_bytes(
+                chance, files.get(name, b""), list(files.values())
+            )
         case 1:
             files[name] = files.get(name, b"")[:128] + bytes(
                 chance.choice((1, 10**3, 10**6, 3 * 10**7))
@@ -191,7 +193,7 @@ def altered_png(chance: random.Random, data: bytes) -> bytes:
         about = bytes(chance.choice(((8, 2), (8, 0), (16, 0), (16, 6), (1, 3))))
         part[1] = size + about + bytes(3)
     else:
-        part[1] = altered(chance, part[1], [it[1] for it in parts])
+        part[1] = alter_bytes(chance, part[1], [it[1] for it in parts])
     made = data[:8]
     for kind, content in parts:
         body = kind + content
@@ -210,7 +212,7 @@ def altered_package(chance: random.Random, data: bytes) -> bytes:
     elif name.endswith(".png"):
         files[name] = altered_png(chance, files[name])
     else:
-        files[name] = altered(chance, files[name], list(files.values()))
+        files[name] = alter_bytes(chance, files[name], list(files.values()))
     lines = []
     for line in files["lessons.jsonl"].splitlines():
         with suppress(Exception):
@@ -241,7 +243,7 @@ def inputs(chance: random.Random, reader: Reader) -> Iterator[bytes]:
             for _ in range(chance.choice((1, 1, 2))):
                 data = reader.alter(chance, data)
         if reader.alter is None or chance.random() < 0.5:
-            data = altered(chance, data, reader.seeds)
+            data = alter_bytes(chance, data, reader.seeds)
         yield data
 
 
@@ -300,7 +302,7 @@ def _log(folder: Path) -> Reader:
     return Reader([log.read_bytes()], _file(folder, "a.jsonl", read), (TTRError,))
 
 
-def _typed(folder: Path) -> Reader:
+def _typed_lines(folder: Path) -> Reader:
     from ttr.cli.session.sessions import Session
     from ttr.cli.session.terminal import _talk_through_pipe
     from ttr.safety.limits import InputLimitError
@@ -622,7 +624,7 @@ def _sound(folder: Path) -> Reader:
     return Reader(seeds, _file(folder, "a.wav", read), (SoundError,))
 
 
-def _judged(folder: Path) -> Reader:
+def _judgements(folder: Path) -> Reader:
     from kille.lab.results import ExperimentError
     from kille.lab.scenes.published_judgements import read
 
@@ -636,7 +638,7 @@ READERS: dict[str, Callable[[Path], Reader]] = {
     "theory": _theory,
     "stories": _stories,
     "log": _log,
-    "typed": _typed,
+    "typed": _typed_lines,
     "fracas": _fracas,
     "study": _study,
     "lexicon": _lexicon,
@@ -653,7 +655,7 @@ READERS: dict[str, Callable[[Path], Reader]] = {
     "bundle": _bundle,
     "mesh": _mesh,
     "sound": _sound,
-    "judged": _judged,
+    "judged": _judgements,
 }
 
 
@@ -723,7 +725,7 @@ def _outcome(reader: Reader, data: bytes) -> tuple[str, float, float, str]:
     return "ended", time.process_time() - begun, _megabytes(), outcome
 
 
-def tried(name: str, seed: int, count: int, kept: Path) -> Tried:
+def try_reader(name: str, seed: int, count: int, kept: Path) -> Tried:
     """What comes of so many inputs of a reader, over as many processes as it takes."""
     found = Tried()
     context = multiprocessing.get_context("fork")
@@ -786,7 +788,7 @@ def _note(found: Tried, name: str, kept: Path, data: bytes, outcome: str) -> Non
 
 def _report(name: str, seed: int, count: int, kept: Path) -> bool:
     """Tries a reader, and prints a line for it; whether nothing was found."""
-    found = tried(name, seed, count, kept)
+    found = try_reader(name, seed, count, kept)
     sys.stdout.write(
         f"{name:10} {found.count:7} inputs, {found.refused} refused; slowest "
         f"{found.slowest:.2f} s, {found.megabytes:.0f} MB; "

@@ -150,7 +150,7 @@ def command_running(arguments: list[str], script: str = "") -> Child:
     return run
 
 
-def killed(child: Child, lessons: int, seconds: float) -> tuple[list[str], bool]:
+def kill_child(child: Child, lessons: int, seconds: float) -> tuple[list[str], bool]:
     """What a child had said it learned, killed so long after so many lessons.
 
     And whether it was over before it could be killed.
@@ -205,7 +205,7 @@ def whole(memory: MemoryReader, key: int, said: Set[tuple[int, int]]) -> bool:
     return all(map(bool, parts))
 
 
-def examined(path: Path, acknowledged: Counter[str], outcome: Outcome) -> None:
+def examine_memory(path: Path, acknowledged: Counter[str], outcome: Outcome) -> None:
     """Look through a memory after its last kill."""
     with Memory.reading(path) as memory:
         lessons = memory.lessons()
@@ -233,7 +233,7 @@ def kill_often(
                 lessons = chance.randint(0, LIFE)
                 seconds = chance.uniform(0, later if lessons else first)
                 child = teaching(path, outcome.kills)
-                learned, over = killed(child, lessons, seconds)
+                learned, over = kill_child(child, lessons, seconds)
                 if over:
                     raise RuntimeError("a robot ended before it was killed")
                 acknowledged.update(learned)
@@ -242,7 +242,7 @@ def kill_often(
                 outcome.unreadable += path.exists() and not readable(path)
                 told(outcome.kills)
             if path.exists():
-                examined(path, acknowledged, outcome)
+                examine_memory(path, acknowledged, outcome)
     return outcome
 
 
@@ -264,14 +264,14 @@ def kill_imports(kills: int, seed: int, told: Callable[[int], None]) -> Outcome:
         for _ in range(3):
             shutil.copy(start, path)
             begun = time.perf_counter()
-            killed(importing, 1, 0)
+            kill_child(importing, 1, 0)
             longest = time.perf_counter() - begun
         shutil.copy(start, path)
         while outcome.kills < kills:
             # Most of an import is reading; half of the kills are meant for its end.
             earliest = chance.choice((0, 0.8 * longest))
             seconds = chance.uniform(earliest, 1.1 * longest)
-            said, over = killed(importing, 0, seconds)
+            said, over = kill_child(importing, 0, seconds)
             if over:
                 shutil.copy(start, path)
                 continue
@@ -284,7 +284,7 @@ def kill_imports(kills: int, seed: int, told: Callable[[int], None]) -> Outcome:
             if said or whole_import:
                 expected.update(theirs)
             outcome.whole += whole_import
-            examined(path, expected, outcome)
+            examine_memory(path, expected, outcome)
             if whole_import or chance.random() < 1 / OF_ONE_FILE:
                 for it in path.parent.glob("memory.db*"):
                     it.unlink()

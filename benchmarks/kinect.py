@@ -21,7 +21,15 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
-from _measuring import Measure, Task, arguments, clock_of, limit_told, measured, told
+from _measuring import (
+    Measure,
+    Task,
+    arguments,
+    clock_of,
+    limit_told,
+    measure_task,
+    table_lines,
+)
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "emulation"))
@@ -94,7 +102,9 @@ FRAME = {
 # --- bad packets ---------------------------------------------------------------------
 
 
-def sent(mode: Mode, frames: int, rng: np.random.Generator) -> tuple[np.ndarray, ...]:
+def packets_of(
+    mode: Mode, frames: int, rng: np.random.Generator
+) -> tuple[np.ndarray, ...]:
     """Packets in rows, their lengths, and the frames that they carry."""
     data = rng.integers(0, 256, (frames, mode.packets * mode.body)).astype(np.uint8)
     count = frames * mode.packets
@@ -111,7 +121,7 @@ def sent(mode: Mode, frames: int, rng: np.random.Generator) -> tuple[np.ndarray,
     return rows, lengths, data[:, : mode.frame_size]
 
 
-def harmed(count: int, rng: np.random.Generator) -> np.ndarray:
+def harm_order(count: int, rng: np.random.Generator) -> np.ndarray:
     """Which packets come, in which order: some lost, some twice, some out of place."""
     order = np.arange(count)
     for _ in range(rng.integers(0, 4)):
@@ -129,14 +139,14 @@ def harmed(count: int, rng: np.random.Generator) -> np.ndarray:
     return order
 
 
-def fuzzed(packets: int) -> Iterator[Row]:
+def fuzz_stream(packets: int) -> Iterator[Row]:
     """Feed so many packets, most of them in trouble; count frames never sent."""
     rng = np.random.default_rng(0)
     fed = whole = wrong = raised = 0
     while fed < packets:
         mode = (SMALL, DEPTH_11, COLOUR)[rng.integers(3)]
-        rows, lengths, frames = sent(mode, int(rng.integers(1, 12)), rng)
-        order = harmed(len(rows), rng)
+        rows, lengths, frames = packets_of(mode, int(rng.integers(1, 12)), rng)
+        order = harm_order(len(rows), rng)
         rows, lengths = rows[order], lengths[order]
         if len(rows):
             bad = rng.integers(0, len(rows), rng.integers(0, 6))
@@ -169,19 +179,19 @@ def client(seconds: float) -> None:
     spent, asked = [0.0], [0.0]
     completed, submit = IsoStream.complete, IsoStream._submit
 
-    def timed(self: IsoStream, slot: object, status: int) -> None:
+    def time_packet(self: IsoStream, slot: object, status: int) -> None:
         began = time.thread_time()
         completed(self, slot, status)
         spent[0] += time.thread_time() - began
 
-    def submitted(self: IsoStream, slot: object) -> bool:
+    def count_submission(self: IsoStream, slot: object) -> bool:
         # A library's own time, which the fake one spends in asking the emulator.
         began = time.thread_time()
         done = submit(self, slot)
         spent[0] -= time.thread_time() - began
         return done
 
-    def counted(function: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
+    def count_calls(function: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
         def counting(*given: object) -> np.ndarray:
             began = time.thread_time()
             found = function(*given)
@@ -190,9 +200,9 @@ def client(seconds: float) -> None:
 
         return counting
 
-    IsoStream.complete, IsoStream._submit = timed, submitted
-    developing.unpack_11 = counted(developing.unpack_11)
-    capturing.register_depth = counted(capturing.register_depth)
+    IsoStream.complete, IsoStream._submit = time_packet, count_submission
+    developing.unpack_11 = count_calls(developing.unpack_11)
+    capturing.register_depth = count_calls(capturing.register_depth)
     sensor = KinectSensor("kinect", UsbBus())
     sensor.frame()
     before = sensor.counts
@@ -265,7 +275,7 @@ def beside_busy_threads(seconds: float) -> Iterator[Row]:
     nothing = lambda server, kinect: None  # noqa: E731
     for how, most in (("process", 1.0), ("thread", 100.0)):
         asked = ["--busy", how, "--client", str(seconds)]
-        found = looked(Kinect(), seconds, nothing, asked, patience=0)
+        found = look_through(Kinect(), seconds, nothing, asked, patience=0)
         sent = max(found["sent"], 1.0)
         lost = 100 * max(0.0, 1 - found["came"] / sent)
         beside = f"beside {BUSY_THREADS} busy threads, in a {how}"
@@ -277,11 +287,11 @@ def beside_busy_threads(seconds: float) -> Iterator[Row]:
         )
 
 
-def streamed(seconds: float) -> Iterator[Row]:
+def stream_frames(seconds: float) -> Iterator[Row]:
     """Let a program look at an emulated Kinect for so long."""
     from kinect_emulator.kinect import Kinect
 
-    found = looked(Kinect(), seconds, lambda server, kinect: None)
+    found = look_through(Kinect(), seconds, lambda server, kinect: None)
     took, waited = found["seconds"], found["waited"]
     for mode, frames in found["came"].items():
         late = abs(took - waited - frames / 30)
@@ -305,7 +315,7 @@ def streamed(seconds: float) -> Iterator[Row]:
         yield f"with colour, metres and pairing, too, {core}", 10.0, whole
 
 
-def recovered() -> Iterator[Row]:
+def measure_recovery() -> Iterator[Row]:
     """Pull the plug for a second and see how long it takes after that."""
     from kinect_emulator.kinect import Kinect
 
@@ -318,7 +328,7 @@ def recovered() -> Iterator[Row]:
         server.plug(kinect)
         back.append(time.monotonic())
 
-    found = looked(Kinect(), 7.0, replug)
+    found = look_through(Kinect(), 7.0, replug)
     yield (
         "recovery from an unplug, s",
         2.0,
@@ -326,7 +336,7 @@ def recovered() -> Iterator[Row]:
     )
 
 
-def looked(
+def look_through(
     kinect: object,
     seconds: float,
     meanwhile: object,
@@ -356,9 +366,9 @@ def looked(
 
 
 def rows(options: argparse.Namespace) -> Iterator[Row]:
-    yield from fuzzed(options.packets)
-    yield from streamed(60 * options.minutes)
-    yield from recovered()
+    yield from fuzz_stream(options.packets)
+    yield from stream_frames(60 * options.minutes)
+    yield from measure_recovery()
     yield from beside_busy_threads(20.0)
 
 
@@ -377,7 +387,7 @@ def main() -> None:
         return
     clock = clock_of(options)
     found = [
-        measured("one frame", task, it, getattr(time, clock))
+        measure_task("one frame", task, it, getattr(time, clock))
         for task, it in FRAME.items()
     ]
     if options.json:
@@ -388,7 +398,7 @@ def main() -> None:
         facts = [one.facts() for one in found]
         print(json.dumps({"clock": clock, "results": facts, "limits": limits}))
         return
-    print("\n".join(told(found)))
+    print("\n".join(table_lines(found)))
     for row in rows(options):
         print(f"  {limit_told(row)}, {row[2]:.3g}", flush=True)
 

@@ -143,7 +143,7 @@ def spatial() -> list[Row]:
     chance = np.random.default_rng(5)
     with Agent("synthetic:empty?seed=5") as robot:
         _teach_the_things(robot)
-        taught = [_lesson(robot, place, n, chance) for place, n in _drawn(chance)]
+        taught = [_lesson(robot, place, n, chance) for place, n in _draw_places(chance)]
         asked = [place for place in PLACES for _ in range(QUESTIONS)]
         order = chance.permutation(len(asked))
         answers = [_question(robot, asked[i], chance) for i in order]
@@ -176,7 +176,7 @@ def _teach_the_things(robot: Agent) -> None:
     robot.do(f"place car at {CAR[0]} {CAR[1]}")
 
 
-def _drawn(chance: np.random.Generator) -> list[tuple[Place, int]]:
+def _draw_places(chance: np.random.Generator) -> list[tuple[Place, int]]:
     lessons = [(place, n) for n in range(LESSONS) for place in PLACES]
     return [lessons[i] for i in chance.permutation(len(lessons))]
 
@@ -267,7 +267,7 @@ def _real_row(robot: Agent, number: int, taught: set[str]) -> Row:
 def times() -> list[Row]:
     """Starting up, and turns with and without seeing, in milliseconds."""
     rows = [
-        _timed(f"{module} --help", lambda module=module: _help_of(module), 9)
+        _time_act(f"{module} --help", lambda module=module: _help_of(module), 9)
         for module in ("kille.interfaces.cli", "ttr.cli.main")
     ]
     with Agent("synthetic:empty?seed=7") as robot:
@@ -276,15 +276,15 @@ def times() -> list[Row]:
             robot.hear(f"This is {lexicon().with_article(word)}.")
         robot.do("show cup")
         rows += [
-            _timed("hear: Hello.", lambda: robot.hear("Hello."), 15),
-            _timed("hear: not understood", lambda: robot.hear("Blah blah."), 15),
-            _timed("hear: What is this?", lambda: robot.hear("What is this?"), 15),
-            _timed("hear: This is a cup.", lambda: robot.hear("This is a cup."), 15),
+            _time_act("hear: Hello.", lambda: robot.hear("Hello."), 15),
+            _time_act("hear: not understood", lambda: robot.hear("Blah blah."), 15),
+            _time_act("hear: What is this?", lambda: robot.hear("What is this?"), 15),
+            _time_act("hear: This is a cup.", lambda: robot.hear("This is a cup."), 15),
         ]
         robot.do("place book left of cup")
         robot.hear("The book is to the left of the cup.")
         ask = "Where is the book?"
-        rows.append(_timed(f"hear: {ask}", lambda: robot.hear(ask), 15))
+        rows.append(_time_act(f"hear: {ask}", lambda: robot.hear(ask), 15))
     return rows
 
 
@@ -296,7 +296,7 @@ def _help_of(module: str) -> None:
     )
 
 
-def _timed(what: str, act: Callable[[], object], times: int) -> Row:
+def _time_act(what: str, act: Callable[[], object], times: int) -> Row:
     taken = []
     for _ in range(times):
         start = time.perf_counter()

@@ -119,7 +119,7 @@ def load(path: Path, clock: str) -> tuple[float, float]:
     return 1000 * (opened - start), 1000 * (loaded - opened)
 
 
-def measured(views: int, clock: str) -> Result:
+def measure_memory(views: int, clock: str) -> Result:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "memory.db"
         taken = teach(path, views, clock)
@@ -129,7 +129,7 @@ def measured(views: int, clock: str) -> Result:
     return Result(views, size, (median, slow, slowest), opened, loaded)
 
 
-def told(found: Result) -> str:
+def table_line(found: Result) -> str:
     median, slow, slowest = found.learned
     limits = "; ".join(map(limit_told, found.limits()))
     return (
@@ -140,7 +140,7 @@ def told(found: Result) -> str:
 
 def main() -> None:
     options = arguments(__doc__ or "").parse_args()
-    found = (measured(views, clock_of(options)) for views in SIZES)
+    found = (measure_memory(views, clock_of(options)) for views in SIZES)
     if options.json:
         facts = [it.facts() for it in found]
         print(json.dumps({"clock": clock_of(options), "results": facts}))
@@ -150,7 +150,7 @@ def main() -> None:
         f"{'open ms':>8} {'load ms':>8}"
     )
     for it in found:
-        print(told(it), flush=True)
+        print(table_line(it), flush=True)
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ from _measuring import (
     arguments,
     clock_of,
     results,
-    told,
+    table_lines,
 )
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
@@ -91,7 +91,7 @@ def things() -> tuple[Thing, ...]:
     return tuple(seen)
 
 
-def varied(key: int, chance: np.random.Generator) -> View:
+def vary_view(key: int, chance: np.random.Generator) -> View:
     """A view of one of the ten things, like no other."""
     thing = things()[key % len(things())]
     rows = thing.scan.descriptors
@@ -111,7 +111,7 @@ def traits_of(name: str) -> Mapping[str, NDArray[np.float32]]:
 @cache
 def views(size: int) -> tuple[View, ...]:
     chance = np.random.default_rng(0)
-    return tuple(varied(key, chance) for key in range(size))
+    return tuple(vary_view(key, chance) for key in range(size))
 
 
 # --- tasks ---------------------------------------------------------------------------
@@ -175,7 +175,7 @@ def recognising(size: int) -> Task:
 # --- learning ------------------------------------------------------------------------
 
 
-def learned(size: int, clock: Clock) -> tuple[float, float]:
+def learning_times(size: int, clock: Clock) -> tuple[float, float]:
     """Milliseconds to learn one view for good, beside so many: median, 99 %."""
     chance = np.random.default_rng(1)
     taken = []
@@ -185,7 +185,7 @@ def learned(size: int, clock: Clock) -> tuple[float, float]:
         with Memory.open(Path(folder) / "memory.sqlite") as memory:
             dialogue = memory.begin_dialogue("2000-01-01T00:00:00")
             for number in range(LESSONS):
-                view = varied(size + number, chance)
+                view = vary_view(size + number, chance)
                 turn = Turn(dialogue, number + 1, "tutor", "This is it.", "", "")
                 start = clock()
                 index.learn(view)
@@ -204,7 +204,7 @@ def kept(view: View) -> Sighting:
 
 
 def learning(sizes: tuple[int, ...], clock: Clock) -> Result:
-    times = {size: learned(size, clock) for size in sizes}
+    times = {size: learning_times(size, clock) for size in sizes}
     limits = [
         limit
         for size, (median, slowest) in times.items()
@@ -246,14 +246,14 @@ class Placing:
             "90 %": round(float(np.quantile(known, 0.9)), 2),
         }
 
-    def told(self) -> str:
+    def table_line(self) -> str:
         scenes, way, *numbers = self.facts().values()
         return f"  {scenes:<11}{way:<36}" + "".join(f"{it:>8}" for it in numbers)
 
 
 def placings() -> Iterator[Placing]:
     """Both ways on each set of scenes; the features are those taught in other looks."""
-    sets = {"simulated": simulated()}
+    sets = {"simulated": simulate_views()}
     if DATA.is_dir():
         sets["real"] = real()
     for scenes, (lessons, asked) in sets.items():
@@ -266,7 +266,7 @@ def placings() -> Iterator[Placing]:
         yield Placing(scenes, "20 best features, as in the paper", tuple(by_best))
 
 
-def simulated() -> tuple[list[Shown], list[Shown]]:
+def simulate_views() -> tuple[list[Shown], list[Shown]]:
     stages = [open_sensor(f"synthetic:empty?seed={seed}") for seed in (0, 1, 2)]
     taught, *asked = [list(on_stage(stage)) for stage in stages]
     return taught, [shown for some in asked for shown in some]
@@ -351,12 +351,12 @@ def main() -> None:
         if options.json:
             print(json.dumps(facts(clock, chain(found, durable), placed)))
             return
-        for line in told(chain(found, durable)):
+        for line in table_lines(chain(found, durable)):
             print(line, flush=True)
         heads = "".join(f"{it:>8}" for it in ("things", "placed", "median", "90 %"))
         print(f"\n{'where a thing is, cm':<49}{heads}")
         for one in placed:
-            print(one.told(), flush=True)
+            print(one.table_line(), flush=True)
 
 
 def facts(

@@ -163,7 +163,7 @@ class Tutor:
         self.show()
         taught = {sign.form for sign in self.robot.state.private.nouns}
         self.hear("What is this?")
-        if _spoken(self.shown) in taught:
+        if _spoken_name(self.shown) in taught:
             self.counts["asked of what was taught"] += 1
             self.counts[f"{self.verdict()} of what was taught"] += 1
 
@@ -178,12 +178,12 @@ class Tutor:
 
     def wander(self) -> None:
         """Anything else."""
-        forget = f"Forget {_spoken(self.shown)}."
+        forget = f"Forget {_spoken_name(self.shown)}."
         self.hear(self.random.choice((*ASKED, *NONSENSE, *FORGOTTEN, forget)))
 
     def name(self, sentence: str) -> None:
         """Name what is pointed at; one time in twenty, wrongly."""
-        word = _spoken(self.shown)
+        word = _spoken_name(self.shown)
         if self.random.random() < 0.05:
             word = "cracker box"
         self.said.add(word)
@@ -198,7 +198,7 @@ class Tutor:
         if "c" not in claim:
             return "other"
         word = predicate_at(affirmation(claim), "c").name
-        is_so = _forms(self.robot).get(word, "") == _spoken(self.shown)
+        is_so = _forms(self.robot).get(word, "") == _spoken_name(self.shown)
         return "right" if is_so is not is_denial(claim) else "wrong"
 
     def hear(self, text: str) -> None:
@@ -225,7 +225,7 @@ class Tutor:
         assert kept <= {lesson.key for lesson in self.robot.memory.lessons()}
 
 
-def _spoken(outline: str) -> str:
+def _spoken_name(outline: str) -> str:
     return outline.replace("_", " ").lower()
 
 

@@ -66,7 +66,7 @@ def content(text: str) -> RecordType:
     )
 
 
-def resolved(text: str) -> Callable[[int], Task]:
+def resolving(text: str) -> Callable[[int], Task]:
     """The phrases of a sentence are set to things among n: readings and ranking."""
 
     def make(n: int) -> Task:
@@ -84,43 +84,43 @@ def resolved(text: str) -> Callable[[int], Task]:
     return make
 
 
-def ranked(n: int) -> Task:
+def ranking_task(n: int) -> Task:
     """The things are ranked after each word of a phrase."""
     s, model = scene(n)
     words = [ADJECTIVES[0], NOUNS[0], RELATIONS[0], NOUNS[1]]
     return lambda: ranking(s, model, words)
 
 
-def described(n: int) -> Task:
+def describing_task(n: int) -> Task:
     """The last of n things is described."""
     s, model = scene(n)
     return lambda: describe(s, model, f"o{n}")
 
 
-def sized(make: Callable[[int], Task], limit: float) -> Measure:
+def measure_of(make: Callable[[int], Task], limit: float) -> Measure:
     return Measure(make, SIZES, {10: limit})
 
 
 MEASURES: Measures = {
     "resolving among n things": {
-        "the cup": sized(resolved("Where is the cup?"), LIMIT),
-        "the red cup": sized(resolved("Where is the red cup?"), LIMIT),
-        "the second cup": sized(resolved("Where is the second cup?"), LIMIT),
-        "the cup near the book": sized(
-            resolved("Where is the cup near the book?"), LIMIT
+        "the cup": measure_of(resolving("Where is the cup?"), LIMIT),
+        "the red cup": measure_of(resolving("Where is the red cup?"), LIMIT),
+        "the second cup": measure_of(resolving("Where is the second cup?"), LIMIT),
+        "the cup near the book": measure_of(
+            resolving("Where is the cup near the book?"), LIMIT
         ),
-        "the red cup near the blue book": sized(
-            resolved("Where is the red cup near the blue book?"), LIMIT
+        "the red cup near the blue book": measure_of(
+            resolving("Where is the red cup near the blue book?"), LIMIT
         ),
-        "the cup behind the box near the book": sized(
-            resolved("Where is the cup behind the box near the book?"), LIMIT
+        "the cup behind the box near the book": measure_of(
+            resolving("Where is the cup behind the box near the book?"), LIMIT
         ),
-        "the red cup is near the book": sized(
-            resolved("The red cup is near the blue book."), LIMIT
+        "the red cup is near the book": measure_of(
+            resolving("The red cup is near the blue book."), LIMIT
         ),
     },
-    "word by word": {"four words": sized(ranked, LIMIT)},
-    "describing one of n things": {"a description": sized(described, 50.0)},
+    "word by word": {"four words": measure_of(ranking_task, LIMIT)},
+    "describing one of n things": {"a description": measure_of(describing_task, 50.0)},
 }
 
 

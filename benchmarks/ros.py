@@ -63,7 +63,7 @@ def send() -> None:
     bus.close()
 
 
-def taken(bus: Bus) -> dict[str, list[float]]:
+def frame_times(bus: Bus) -> dict[str, list[float]]:
     """The milliseconds that each frame took."""
     times: dict[str, list[float]] = {name: [] for name in TOPICS}
     for name, topic in TOPICS.items():
@@ -110,10 +110,10 @@ def until_it_answers(port: int) -> None:
             return
 
 
-def measured() -> Iterator[Result]:
+def measure_bus() -> Iterator[Result]:
     with master():
         bus = open_ros("receiver")
-        for name, times in taken(bus).items():
+        for name, times in frame_times(bus).items():
             counted = times[WARMING:]
             for of, found, limits in (
                 ("min", min(counted), ()),
@@ -137,7 +137,7 @@ def main() -> None:
     except BusError as error:
         print(f"not measured: {error}")
         return
-    report(measured(), options)
+    report(measure_bus(), options)
 
 
 if __name__ == "__main__":

@@ -68,7 +68,7 @@ def main() -> None:
 def measure(recogniser: Recogniser, voice: str, name: str, texts: list[str]) -> None:
     right, wrong, seconds, used = 0, [], 0.0, 0.0
     for text in texts:
-        sound = spoken(text, voice)
+        sound = speak_sentence(text, voice)
         seconds += sound.seconds
         begun = time.process_time()
         found = recogniser.hear(sound.samples)
@@ -88,7 +88,7 @@ def measure(recogniser: Recogniser, voice: str, name: str, texts: list[str]) -> 
         print("   ", line)
 
 
-def spoken(text: str, voice: str) -> Sound:
+def speak_sentence(text: str, voice: str) -> Sound:
     """A sentence in a voice of flite's, with 0.2 s of silence around it."""
     command = ["flite", "-voice", voice, "-t", text, "-o", "/dev/stdout"]
     wav = subprocess.run(command, capture_output=True, check=True).stdout

@@ -107,7 +107,7 @@ def run(folder: Path, workers: int) -> NoReturn:
         os._exit(code)
 
 
-def prepared(folder: Path) -> Path:
+def prepare_study(folder: Path) -> Path:
     """A folder with a study that was not run yet."""
     (folder / "tmp").mkdir(parents=True)
     (folder / "study.toml").write_text(STUDY)
@@ -131,10 +131,10 @@ def over(folder: Path) -> set[str]:
 
 def workers_of(folder: Path) -> list[int]:
     """The process that forks workers for a study in a folder, and then the workers."""
-    return sorted(_marked(f"{MARK}={folder}".encode()))
+    return sorted(_marked_processes(f"{MARK}={folder}".encode()))
 
 
-def _marked(mark: bytes) -> Iterator[int]:
+def _marked_processes(mark: bytes) -> Iterator[int]:
     for it in Path("/proc").glob("[0-9]*/environ"):
         with suppress(OSError):
             if mark in it.read_bytes().split(b"\0"):
@@ -206,14 +206,14 @@ def wait_some(
     if chance.random() < AT_ANY_TIME:
         count = 0
     else:
-        count = counted(results) + chance.randint(1, LIFE)
+        count = count_dialogues(results) + chance.randint(1, LIFE)
         part /= DIALOGUES
-    until(lambda: has_ended(command) or counted(results) >= count)
+    until(lambda: has_ended(command) or count_dialogues(results) >= count)
     end = time.monotonic() + part
     until(lambda: has_ended(command) or time.monotonic() >= end)
 
 
-def counted(results: Path) -> int:
+def count_dialogues(results: Path) -> int:
     """How many dialogues are over."""
     with suppress(StudyError):
         return log.count_outcomes(results)
@@ -224,13 +224,13 @@ def kill_often(kills: int, seed: int, outcome: Outcome) -> None:
     """Kills so often, and notes what came of it."""
     chance = random.Random(seed)
     with tempfile.TemporaryDirectory() as name:
-        undisturbed = prepared(Path(name, "undisturbed"))
+        undisturbed = prepare_study(Path(name, "undisturbed"))
         os.waitpid(running(undisturbed, 1), 0)
         start = time.monotonic()
-        os.waitpid(running(prepared(Path(name, "timed")), 2), 0)
+        os.waitpid(running(prepare_study(Path(name, "timed")), 2), 0)
         seconds = time.monotonic() - start
         while outcome.kills < kills:
-            folder = prepared(Path(name, str(outcome.studies)))
+            folder = prepare_study(Path(name, str(outcome.studies)))
             try:
                 while not disturb(folder, chance, seconds, outcome):
                     on_terminal(outcome)

@@ -39,7 +39,7 @@ def once_ms(work: Callable[[], object]) -> float:
     return 1000 * (time.perf_counter() - start)
 
 
-def measured(frames: int) -> dict[str, float]:
+def measure_frames(frames: int) -> dict[str, float]:
     """Every number of the table, name -> milliseconds.
 
     A faulty frame of a changed scene is the sum of its drawing and its degrading.
@@ -70,7 +70,7 @@ def main() -> None:
     parser.add_argument("--frames", type=int, default=40, help="frames a number")
     options = parser.parse_args()
     cv2.setNumThreads(1)
-    result = measured(options.frames)
+    result = measure_frames(options.frames)
     if options.json:
         print(json.dumps(result, indent=2))
         return

@@ -199,7 +199,7 @@ def new(number: int) -> Sequence[str]:
     return [text.replace("book", f"thing{number}") for text in DIALOGUE]
 
 
-def parsed(clock: Clock) -> list[float]:
+def parsing_times(clock: Clock) -> list[float]:
     """The milliseconds to parse sentences that were never heard before."""
     times = []
     for text in new(-1):
@@ -293,7 +293,7 @@ def naming(clock: Clock) -> list[float]:
     return times
 
 
-def timed(
+def limits_of(
     task: str, times: Sequence[float], middle: float = 0, most: float = 0
 ) -> Iterator[Result]:
     """The median and the 95th percentile, with the limits that they have."""
@@ -305,18 +305,18 @@ def timed(
         yield Result("talking", f"{task}, {of}", {1: found}, limits)
 
 
-def measured(clock: Clock) -> Iterator[Result]:
-    yield from timed("a turn", turns(lambda number: DIALOGUE, clock), 1.0, 5.0)
-    yield from timed("a turn of new sentences", turns(new, clock))
+def measure_turns(clock: Clock) -> Iterator[Result]:
+    yield from limits_of("a turn", turns(lambda number: DIALOGUE, clock), 1.0, 5.0)
+    yield from limits_of("a turn of new sentences", turns(new, clock))
     more = turns(lambda number: DIALOGUE, clock, (*SIGNS, *MORE))
-    yield from timed("a turn, knowing 200 nouns more", more)
-    yield from timed("parsing a new sentence", parsed(clock), 5.0)
-    yield from timed("from start to first answer", first(), 300.0)
+    yield from limits_of("a turn, knowing 200 nouns more", more)
+    yield from limits_of("parsing a new sentence", parsing_times(clock), 5.0)
+    yield from limits_of("from start to first answer", first(), 300.0)
     with threadpool_limits(1):
-        yield from timed("naming a full table", naming(clock), 60.0)
+        yield from limits_of("naming a full table", naming(clock), 60.0)
 
 
-def profiled() -> None:
+def print_profile() -> None:
     """Say where the time of the hundred turns goes."""
     turns(lambda number: DIALOGUE, time.perf_counter)
     profile = cProfile.Profile()
@@ -329,9 +329,9 @@ def main() -> None:
     parser.add_argument("--profile", action="store_true", help="say what costs most")
     options = parser.parse_args()
     if options.profile:
-        profiled()
+        print_profile()
         return
-    report(measured(getattr(time, clock_of(options))), options)
+    report(measure_turns(getattr(time, clock_of(options))), options)
 
 
 if __name__ == "__main__":

@@ -129,7 +129,7 @@ def create(n: int) -> Task:
     return lambda: Model().create(T)
 
 
-def given(n: int) -> Task:
+def giving_task(n: int) -> Task:
     T, r, _ = witness(n)
     return lambda: Model().given(r, T)
 
@@ -241,7 +241,7 @@ MEASURES: Measures = {
         "subtype, no": Measure(not_below, FIELDS, limits={320: 5}, grows=GROWS),
         "merge, half shared": Measure(merging, FIELDS, limits={320: 3}, grows=GROWS),
         "create a witness": Measure(create, FIELDS, limits={320: 5}, grows=GROWS),
-        "give a record": Measure(given, FIELDS, grows=GROWS),
+        "give a record": Measure(giving_task, FIELDS, grows=GROWS),
         "apply, checked": Measure(apply, FIELDS, limits={320: 5}, grows=GROWS),
         "print": Measure(printing, FIELDS, limits={320: 5}),
         "parse": Measure(parsing, FIELDS, limits={320: 60}),
@@ -265,7 +265,7 @@ MEASURES: Measures = {
 }
 
 
-def found(clock: str) -> Iterator[Result]:
+def core_results(clock: str) -> Iterator[Result]:
     yield from results(MEASURES, clock)
     once = import_ttr(clock)
     yield Result("one thing", "import ttr", {1: once}, (("n = 1", 150, once),))
@@ -273,7 +273,7 @@ def found(clock: str) -> Iterator[Result]:
 
 def main() -> None:
     options = arguments(__doc__ or "").parse_args()
-    report(found(clock_of(options)), options)
+    report(core_results(clock_of(options)), options)
 
 
 if __name__ == "__main__":

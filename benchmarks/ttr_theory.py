@@ -57,7 +57,7 @@ p, q = Pred("p", Ind), Pred("q", Ind)
 # --- a record of n fields ------------------------------------------------------------
 
 
-def judged(n: int, M: Model) -> Task:
+def judging_task(n: int, M: Model) -> Task:
     """Judging a record of n fields, half of them ptypes with an interval each."""
     labels = {f"x{i}": Ind for i in range(n // 2)}
     T = rectype({**labels, **{f"c{label}": p(this[label]) for label in labels}})
@@ -70,12 +70,12 @@ def judged(n: int, M: Model) -> Task:
 
 
 def intervals(n: int) -> Task:
-    return judged(n, Model())
+    return judging_task(n, Model())
 
 
 def intervals_with_axioms(n: int) -> Task:
     axioms = (Axiom(q(this.x), p(this.x)),)
-    return judged(n, Model(Signature(axioms=axioms)))
+    return judging_task(n, Model(Signature(axioms=axioms)))
 
 
 def intervals_along_conditionals(n: int) -> Task:
@@ -108,7 +108,7 @@ def barking(n: int) -> Extension:
     return Extension.of([*[f"d{i}" for i in range(0, n, 2)], *cats], "bark")
 
 
-def quantified(q: Determiner) -> Callable[[int], Task]:
+def quantifying_task(q: Determiner) -> Callable[[int], Task]:
     """Quantifying over two known extensions of n."""
 
     def made(n: int) -> Task:
@@ -119,7 +119,7 @@ def quantified(q: Determiner) -> Callable[[int], Task]:
     return made
 
 
-def settled(n: int) -> Task:
+def settling_task(n: int) -> Task:
     """The same of a model, in which the extensions have to be found first."""
     dog, bark = Pred("dog", Ind), Pred("bark", Ind)
     M = Model()
@@ -147,7 +147,7 @@ def twenty_states(n: int) -> Task:
 # --- one thing ------------------------------------------------------------------------
 
 
-def corrected(_: int) -> Task:
+def correcting_task(_: int) -> Task:
     """One correction of Larsson's `right`, the learner's own cost included."""
     bg = rectype(foo=Ind, spkr=Ind, pos=RealVector)
     interp = fun(r=bg)(rectype(c=Pred("right", Ind)(outer.r.foo)))
@@ -170,15 +170,15 @@ MEASURES: Measures = {
         "along conditionals": Measure(intervals_along_conditionals, FIELDS),
     },
     "extensions of n": {
-        "most": Measure(quantified(most), EXTENSIONS, {10_000: 10}),
-        "every": Measure(quantified(every), EXTENSIONS, {10_000: 10}),
-        "most, of a model": Measure(settled, EXTENSIONS),
+        "most": Measure(quantifying_task(most), EXTENSIONS, {10_000: 10}),
+        "every": Measure(quantifying_task(every), EXTENSIONS, {10_000: 10}),
+        "most, of a model": Measure(settling_task, EXTENSIONS),
     },
     "strings of n events": {
         "a type of 20 states": Measure(twenty_states, EVENTS, {100_000: 500}, GROWS),
     },
     "one thing": {
-        "correct a perceptron": Measure(corrected, (1,), {1: 0.05}),
+        "correct a perceptron": Measure(correcting_task, (1,), {1: 0.05}),
     },
 }
 
@@ -222,7 +222,7 @@ def random_type(chosen: random.Random, depth: int = 0) -> TypeNode:
     return several(random_type(chosen, depth + 1), random_type(chosen, depth + 1))
 
 
-def asked(count: int) -> str:
+def random_queries(count: int) -> str:
     """So many random queries; how many intervals were out of order."""
     chosen, wrong, refused, done = random.Random(SEED), 0, 0, 0
     start = time.perf_counter()
@@ -250,7 +250,7 @@ def main() -> None:
     parser.add_argument("--queries", type=int, metavar="N", help="only random queries")
     options = parser.parse_args()
     if options.queries:
-        print(asked(options.queries))
+        print(random_queries(options.queries))
         return
     report(results(MEASURES, clock_of(options)), options)
 

@@ -47,7 +47,7 @@ ROOT = Path(__file__).resolve().parent.parent
 # --- the game of fetch ---------------------------------------------------------------
 
 
-def fetched(n: int) -> Task:
+def fetching_task(n: int) -> Task:
     """n events of fetch, each taken by one of seven rules."""
     game = load(ROOT / "examples" / "fetch.ttr").games["fetch"]
     turn = game.take(game.begin())
@@ -66,7 +66,7 @@ def fetched(n: int) -> Task:
 # --- static checks -------------------------------------------------------------------
 
 
-def checked(n: int) -> Task:
+def checking_task(n: int) -> Task:
     """n rules on as many paths, each with a condition, an event and a type to give."""
     boards = {f"part{i}": rectype(x=Ind, log=ListOf(Ind)) for i in range(n)}
     Board = rectype(boards)
@@ -96,9 +96,9 @@ def checked(n: int) -> Task:
 MEASURES: Measures = {
     "update": {
         "events of fetch": Measure(
-            fetched, (100, 1000, 10_000), limits={1000: 50.0}, grows=(100, 10_000)
+            fetching_task, (100, 1000, 10_000), limits={1000: 50.0}, grows=(100, 10_000)
         ),
-        "static check of rules": Measure(checked, (10, 50), limits={50: 1000.0}),
+        "static check of rules": Measure(checking_task, (10, 50), limits={50: 1000.0}),
     },
 }
 
@@ -131,7 +131,9 @@ def seen_model() -> Model:
     return model
 
 
-def tutored(new: Callable[[int], str], clock: Callable[[], float]) -> list[float]:
+def tutoring_times(
+    new: Callable[[int], str], clock: Callable[[], float]
+) -> list[float]:
     """The milliseconds of each turn of tutoring: heard, taken, answered in words."""
     game = tutoring([noun(form) for form in NOUNS], model=seen_model())
     view = record(look="look1", things=["o1"], placed=["o1"], focus=["o1"])
@@ -143,7 +145,7 @@ def tutored(new: Callable[[int], str], clock: Callable[[], float]) -> list[float
         for sentence in SCRIPT:
             text = sentence.format(noun=new(number))
             start = clock()
-            turn = game.take(so_far, heard(game, text))
+            turn = game.take(so_far, event_heard(game, text))
             said = [game.say(move) for move in turn.said] if game.say else []
             times.append(1000 * (clock() - start))
             assert said
@@ -151,14 +153,14 @@ def tutored(new: Callable[[int], str], clock: Callable[[], float]) -> list[float
     return times[len(times) // 2 :]
 
 
-def heard(game: Game, text: str) -> object:
+def event_heard(game: Game, text: str) -> object:
     assert game.hear is not None
     event = game.hear(text)
     assert event is not None, text
     return event
 
 
-def travelled(clock: Callable[[], float]) -> list[float]:
+def travel_times(clock: Callable[[], float]) -> list[float]:
     """The milliseconds of each turn of the travel stories."""
     travel = ROOT / "examples" / "travel"
     sys.path.insert(0, str(travel))
@@ -178,14 +180,14 @@ def travelled(clock: Callable[[], float]) -> list[float]:
 
 def turns(clock: Callable[[], float]) -> Iterator[Result]:
     gc.collect()
-    same = tutored(lambda number: "pencil case", clock)
-    yield timed("a turn of tutoring", same, 1.0, 5.0)
-    new = tutored(lambda number: f"thing{number}", clock)
-    yield timed("  with words never heard before", new)
-    yield timed("a turn with the travel agency", travelled(clock), 1.0)
+    same = tutoring_times(lambda number: "pencil case", clock)
+    yield limits_of("a turn of tutoring", same, 1.0, 5.0)
+    new = tutoring_times(lambda number: f"thing{number}", clock)
+    yield limits_of("  with words never heard before", new)
+    yield limits_of("a turn with the travel agency", travel_times(clock), 1.0)
 
 
-def timed(
+def limits_of(
     task: str, times: Sequence[float], middle: float = 0, most: float = 0
 ) -> Result:
     """The median and the 95th percentile, with the limits that they have."""
