@@ -122,6 +122,11 @@ def test_every_dog_hugs_a_boy_and_what_a_pronoun_picks_up(M):
     assert pronoun_antecedents(M, understand("Kim hugs a boy.")) == ()
 
 
+def test_after_a_boy_no_pronoun_is_about_all_boys(M):
+    smiling = FiniteSet("kim")
+    assert pronoun_antecedents(M, understand("A boy smiles.")) == (smiling,)
+
+
 def test_a_donkey_pronoun_is_strong_after_every(M):
     words = english()
     donkey, farmer = words.meaning("NOUN", "donkey"), words.meaning("NOUN", "farmer")

@@ -260,6 +260,13 @@ def test_the_sets_that_a_pronoun_can_pick_up(M):
     assert antecedents(settle(M, exist(boy, bark))).plural == ()
 
 
+def test_after_a_singular_some_there_is_no_they_for_all_of_p(M):
+    """A dog barks. They … are those that bark, if anything, and not all dogs."""
+    dogs, barkers = FiniteSet("f", "r", "s"), FiniteSet("f", "s")
+    assert antecedents(settle(M, exist(dog, bark))).plural == (barkers,)
+    assert antecedents(settle(M, exist_pl(dog, bark))).plural == (barkers, dogs)
+
+
 def test_one_thing_is_picked_up_in_the_singular(M):
     found = antecedents(settle(M.given("k1", boy("k")), exist(boy, boy)))
     assert found.singular == ("k",)

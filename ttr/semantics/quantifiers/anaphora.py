@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ttr.semantics.quantifiers.determiners import determiner_of, exist
 from ttr.semantics.quantifiers.extension_pairs import Case
 from ttr.semantics.quantifiers.quantified_propositions import Quantification
 from ttr.types.objects import FiniteSet
@@ -15,18 +16,26 @@ class Antecedents:
 
     `refset` are those of P that are Q, `maxset` all of P, and `compset` those of P that
     are not Q. The last is there only after a quantifier that falls, as in "Few dogs
-    bark. They sleep instead.", where P is not empty.
+    bark. They sleep instead.", where P is not empty. After a singular "some" nothing
+    is about all of P: `reaches_maxset` is false.
     """
 
     refset: FiniteSet
     maxset: FiniteSet
     compset: FiniteSet | None
+    reaches_maxset: bool = True
+
+    @property
+    def accessible(self) -> tuple[FiniteSet, ...]:
+        """The sets that a pronoun can reach, what is most accessible first."""
+        maxset = (self.maxset,) if self.reaches_maxset else ()
+        compset = () if self.compset is None else (self.compset,)
+        return tuple(dict.fromkeys((self.refset, *maxset, *compset)))
 
     @property
     def plural(self) -> tuple[FiniteSet, ...]:
         """What "they" can stand for, what is most accessible first."""
-        found = (self.refset, self.maxset, self.compset)
-        return tuple([X for X in dict.fromkeys(found) if X is not None and len(X) > 1])
+        return tuple([X for X in self.accessible if len(X) > 1])
 
     @property
     def singular(self) -> tuple[object, ...]:
@@ -35,7 +44,9 @@ class Antecedents:
 
 
 def antecedents(found: Quantification) -> Antecedents:
-    """The anaphora sets of a quantification (Moxey and Sanford 1987).
+    """The anaphora sets of a quantification.
+
+    Sources: Moxey and Sanford 1987; Cooper 2023, §7.4.
 
     >>> from ttr.semantics.quantifiers import Extension, few, quantify
     >>> dogs = Extension.of(["fido", "rex", "sam", "kim"], "dog")
@@ -45,7 +56,9 @@ def antecedents(found: Quantification) -> Antecedents:
     """
     falls = not any(one.is_lower_bound for one in found.asked)
     compset = _set_of(found.compset) if falls and found.compset else None
-    return Antecedents(_set_of(found.refset), _set_of(found.maxset), compset)
+    is_singular = determiner_of(found.type) == exist
+    sets = (_set_of(found.refset), _set_of(found.maxset), compset)
+    return Antecedents(*sets, reaches_maxset=not is_singular)
 
 
 def _set_of(cases: tuple[Case, ...]) -> FiniteSet:
