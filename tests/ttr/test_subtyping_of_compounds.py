@@ -60,6 +60,17 @@ YES = {
     "repeated repetitions": (Plus(Plus(A)), Plus(A)),
     "a smaller result": (A >> (B & C), A >> B),
     "a larger domain": ((A | B) >> C, A >> C),
+    "functions of each part of a domain": ((A >> C) & (B >> C), (A | B) >> C),
+    "functions with results of their own": (
+        (A >> C) & (B >> Rec),
+        (A | B) >> (C | Rec),
+    ),
+    "results of several types": ((A >> B) & (A >> C), A >> (B & C)),
+    "dependent results of several types": (
+        Pi(x=A)(p(this.x)) & Pi(x=A)(A @ this.x),
+        Pi(x=A)(p(this.x) & A @ this.x),
+    ),
+    "a result that the other type leaves": ((A >> (B | C)) & (A >> ~B), A >> C),
     "a dependent result": (Pi(x=A)(A @ this.x), A >> A),
     "a dependent result on less": (Pi(x=A)(p(this.x)), Pi(x=A & B)(p(this.x))),
     "a function as a field": (
@@ -183,6 +194,12 @@ def test_the_rest_of_a_list_that_may_be_empty_need_not_be_there():
     rest = fun(l=ListOf(A))(rst(this.l))
     assert subtype((A >> B) @ rest, NonEmpty(A) >> ListOf(A)).yes
     assert not subtype((A >> B) @ rest, ListOf(A) >> ListOf(A)).yes
+
+
+def test_functions_are_put_together_only_where_each_part_of_the_domain_is_covered():
+    assert not subtype((A >> C) & (B >> Rec), (A | B) >> C).yes
+    assert not subtype((A >> C) & (B >> C), (A | B | Rec) >> C).yes
+    assert not subtype((A >> B) & (A >> C), A >> Rec).yes
 
 
 def test_many_cases_are_left_together():

@@ -437,9 +437,9 @@ class Prover:
     def _prove_function(self, term: Object, T: FunType, where: Where) -> Finding:
         if isinstance(term, Function):
             return self._prove_maps(term.domain, term.body, T, where)
-        for known in self._types_of(term):
-            if isinstance(known, FunType) and self._prove_covers(known, T).yes:
-                return YES
+        known = [one for one in self._types_of(term) if isinstance(one, FunType)]
+        if known and self._prove_cover(known, T).yes:
+            return YES
         return self._not_below(term, T, where)
 
     def _prove_maps(
@@ -459,18 +459,27 @@ class Prover:
 
         return self._prove_in_cases(x, T.domain, prove_value)
 
-    def _prove_covers(self, known: FunType, T: FunType) -> Finding:
-        """Is every function of the known type one of T?"""
+    def _prove_cover(self, known: Sequence[FunType], T: FunType) -> Finding:
+        """Is every function that is of all these types one of T?
+
+        In each case of T's domain its value is of the results of those types whose
+        domain surely has the argument, and there must be one.
+        """
         x = self._new_place()
 
         def prove_result(q: Prover) -> Finding:
-            inside = q.prove(x, known.domain)
-            if not inside.yes:
-                return inside
+            inside = [(one, q.prove(x, one.domain)) for one in known]
+            results = [
+                substitute_variable(one.result, x) for one, found in inside if found.yes
+            ]
+            if not results:
+                return inside[0][1]
             y = q._new_place()
-            result = substitute_variable(T.result, x)
+            wanted = substitute_variable(T.result, x)
             return q._prove_in_cases(
-                y, substitute_variable(known.result, x), lambda r: r.prove(y, result)
+                y,
+                meet(*results),
+                lambda r: YES if r._is_contradictory else r.prove(y, wanted),
             )
 
         return self._prove_in_cases(x, T.domain, prove_result)
