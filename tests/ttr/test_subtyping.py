@@ -134,6 +134,13 @@ def test_an_application_that_is_not_worked_out_is_not_refuted():
     assert not subtype(Application(fun(y=B)(Rec), "b"), Rec).no
 
 
+def test_what_speaks_against_it_is_judged_of_the_type_as_it_is_written():
+    applied = A & ~Application(fun(r=Rec)(A), record())
+    against = subtype(A, applied).counter
+    assert against.type is applied
+    assert against.holds is False
+
+
 def test_what_may_have_no_witness_is_not_refuted():
     S = rectype(f=B, x=ListOf(B) @ this.f)  # an f would be of B and a list
     assert subtype(S, rectype(f=C)).unknown

@@ -46,12 +46,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Refutation:
-    """A possible counterexample to S ⊑ T: a witness of S under these assumptions."""
+    """A possible counterexample to S ⊑ T: a witness of S under these assumptions.
+
+    `written` is T as it was written, before it was computed.
+    """
 
     S: TypeNode
     T: TypeNode
     theory: Signature
     assumed: tuple[Assumption, ...] = ()
+    written: TypeNode | None = None
 
 
 @hook
@@ -169,13 +173,14 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     >>> print(subtype(rectype(x=Ind), rectype(x=Ind, c=dog(this.x))))
     no: [x : Ind] has no field c
     """
-    S, T, theory = as_type(S), as_type(T), signature_of(theory)
+    S, written, theory = as_type(S), as_type(T), signature_of(theory)
+    T = written
     if S is not T:
         S, T = normal_type(S, theory), normal_type(T, theory)
     if S is T:
         return Answer("yes", lambda: f"{S} is below itself")
     found = cases(S)
-    answers = [_in_case(case, T, theory) for case in found or (S,)]
+    answers = [_in_case(case, T, theory, written) for case in found or (S,)]
     refuted = next((answer for answer in answers if answer.no), None)
     if refuted is not None:
         return refuted
@@ -184,21 +189,21 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     return next((answer for answer in answers if answer.unknown), answers[0])
 
 
-def _in_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
-    """The answer for one case of a type."""
+def _in_case(S: TypeNode, T: TypeNode, theory: Signature, written: TypeNode) -> Answer:
+    """The answer for one case of a type; T was written in another way, perhaps."""
     prover = Prover.for_type(S, theory)
     if prover.is_impossible:
         return Answer("yes", lambda: f"nothing can be of {S}")
     found = prover.prove(ITSELF, T)
     if found.yes:
         return Answer("yes", lambda: found.why or _why_by_form(S, T))
-    return _refute(prover, T, found)
+    return _refute(prover, T, found, written)
 
 
-def _refute(prover: Prover, T: TypeNode, found: Finding) -> Answer:
+def _refute(prover: Prover, T: TypeNode, found: Finding, written: TypeNode) -> Answer:
     """The answer no if there certainly is a counterexample, else unknown."""
     S = prover.S
-    refutation = Refutation(S, T, prover.theory, found.assumed)
+    refutation = Refutation(S, T, prover.theory, found.assumed, written)
     answer = Answer("no", lambda: found.why, refutation)
     certain = prover.witness.is_certain
     if certain and _is_plain(S) and _is_plain(T) and has_fields_in_order(S):
