@@ -66,6 +66,23 @@ def test_possible_given_a_background():
     assert possible(M, tweety, rectype(e=~fly("tweety")), birds_fly).no
 
 
+def test_a_background_of_its_own_is_below_that_of_the_topos():
+    """s : nec(T, B, t) iff s : B, B is below the background of t, and t(s) below T."""
+    singer = rectype(x=Ind, s=Pred("sing", Ind)(this.x))
+    singing_bird = merge(Bird, singer)
+    here = M.given("s2", Pred("sing", Ind)("tweety"))
+    s, flies = record(x="tweety", c="s1", s="s2"), rectype(e=fly("tweety"))
+    assert necessary(here, s, flies, birds_fly, background=singing_bird).yes
+    assert possible(here, s, flies, birds_fly, background=singing_bird).yes
+    for ask in (necessary, possible):
+        answer = ask(here, s, flies, birds_fly, background=singer)
+        assert answer.no
+        assert "is not below the background of the topos" in answer.why
+    silent = necessary(M, tweety, flies, birds_fly, background=singing_bird)
+    assert silent.no
+    assert "not of the background" in silent.why
+
+
 def test_as_far_as_the_situation_is_of_the_background():
     unsure = Model().given("tweety", Ind).given("s1", bird("tweety"), 0.8)
     answer = necessary(unsure, tweety, rectype(e=fly("tweety")), birds_fly)

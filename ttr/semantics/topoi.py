@@ -8,7 +8,7 @@ left unsaid, is such a function, too; a topos may underpin it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ttr.aliases import former_names
 from ttr.building.function_domains import fix, restrict
@@ -97,57 +97,93 @@ def expectation(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
 
 
 @within_budget
-def necessary(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> ModalAnswer:
-    """s : nec(T, B, t): is s of the background B, and t(s) ⊑ T?
+def necessary(
+    model: Model,
+    sit: object,
+    T: TypeNode,
+    warrant: Topos,
+    /,
+    *,
+    background: TypeNode | None = None,
+) -> ModalAnswer:
+    """s : nec(T, B, t): is s of B, B ⊑ the background of t, and t(s) ⊑ T?
 
-    As certain as s : B where t(s) ⊑ T is derivable; not so where that is refuted; else
-    between the two. Source: Cooper 2023, on modality relative to a background.
+    B is `background`, or the background of the topos itself. As certain as s : B where
+    the two subtypings are derivable; not so where one is refuted; else between the two.
+    Source: Cooper 2023, §6.4, on modality relative to a background.
     """
-    found = _apply_to_situation(model, sit, warrant)
+    found = _apply_to_situation(model, sit, warrant, background)
     if isinstance(found, ModalAnswer):
         return found
-    background, follows = found
-    answer = subtype(follows, as_type(T), model.theory)
-    return _limit_answer(background, answer, f"{follows} follows; is it below {T}?")
+    answer = subtype(found.follows, as_type(T), model.theory)
+    question = f"{found.follows} follows; is it below {T}?"
+    return _limit_answer(found, answer, question)
 
 
 @within_budget
-def possible(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> ModalAnswer:
-    """s : poss(T, B, t): is s of the background B, and T compatible with t(s)?"""
-    found = _apply_to_situation(model, sit, warrant)
+def possible(
+    model: Model,
+    sit: object,
+    T: TypeNode,
+    warrant: Topos,
+    /,
+    *,
+    background: TypeNode | None = None,
+) -> ModalAnswer:
+    """s : poss(T, B, t): is s of B, B ⊑ the background of t, t(s) compatible with T?
+
+    B is as with `necessary`. Types are compatible if something can be of both.
+    """
+    found = _apply_to_situation(model, sit, warrant, background)
     if isinstance(found, ModalAnswer):
         return found
-    background, follows = found
-    answer = consistent(follows, as_type(T), theory=model.theory)
-    return _limit_answer(background, answer, f"{follows} follows; can it be with {T}?")
+    answer = consistent(found.follows, as_type(T), theory=model.theory)
+    question = f"{found.follows} follows; can it be with {T}?"
+    return _limit_answer(found, answer, question)
+
+
+class _Applied(NamedTuple):
+    """A topos applied to a situation.
+
+    `inside` judges the situation to be of the background B, `covered` is whether B is
+    below that of the topos, and `follows` what the topos lets expect.
+    """
+
+    inside: Judgement
+    covered: Answer
+    follows: TypeNode
 
 
 def _apply_to_situation(
-    model: Model, sit: object, warrant: Topos
-) -> tuple[Judgement, TypeNode] | ModalAnswer:
-    """The judgement that the situation is of the background, and what then follows.
+    model: Model, sit: object, warrant: Topos, background: TypeNode | None
+) -> _Applied | ModalAnswer:
+    """The topos applied; the answer no where the situation or B is outside of it.
 
-    The answer no where it is not. Raises `RefusedError` where the topos cannot be
-    applied.
+    Raises `RefusedError` where the topos cannot be applied.
     """
     warrant = topos(warrant)
-    background = as_model(model).judge(sit, warrant.bg)
-    outside = f"{notation(background.sit)} is not of the background {warrant.bg}"
-    if background.p == REFUTED:
+    B = warrant.bg if background is None else as_type(background)
+    inside = as_model(model).judge(sit, B)
+    covered = subtype(B, warrant.bg, model.theory)
+    if covered.no:
+        outside = f"{B} is not below the background of the topos: {covered.why}"
+        return ModalAnswer(REFUTED, outside)
+    if inside.p == REFUTED:
+        outside = f"{notation(inside.sit)} is not of the background {B}"
         return ModalAnswer(REFUTED, outside)
     try:
         body = instantiate_body(warrant.fg, freeze(sit))
-        return background, as_type(model.reduce(body))
+        return _Applied(inside, covered, as_type(model.reduce(body)))
     except (UnresolvedError, RefusedError) as wrong:
         raise RefusedError(
             f"the topos {warrant} fails there: {wrong.message}"
         ) from None
 
 
-def _limit_answer(background: Judgement, answer: Answer, question: str) -> ModalAnswer:
+def _limit_answer(found: _Applied, answer: Answer, question: str) -> ModalAnswer:
     """The answer, limited by how certainly the situation is of the background."""
-    low = background.p.lo if answer.yes else 0.0
-    high = 0.0 if answer.no else background.p.hi
+    low = found.inside.p.lo if answer.yes and found.covered.yes else 0.0
+    high = 0.0 if answer.no else found.inside.p.hi
     return ModalAnswer(Degree(low, high), f"{question} {answer}")
 
 
