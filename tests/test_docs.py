@@ -9,6 +9,7 @@ answer as shown, and any other block with the name of a file is that file.
 from __future__ import annotations
 
 import argparse
+import ast
 import doctest
 import importlib
 import inspect
@@ -106,6 +107,81 @@ def test_pictures_are_small() -> None:
     pictures = list((ROOT / "docs" / "pictures").glob("*.png"))
     assert pictures
     assert max(picture.stat().st_size for picture in pictures) < 300_000
+
+
+# --- definitions ----------------------------------------------------------------------
+
+DEFINITIONS = ROOT / "docs" / "explanation" / "which-definitions.md"
+
+
+def rows_of_definitions() -> list[list[str]]:
+    """The cells of each row: definition, source, is it here, code, tests, reading."""
+    lines = DEFINITIONS.read_text("utf-8").splitlines()
+    rows = [re.split(r"(?<!\\)\|", line)[1:-1] for line in lines if line[:4] == "| **"]
+    return [[cell.strip() for cell in row] for row in rows]
+
+
+def names_defined(file: Path) -> set[str]:
+    """What a file defines: in Python also the methods of its classes, `Class.method`;
+    in a theory its definitions."""
+    text = file.read_text("utf-8")
+    if file.suffix == ".ttr":
+        return set(re.findall(r"^(\w+) +:=", text, flags=re.M))
+    return set(names_bound(ast.parse(text).body))
+
+
+def names_bound(body: list[ast.stmt]) -> Iterator[str]:
+    for statement in body:
+        match statement:
+            case ast.FunctionDef(name=name):
+                yield name
+            case ast.ClassDef(name=name, body=inner):
+                yield name
+                yield from (f"{name}.{it}" for it in names_bound(inner))
+            case ast.Assign(targets=[ast.Name(id=name)]):
+                yield name
+            case ast.AnnAssign(target=ast.Name(id=name)):
+                yield name
+
+
+def linked_names(cell: str) -> list[tuple[str, str, Path]]:
+    """The links of a cell: what they are called, the name in it, and the file."""
+    found = re.findall(r"\[`([^`]+)`\]\(([^)\s]+)\)", cell)
+    return [
+        (called, name_in(called, path), (DEFINITIONS.parent / path).resolve())
+        for called, path in found
+    ]
+
+
+def name_in(called: str, path: str) -> str:
+    """The name within a file: of `ttr.types.syntax.Pred`, `Pred`; of `FILE::test`, the
+    test."""
+    if "::" in called:
+        return called.partition("::")[2]
+    module = path.removeprefix("../../").removesuffix(".py").removesuffix("/__init__")
+    return called.removeprefix(module.replace("/", ".") + ".")
+
+
+def test_definitions_are_where_the_page_says_and_tested() -> None:
+    rows = rows_of_definitions()
+    assert rows
+    for what, _, here, code, tests, _ in rows:
+        assert here in ("yes", "partly"), what
+        coded, tested = linked_names(code), linked_names(tests)
+        assert coded, f"{what} has no code"
+        assert tested, f"{what} has no test"
+        for called, name, file in coded + tested:
+            assert name in names_defined(file), f"{what} There is no {called}"
+        for called, name, file in tested:
+            assert called == f"{file.relative_to(ROOT).as_posix()}::{name}", what
+            assert name.startswith("test_"), what
+
+
+def test_what_is_partly_there_says_what_is_missing() -> None:
+    rows = rows_of_definitions()
+    for what, _, here, _, _, reading in rows:
+        said = re.sub(r"\[\d+\]\(\S+\)|[ ,()]", "", reading)
+        assert said or here == "yes", what
 
 
 # --- what pages show -----------------------------------------------------------------

@@ -94,6 +94,14 @@ def test_a_join_is_at_least_as_probable_as_its_parts(M, S, T):
     assert below(M.judge("a", T).p, whole)
 
 
+@given(models(), types, types)
+def test_a_join_is_the_sum_less_what_both_have(M, S, T):
+    """p(S ∨ T) = p(S) + p(T) − p(S ∧ T), where all of them are numbers."""
+    one, other, both, either = (M.judge("a", U).p for U in (S, T, S & T, S | T))
+    if all(p.lo == p.hi for p in (one, other, both, either)):
+        assert either.lo == pytest.approx(one.lo + other.lo - both.lo)
+
+
 @given(models(), types)
 def test_a_negation_is_what_is_missing_to_one(M, T):
     p, q = M.judge("a", T).p, M.judge("a", ~T).p

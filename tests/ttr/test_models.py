@@ -61,6 +61,22 @@ def test_a_dictionary_is_a_record_and_a_list_a_tuple():
     assert M.judge(("b", "a"), ListOf(Ind)).holds is True
 
 
+def test_a_situation_of_a_ptype_may_be_a_record():
+    hugging = record(who="a", whom="b")
+    M = Model().given(hugging, hug("a", "b"))
+    assert M.judge(hugging, hug("a", "b")).holds is True
+    assert M.judge(record(who="a", whom="c"), hug("a", "b")).holds is False
+    assert M.witnesses(hug("a", "b")) == (hugging,)
+
+
+def test_every_record_and_nothing_else_is_of_rec():
+    M = Model().given("a", A)
+    for r in (record(), record(x="a"), record(x=record(y="nobody"))):
+        assert M.judge(r, Rec).holds is True
+    for other in ("a", (), A, 1):
+        assert M.judge(other, Rec).holds is False
+
+
 @pytest.mark.parametrize(
     ("sit", "T", "message"),
     [
