@@ -14,7 +14,15 @@ import pytest
 import ttr
 from ttr.building.constructors import rectype
 from ttr.computing.subtyping import subtype
-from ttr.errors import IllFormedError, MistakesError, NotationError, Span, TTRError
+from ttr.errors import (
+    IllFormedError,
+    MistakesError,
+    NotationError,
+    RefusedError,
+    Span,
+    TTRError,
+)
+from ttr.judging.models import Model
 from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Part, Source
 from ttr.signature.signature import Axiom
@@ -510,3 +518,53 @@ def test_star_is_a_word_unless_something_is_called_so():
     heavenly = Theory.parse("basic Ind\npred star(Ind)\nobject venus : Ind")
     assert str(heavenly.parse("star(venus)")) == "star(venus)"
     assert "star" in str(heavenly.parse(r"[star : Ind, y = star : Ind]"))
+
+
+# --- what is given twice -------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("givens", "why"),
+    [
+        (["given a : A", "given a : A = 0"], "a : A is given as 1 at t.ttr:2 and as 0"),
+        (["given a : A", "given a : ~A"], "a : A is given as 1 at t.ttr:2 and as 0"),
+        (["object a : A", "given a : A = 0.5"], "given as 1 at t.ttr:2 and as 0.5"),
+        (
+            ["given a : A", "given b : B = 0.5", r"given b : A /\ B"],
+            "b : B is given as 0.5 at t.ttr:3 and as 1 here",
+        ),
+        (
+            [
+                "given a : A",
+                "given P(a : B | a : A) = 0.3",
+                "given P(a : B | a : A) = 0.6",
+            ],
+            "P(a : B | a : A) is given as 0.3 at t.ttr:3 and as 0.6 here",
+        ),
+        (
+            ["given P(A || B) = 0.3", "given P(A || B) in [0.3, 0.4]"],
+            "P(A || B) is given as 0.3 at t.ttr:2 and as [0.3, 0.4] here",
+        ),
+    ],
+)
+def test_what_is_given_with_two_degrees_is_refused(givens, why):
+    theory = Theory.parse("\n".join(["basic A, B", *givens]), "t.ttr")
+    for ask in (check, Model):
+        with pytest.raises(RefusedError) as error:
+            ask(theory)
+        assert why in error.value.message
+        assert "\n" not in error.value.message
+        assert error.value.span.line == len(givens) + 1
+        assert error.value.hint == "keep one of the two"
+
+
+def test_what_is_given_twice_with_one_degree_is_given():
+    text = "basic A, B\nobject a : A\ngiven a : A\ngiven a : B = 0.3\n"
+    theory = Theory.parse(f"{text}given a : B = 0.3\ncheck P(a : B) = 0.3")
+    assert check(theory).holds
+
+
+def test_in_python_what_is_given_later_counts():
+    A = Basic("A")
+    M = Model().given("a", A).given("a", A, 0)
+    assert M.judge("a", A).p == (0, 0)

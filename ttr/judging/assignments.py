@@ -68,7 +68,8 @@ class Assignment:
     `known` has an entry for every object that a fact is about, or that a ptype with a
     fact mentions; `told` has the objects that were told to be of a type, each with its
     number, so that they have an order, and is another for a type of which anything was
-    told anew; `created` counts the names given out, `facts` the facts told.
+    told anew; `created` counts the names given out, `facts` the facts told. `replaced`
+    is the last judgement whose degree took the place of another.
     """
 
     theory: Signature
@@ -79,6 +80,7 @@ class Assignment:
     links: Links = NO_LINKS
     created: int = 0
     facts: int = 0
+    replaced: Claim | None = None
 
     def degree_of(self, sit: Object, T: Atom) -> tuple[Degree, str]:
         """The probability of sit : T, and the rule that gives it."""
@@ -267,7 +269,8 @@ class Assignment:
         number = self.facts + 1
         entry = (mine[key][0], sit) if key in mine else (number, sit)
         told = self.told.set(T, mine.set(key, entry))
-        return self._replace(known=known, told=told, facts=number)
+        new = self._replace(known=known, told=told, facts=number)
+        return new._replace(replaced=Claim(sit, T)) if T in facts else new
 
     def _opened_by(self, T: Atom, p: Degree) -> Map[Head, bool]:
         """What is open once something is of T with a degree between."""

@@ -8,6 +8,7 @@ them changes the model: they give a new one with what was added.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from typing import Any, Protocol, TypeAlias, cast
 
@@ -45,6 +46,7 @@ from ttr.safety.budgets import (
     within_budget,
 )
 from ttr.signature.signature import Expected, Given, Signature
+from ttr.types.interning import identity
 from ttr.types.objects import EventString, FiniteSet, Object, Record, freeze
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
@@ -133,10 +135,7 @@ class Model:
         self._facts = Assignment(
             signature, opened=Map(dict.fromkeys(signature.opened, True))
         )
-        start = self
-        for given in signature.givens:
-            start = start.with_given(given)
-        self._facts = start._facts
+        self._facts = _with_givens(self, signature.givens)._facts
 
     @classmethod
     def of(cls, facts: Assignment) -> Model:
@@ -164,8 +163,10 @@ class Model:
         Records, meets, singletons and lists are taken apart into their atoms, for which
         the probability must be 1. With `when` it is p(sit : T | b : S, …), what it is
         if these are so; the conditions are of basic types and ptypes or their
-        negations. Raises `RefusedError` where a witness function says no or what is
-        given cannot be, and `IllFormedError` where a path leads nowhere.
+        negations. What is given later takes the place of an earlier degree of the same
+        judgement; in a theory that is an error. Raises `RefusedError` where a witness
+        function says no or what is given cannot be, and `IllFormedError` where a path
+        leads nowhere.
 
         >>> A, B = Basic("A"), Basic("B")
         >>> M = Model().given("a", A, 0.6).given("a", B, (0.7, 0.8), when=[("a", A)])
@@ -553,13 +554,84 @@ def _check_closed(sit: object, T: object) -> tuple[Object, TypeNode]:
 
 
 def model_of(theory: Signature, purse: SharedPurse | None = None) -> Model:
-    """The model of the givens alone; an error tells which of them is to blame."""
-    model = Model(replace(theory, givens=()))
+    """The model of the givens alone; an error tells which of them is to blame.
+
+    Raises `RefusedError` where two of them give one judgement different degrees.
+    """
     purse = purse or purse_of_several(len(theory.givens))
-    for given in theory.givens:
+    return _with_givens(Model(replace(theory, givens=())), theory.givens, purse)
+
+
+def _with_givens(
+    model: Model, givens: Sequence[Given | Expected], purse: SharedPurse | None = None
+) -> Model:
+    """The model in which all the givens of a theory hold together.
+
+    Within the purse, where there is one. What a theory gives stands side by side: no
+    given takes the place of another.
+    """
+    start = model
+    conditionals: dict[object, Given | Expected] = {}
+    for number, given in enumerate(givens):
         try:
-            with one_of_several(purse):
-                model = model.with_given(given)
+            with one_of_several(purse) if purse else nullcontext():
+                after = model.with_given(given)
+            if after.facts.replaced is not model.facts.replaced:
+                raise _given_twice(model, after, start, givens[:number])
+            other = conditionals.setdefault(_condition_of(given, number), given)
+            if other.p != given.p:
+                raise _conditional_given_twice(other, given)
         except TTRError as error:
             raise error.at(given.span) if given.span else error from None
+        model = after
     return model
+
+
+def _given_twice(
+    model: Model, after: Model, start: Model, before: Sequence[Given | Expected]
+) -> RefusedError:
+    """The error that a given changes the degree which one of those before it gave."""
+    changed = after.facts.replaced
+    assert changed is not None
+    sit, T = changed.sit, changed.type
+    old, new = (one.facts.told_degree(sit, T) for one in (model, after))
+    first = None
+    for given in before:
+        start = start.with_given(given)
+        if first is None and start.facts.told_degree(sit, T) == old:
+            first = given
+    return _contradiction(f"{notation(sit)} : {T}", old, new, first)
+
+
+def _condition_of(given: Given | Expected, number: int) -> object:
+    """What a conditional is about; another for each given that is none."""
+    if isinstance(given, Expected):
+        return given.type, frozenset(given.when)
+    if not given.when:
+        return number
+    when = frozenset((identity(sit), S) for sit, S in given.when)
+    return identity(given.sit), given.type, when
+
+
+def _conditional_given_twice(
+    first: Given | Expected, given: Given | Expected
+) -> RefusedError:
+    if isinstance(given, Expected):
+        of, bar = f"{given.type}", "||"
+        when = ", ".join(map(str, given.when))
+    else:
+        of, bar = f"{notation(given.sit)} : {given.type}", "|"
+        when = ", ".join(f"{notation(sit)} : {S}" for sit, S in given.when)
+    old, new = degree(first.p, "P"), degree(given.p, "P")
+    return _contradiction(f"P({of} {bar} {when})", old, new, first)
+
+
+def _contradiction(
+    what: str, old: object, new: object, first: Given | Expected | None
+) -> RefusedError:
+    span = first.span if first else None
+    where = f" at {span.source}:{span.line}" if span else ""
+    return RefusedError(
+        f"{what} is given as {old}{where} and as {new} here",
+        hint="keep one of the two",
+    )
