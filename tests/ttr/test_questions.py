@@ -18,6 +18,7 @@ from ttr import (
     subtype,
     this,
 )
+from ttr.errors import IllFormedError
 from ttr.semantics.questions import (
     Question,
     asked_of,
@@ -302,3 +303,41 @@ def test_what_python_cannot_hash_is_no_question_and_no_answer(junk: object) -> N
     with pytest.raises(TTRError, match="this is no question"):
         asked_of(junk, Rec, Model())
     assert asked_of(TO, junk, M) is None
+
+
+# --- ptypes and record types ---------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "ask", [resolves, relevant, lambda answer, q, M: combine(q, answer, M)]
+)
+@pytest.mark.parametrize(
+    ("answer", "question", "hint"),
+    [
+        (dest("paris"), which(dest), "write [e : dest(paris)]"),
+        (~dest("paris"), which(dest), "write ~[e : dest(paris)]"),
+        (
+            dest("paris"),
+            whether(rectype(e=dest("paris"))),
+            "write [e : dest(paris)]",
+        ),
+        (rectype(e=dest("paris")), whether(dest("paris")), "write dest(paris)"),
+    ],
+)
+def test_a_ptype_where_a_record_type_is_asked_for_is_an_error(
+    answer, question, hint, ask
+):
+    with pytest.raises(IllFormedError) as error:
+        ask(answer, question, M)
+    assert "is a ptype, but" in error.value.message or "is a record type, but" in (
+        error.value.message
+    )
+    assert "\n" not in error.value.message
+    assert error.value.hint == hint
+
+
+def test_a_ptype_that_is_about_nothing_asked_is_none():
+    other = Pred("colour", City)
+    assert not resolves(other("paris"), which(dest), M)
+    assert find_answer(which(dest), [other("paris")], M) is None
+    assert resolves(dest("paris"), whether(dest("paris")), M)

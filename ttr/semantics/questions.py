@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, TypeGuard
 from ttr.aliases import former_names
 from ttr.building.constructors import fun, rectype
 from ttr.building.merging import merge_meet
-from ttr.errors import TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
@@ -35,6 +35,8 @@ from ttr.types.objects import (
     UnresolvedError,
     outer,
 )
+from ttr.types.paths import free_paths
+from ttr.types.printing import notation
 from ttr.types.substitution import instantiate_body, resolve_paths
 from ttr.types.syntax import (
     Basic,
@@ -185,6 +187,7 @@ def resolves(answer: Object, question: Object, model: Model) -> bool:
 
     Whatever is about a question whether resolves it. Other questions are resolved only
     by what is not negative: "not Paris" does not resolve where somebody wants to go.
+    Raises `IllFormedError` as `relevant`.
 
     >>> City = Basic("City")
     >>> dest = Pred("dest_city", City)
@@ -282,7 +285,10 @@ def _conveyed_proposition(
     if not isinstance(question, Function) or not is_question(question):
         raise _no_question(question)
     if isinstance(answer, TypeNode):
-        return answer if _is_instance(answer, question, model) else None
+        if _is_instance(answer, question, model):
+            return answer
+        _check_form(answer, question, model)
+        return None
     if question.domain is Rec:
         if not isinstance(answer, str) or answer not in (YES, NO):
             return None
@@ -314,6 +320,31 @@ def _is_instance(P: TypeNode, question: Function, model: Model) -> bool:
     denied = P.body if isinstance(P, Negation) else ~P
     about = asked_of(question, denied, model)
     return about is not None and _apply(question, about) is denied
+
+
+def _check_form(P: TypeNode, question: Function, model: Model) -> None:
+    """Refuse what would be about a question if it were in a record type, or not in one.
+
+    Raises `IllFormedError`: such an answer would be none, and nobody would know why.
+    """
+    P = _simplify_negation(P)
+    said = P.body if isinstance(P, Negation) else P
+    others: list[TypeNode] = []
+    match question.body, said:
+        case RecordType(((label, PType()),)), PType():
+            others = [RecordType(((label, said),))]
+        case PType(), RecordType(fields):
+            others = [field for _, field in fields if not free_paths(field)]
+    for other in others:
+        meant = Negation(other) if isinstance(P, Negation) else other
+        if _is_instance(meant, question, model):
+            found, wanted = "a ptype", "a record type"
+            if isinstance(said, RecordType):
+                found, wanted = wanted, found
+            raise IllFormedError(
+                f"{said} is {found}, but {notation(question)} asks for {wanted}",
+                hint=f"write {meant}",
+            )
 
 
 def _simplify_negation(P: TypeNode) -> TypeNode:
