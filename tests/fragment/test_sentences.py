@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from ttr import Ind, Model, Theory, TTRError, load
@@ -122,9 +124,12 @@ def test_every_dog_hugs_a_boy_and_what_a_pronoun_picks_up(M):
     assert pronoun_antecedents(M, understand("Kim hugs a boy.")) == ()
 
 
-def test_after_a_boy_no_pronoun_is_about_all_boys(M):
-    smiling = FiniteSet("kim")
-    assert pronoun_antecedents(M, understand("A boy smiles.")) == (smiling,)
+def test_a_pronoun_after_a_dog_picks_up_those_that_bark_alone(M):
+    bark = english().meaning("IV", "bark")
+    barking = M.given("w", bark("fido"))
+    assert pronoun_antecedents(barking, understand("A dog barks.")) == (
+        FiniteSet("fido"),
+    )
 
 
 def test_a_donkey_pronoun_is_strong_after_every(M):
@@ -200,6 +205,34 @@ def test_a_lexicon_can_be_extended(tmp_path):
 def test_a_word_without_a_meaning_is_a_mistake(text, why):
     with pytest.raises(TTRError, match=why):
         lexicon(Theory.parse(text))
+
+
+CLASSES = [
+    *("nouns", "names", "intersectives", "subsectives", "privatives", "intensifiers"),
+    *("intransitives", "transitives", "adverbs", "modals", "attitudes"),
+    "prepositions",
+]
+
+
+@pytest.mark.parametrize("left_out", CLASSES)
+def test_a_lexicon_without_a_class_of_words_has_no_such_sentences(left_out):
+    shipped = english().theory
+    definitions = {k: v for k, v in shipped.definitions.items() if k != left_out}
+    words = lexicon(replace(shipped, definitions=definitions))
+    if left_out in ("nouns", "intransitives"):
+        with pytest.raises(OutsideFragmentError, match="no word"):
+            understand("Every dog smiles.", words)
+    else:
+        assert understand("Every dog smiles.", words).content
+
+
+def test_a_lexicon_of_one_word_is_one():
+    words = lexicon(Theory.parse('basic Ind\npred dog(Ind)\nnouns := ["dog"]'))
+    assert str(understand("There is a dog.", words).content).startswith("exist(")
+    with pytest.raises(OutsideFragmentError, match="no construction with 'dogs'"):
+        understand("Every dog dogs.", words)
+    with pytest.raises(OutsideFragmentError, match="no word 'dog'"):
+        understand("There is a dog.", lexicon(Theory.parse("basic Ind")))
 
 
 def test_regular_forms_are_known():

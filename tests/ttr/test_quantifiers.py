@@ -260,11 +260,16 @@ def test_the_sets_that_a_pronoun_can_pick_up(M):
     assert antecedents(settle(M, exist(boy, bark))).plural == ()
 
 
-def test_after_a_singular_some_there_is_no_they_for_all_of_p(M):
-    """A dog barks. They … are those that bark, if anything, and not all dogs."""
-    dogs, barkers = FiniteSet("f", "r", "s"), FiniteSet("f", "s")
-    assert antecedents(settle(M, exist(dog, bark))).plural == (barkers,)
-    assert antecedents(settle(M, exist_pl(dog, bark))).plural == (barkers, dogs)
+@pytest.mark.parametrize("q", [exist, exist_pl, at_least(2), several, exactly(2)])
+def test_all_that_are_p_are_not_offered_after_a_number_of_them(M, q):
+    found = antecedents(settle(M, q(dog, bark)))
+    assert found.plural == (FiniteSet("f", "s"),)
+
+
+@pytest.mark.parametrize("q", [most, many, few, at_most(2)])
+def test_all_that_are_p_are_offered_after_a_share_and_what_falls(M, q):
+    found = antecedents(settle(M, q(dog, bark)))
+    assert FiniteSet("f", "r", "s") in found.plural
 
 
 def test_one_thing_is_picked_up_in_the_singular(M):

@@ -83,8 +83,9 @@ def _grammar(words: Lexicon) -> Lark:
     return Lark("\n".join([rules, *terminals]), parser="earley")
 
 
-_NEVER = "(?!)"
-"""A pattern that matches nothing, for a class without words."""
+_NEVER = r"(?!)\w"
+"""A pattern that matches nothing, for a class without words. It has a width, as Lark
+refuses patterns of none."""
 
 
 def _patterns(forms: Iterable[str]) -> list[str]:

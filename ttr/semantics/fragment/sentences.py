@@ -106,7 +106,10 @@ def _antecedents_of(found: Quantification) -> Iterator[Antecedent]:
     sets = antecedents(found)
     yield sets.refset
     yield from _things_brought_in([it.situation for it in found.refset])
-    yield from sets.accessible
+    if sets.offers_maxset:
+        yield sets.maxset
+    if sets.compset is not None:
+        yield sets.compset
 
 
 def _things_brought_in(situations: list[Object]) -> Iterator[Antecedent]:

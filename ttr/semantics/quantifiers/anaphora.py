@@ -16,26 +16,21 @@ class Antecedents:
 
     `refset` are those of P that are Q, `maxset` all of P, and `compset` those of P that
     are not Q. The last is there only after a quantifier that falls, as in "Few dogs
-    bark. They sleep instead.", where P is not empty. After a singular "some" nothing
-    is about all of P: `reaches_maxset` is false.
+    bark. They sleep instead.", where P is not empty. All of P are offered only if the
+    quantifier is about them, as "most dogs" is; "a dog" and "two dogs" are not.
     """
 
     refset: FiniteSet
     maxset: FiniteSet
     compset: FiniteSet | None
-    reaches_maxset: bool = True
-
-    @property
-    def accessible(self) -> tuple[FiniteSet, ...]:
-        """The sets that a pronoun can reach, what is most accessible first."""
-        maxset = (self.maxset,) if self.reaches_maxset else ()
-        compset = () if self.compset is None else (self.compset,)
-        return tuple(dict.fromkeys((self.refset, *maxset, *compset)))
+    offers_maxset: bool = True
 
     @property
     def plural(self) -> tuple[FiniteSet, ...]:
         """What "they" can stand for, what is most accessible first."""
-        return tuple([X for X in self.accessible if len(X) > 1])
+        maxset = self.maxset if self.offers_maxset else None
+        found = (self.refset, maxset, self.compset)
+        return tuple([X for X in dict.fromkeys(found) if X is not None and len(X) > 1])
 
     @property
     def singular(self) -> tuple[object, ...]:
@@ -56,9 +51,8 @@ def antecedents(found: Quantification) -> Antecedents:
     """
     falls = not any(one.is_lower_bound for one in found.asked)
     compset = _set_of(found.compset) if falls and found.compset else None
-    is_singular = determiner_of(found.type) == exist
-    sets = (_set_of(found.refset), _set_of(found.maxset), compset)
-    return Antecedents(*sets, reaches_maxset=not is_singular)
+    about_all = falls or all(one.unit == "share" for one in found.asked)
+    return Antecedents(_set_of(found.refset), _set_of(found.maxset), compset, about_all)
 
 
 def _set_of(cases: tuple[Case, ...]) -> FiniteSet:
