@@ -18,7 +18,10 @@ DETERMINERS = (
 )
 NOUNS = ("dog", "puppy", "boy")
 NAMES = ("Fido", "Kim")
-DOING = ("barks", "is brown", "does not bark", "hugs Kim", "hugs a boy", "hugs no dog")
+DOING = (
+    *("barks", "is brown", "does not bark", "hugs Kim", "hugs a boy", "hugs no dog"),
+    *("hugs every dog", "hugs most boys", "hugs a boy that Kim hugs"),
+)
 WITH = ("", " that barks", " that is not brown", " that hugs a boy", " that Kim hugs")
 
 subjects = st.one_of(

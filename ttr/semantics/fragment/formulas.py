@@ -7,7 +7,7 @@ not analysed (`OpaqueSentence`).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias, TypeGuard
 
@@ -16,7 +16,7 @@ from ttr.semantics.quantifiers import Thresholds, absent, determiner_of, number
 from ttr.semantics.quantifiers.determiners import properties, threshold_of
 from ttr.semantics.quantifiers.thresholds import Threshold
 from ttr.types.objects import Object
-from ttr.types.paths import free_paths
+from ttr.types.paths import free_paths, subterms
 from ttr.types.substitution import instantiate_body
 from ttr.types.syntax import Function, Join, PType, RecordType, Singleton, TypeNode
 
@@ -163,10 +163,11 @@ def content_formula(
     Names in `held` are not counted as things; a sentence about these alone is opaque.
     """
     if isinstance(T, PType) and determiner_of(T) is not None:
-        P, Q = map(property_formula, properties(T))
-        asked = threshold_of(T, thresholds)
-        some = [Count(P, P, AT_ALL)] if any(one.presupposes for one in asked) else []
-        return Conjunction((*[Count(P, Q, one) for one in asked], *some))
+        counts = _counts(T, thresholds)
+        names = [] if held else _names_in(properties(T))
+        if not names:
+            return counts
+        return AllOrNone((counts, *[_of_named(T, name) for name in names]))
     match T:
         case PType(pred, (TypeNode() as denied,)) if pred is absent:
             return Negated(content_formula(denied, thresholds, held))
@@ -183,6 +184,24 @@ def content_formula(
             if names:
                 return AllOrNone(tuple([_of_named(T, name) for name in names]))
     return OpaqueSentence(T)
+
+
+def _counts(T: PType, thresholds: Thresholds) -> Formula:
+    """A quantified sentence as counts of the things that have its properties."""
+    P, Q = map(property_formula, properties(T))
+    asked = threshold_of(T, thresholds)
+    some = [Count(P, P, AT_ALL)] if any(one.presupposes for one in asked) else []
+    return Conjunction((*[Count(P, Q, one) for one in asked], *some))
+
+
+def _names_in(found: Iterable[Object]) -> list[str]:
+    """The names of the things that some properties relate others to, each once.
+
+    "A boy that Kim likes" says something of Kim, too; being Kim says nothing of her.
+    """
+    ptypes = (part for part in subterms(found) if isinstance(part, PType))
+    args = (arg for T in ptypes for arg in T.args)
+    return list(dict.fromkeys(arg for arg in args if isinstance(arg, str)))
 
 
 def _of_named(T: TypeNode, name: str) -> Formula:
