@@ -6,13 +6,13 @@ found, with the place in the text and a way out where they are known.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ttr.aliases import former_names
 from ttr.escapes import columns, terminal_line, terminal_text
+from ttr.spelling import nearest_names
 
 __all__ = [
     "EndlessError",
@@ -194,7 +194,7 @@ def suggestion(name: str, known: Iterable[str]) -> str:
     >>> suggestion("zebra", ["hug", "dog"])
     ''
     """
-    near = difflib.get_close_matches(name, sorted(set(known)), n=1, cutoff=0.6)
+    near = nearest_names(name, known)
     return f"did you mean {near[0]}?" if near else ""
 
 

@@ -7,9 +7,10 @@ import os
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from ttr.spelling import nearest_names
 
 Key = tuple[str | int, ...]
 """The names that lead to a value, and the numbers of the tables in a list."""
@@ -182,9 +183,8 @@ def nearest_name(name: str, known: Collection[str], told: str) -> str:
     >>> nearest_name("NUONS", ["nouns", "relations"], "did you mean {}?")
     'did you mean nouns?'
     """
-    small = {one.casefold(): one for one in known}
-    found = get_close_matches(name.casefold(), list(small), n=1)
-    return told.format(small[found[0]]) if found else ""
+    found = nearest_names(name, known)
+    return told.format(found[0]) if found else ""
 
 
 def suggest_name(name: str, known: Collection[str]) -> str:

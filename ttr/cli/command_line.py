@@ -6,12 +6,12 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import re
 import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
+from ttr.errors import suggestion
 from ttr.escapes import terminal_line, terminal_text
 
 WRONG_USE = 2
@@ -73,8 +73,7 @@ def _unknown(word: str, parser: argparse.ArgumentParser) -> str:
 
 
 def _no_such(word: str, known: Sequence[str], otherwise: str) -> str:
-    near = difflib.get_close_matches(word, known, n=1)
-    return f"there is no {word}: {f'did you mean {near[0]}?' if near else otherwise}"
+    return f"there is no {word}: {suggestion(word, known) or otherwise}"
 
 
 class Version(argparse.Action):

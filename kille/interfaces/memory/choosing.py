@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Sequence
 
 from kille.memory import Lesson, MemoryReader, NoSuchLessonError
+from ttr.errors import suggestion
 
 _NUMBER = re.compile(r"#?([0-9]{1,18})")
 
@@ -43,6 +43,5 @@ def _no_lesson_line(place: str, wanted: str, lessons: Sequence[Lesson]) -> str:
             "kille memory show WORD lists the numbers of those in a word"
         )
     words = sorted({it.word.surface for it in lessons})
-    near = difflib.get_close_matches(wanted, words, n=1)
-    way_out = f"did you mean {near[0]}?" if near else "kille memory list tells all"
+    way_out = suggestion(wanted, words) or "kille memory list tells all"
     return f"nobody taught {wanted} in {place}: {way_out}"

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 from typing import Protocol as Shape
 
 from kille.lab.results import ExperimentError, Progress, Result
 from kille.lab.theories.candidates import Make, MethodFailedError, Methods
+from ttr.spelling import nearest_names
 
 
 class RunProtocol(Shape):
@@ -97,7 +97,7 @@ def choose_plans(
             f"the protocol {name} is for {known[name]}; "
             f"for this data there is {', '.join(here)}"
         )
-    near = get_close_matches(name, here, n=1) or get_close_matches(name, known, n=1)
+    near = nearest_names(name, here) or nearest_names(name, known)
     hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(here)}"
     raise ExperimentError(f"there is no protocol {name}: {hint}")
 
@@ -162,7 +162,7 @@ def _existing_folder(data: str) -> Path:
     if folder.exists():
         raise ExperimentError(f"{data} is no folder; expected {_KNOWN}")
     beside = folder.parent.iterdir() if folder.parent.is_dir() else ()
-    near = get_close_matches(folder.name, [it.name for it in beside], n=1)
+    near = nearest_names(folder.name, [it.name for it in beside])
     hint = f": did you mean {folder.parent / near[0]}?" if near else ""
     raise ExperimentError(f"there is no {data}{hint}")
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from difflib import get_close_matches
 from typing import Protocol
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from kille.perception.index.inverted_file import inverted_file
 from kille.perception.index.kd_trees import Trees
 from kille.perception.index.views import Descriptors, Rows
+from ttr.spelling import nearest_names
 
 
 class Search(Protocol):
@@ -40,6 +40,6 @@ def search_called(name: str) -> Maker:
     if name in SEARCHES:
         return SEARCHES[name]()
     known = ", ".join(SEARCHES)
-    near = get_close_matches(name, SEARCHES, 1)
+    near = nearest_names(name, SEARCHES)
     hint = f"; did you mean {near[0]}?" if near else ""
     raise ValueError(f"no search is called {name!r}: there are {known}{hint}")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Sequence
+
+from ttr.spelling import nearest_names
 
 
 def natural_order(name: str) -> list[tuple[int, str]]:
@@ -25,7 +26,7 @@ def suggest_name(name: str, known: Sequence[str]) -> str:
     >>> suggest_name("kitchn", ["kitchen", "desk"])
     ' (did you mean kitchen?)'
     """
-    close = difflib.get_close_matches(name, known, n=3, cutoff=0.6)
+    close = nearest_names(name, known, most=3)
     return f" (did you mean {' or '.join(close)}?)" if close else ""
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable, Mapping
 
 from kille.sensors.sensor import SensorError
+from ttr.spelling import nearest_names
 
 
 def simplify_name(name: str) -> str:
@@ -34,7 +34,7 @@ def recognise_name(
     ways |= {simplify_name(each): each for each in names}
     if simplify_name(name) in ways:
         return ways[simplify_name(name)]
-    near = difflib.get_close_matches(simplify_name(name), ways, n=1)
+    near = nearest_names(simplify_name(name), ways)
     hint = f" (did you mean {ways[near[0]]}?)" if near else ""
     raise SensorError(
         f"there is no {kind} '{name}'{hint}: known are {', '.join(names)}"

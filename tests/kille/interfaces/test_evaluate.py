@@ -140,7 +140,7 @@ WRONG = {
     ("photos", "--protocol", "shotz"): "did you mean shots?",
     ("photos", "--protocol", "paper"): "for this data there is even-odd, halves, shots",
     ("photos", "--method", "defualt"): "did you mean default?",
-    ("photos", "--method", "mine.py:Farest"): "mine.py has no Farest: did you mean",
+    ("photos", "--method", "mine.py:Neerest"): "mine.py has no Neerest: did you mean",
     ("photos", "--report", "empty"): "empty is a folder",
     ("photos", "--report", "no/a.html"): "there is no folder no",
     ("photos", "--report", "photos/lime/0.png"): "ends in .html",

@@ -54,7 +54,7 @@ class Speaker:
         written = repr(word) if isinstance(word, str) else in_notation(word)
         raise TTRError(
             f"{self.name} has no meaning of {written}",
-            hint=suggestion(written, self.meanings),
+            hint=suggestion(str(word), self.meanings),
         )
 
     def degrees(self, r: Record) -> dict[str, Degree]:
