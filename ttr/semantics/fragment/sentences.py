@@ -106,10 +106,7 @@ def _antecedents_of(found: Quantification) -> Iterator[Antecedent]:
     sets = antecedents(found)
     yield sets.refset
     yield from _things_brought_in([it.situation for it in found.refset])
-    if sets.offers_maxset:
-        yield sets.maxset
-    if sets.compset is not None:
-        yield sets.compset
+    yield from sets.accessible
 
 
 def _things_brought_in(situations: list[Object]) -> Iterator[Antecedent]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ttr.semantics.quantifiers.determiners import determiner_of, exist
 from ttr.semantics.quantifiers.extension_pairs import Case
 from ttr.semantics.quantifiers.quantified_propositions import Quantification
 from ttr.types.objects import FiniteSet
@@ -26,11 +25,16 @@ class Antecedents:
     offers_maxset: bool = True
 
     @property
+    def accessible(self) -> tuple[FiniteSet, ...]:
+        """The sets that a pronoun can reach, what is most accessible first."""
+        maxset = (self.maxset,) if self.offers_maxset else ()
+        compset = () if self.compset is None else (self.compset,)
+        return tuple(dict.fromkeys((self.refset, *maxset, *compset)))
+
+    @property
     def plural(self) -> tuple[FiniteSet, ...]:
         """What "they" can stand for, what is most accessible first."""
-        maxset = self.maxset if self.offers_maxset else None
-        found = (self.refset, maxset, self.compset)
-        return tuple([X for X in dict.fromkeys(found) if X is not None and len(X) > 1])
+        return tuple([X for X in self.accessible if len(X) > 1])
 
     @property
     def singular(self) -> tuple[object, ...]:
