@@ -28,7 +28,7 @@ from ttr.errors import IllFormedError, RefusedError, UndecidedError, Unsupported
 from ttr.judging.witnesses import candidates
 from ttr.probability import Degree
 from ttr.signature.signature import Axiom, Given, Signature
-from ttr.types import Application, FunType, NonEmpty, fst
+from ttr.types import Application, EventString, FunType, NonEmpty, fst
 from ttr.types.derived_types import star
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
@@ -67,6 +67,39 @@ def test_a_situation_of_a_ptype_may_be_a_record():
     assert M.judge(hugging, hug("a", "b")).holds is True
     assert M.judge(record(who="a", whom="c"), hug("a", "b")).holds is False
     assert M.witnesses(hug("a", "b")) == (hugging,)
+
+
+def test_a_record_has_every_label_and_there_what_is_of_its_type():
+    M, T = Model().given("a", A), rectype(x=A, y=A)
+    assert M.judge(record(x="a", y="a", z="b"), T).holds is True
+    assert M.judge(record(x="a"), T).holds is False
+    assert M.judge(record(x="a", y="b"), T).holds is False
+
+
+def test_each_element_of_a_list_is_of_its_type():
+    M = Model().given("a", A)
+    assert M.judge((), ListOf(A)).holds is True
+    assert M.judge(("a", "a"), ListOf(A)).holds is True
+    assert M.judge(("a", "b"), ListOf(A)).holds is False
+    assert M.judge((), NonEmpty(A)).holds is False
+    assert M.judge("a", ListOf(A)).holds is False
+
+
+def test_a_string_has_as_many_events_as_its_type():
+    M = Model().given("a", A).given("b", B)
+    assert M.judge(EventString("a", "b"), Str(A, B)).holds is True
+    for other in (EventString("a"), EventString("a", "b", "b"), EventString("b", "a")):
+        assert M.judge(other, Str(A, B)).holds is False
+    assert M.judge(EventString(), Plus(A)).holds is False
+    assert M.judge(EventString(), star(A)).holds is True
+
+
+def test_a_function_is_defined_for_all_of_its_domain():
+    same = fun(r=Dog)(this.r)
+    Thing = rectype(x=Ind)
+    assert Model().judge(same, Dog >> Thing).holds is True
+    assert Model().judge(same, Thing >> Thing).holds is False
+    assert Model().judge(fun(r=Thing)(this.r), Dog >> Thing).holds is True
 
 
 def test_every_record_and_nothing_else_is_of_rec():

@@ -89,6 +89,7 @@ def test_meanings_are_compared_as_records(to_the_right):
 
 def test_an_asymmetric_merge_can_say_that_it_was_learned(to_the_right):
     learned = to_the_right.rejected(at(0.9, 0.1))
+    assert learned.params != to_the_right.params
     change = record(params=learned.params)
     assert replace(to_the_right.record, params=learned.params) == learned.record
     fields = {label: Basic("Any") @ value for label, value in _items(to_the_right)}
