@@ -1,11 +1,16 @@
 """Laws of probability: degrees of judgements, whatever depends on what."""
 
+from itertools import combinations, permutations, product
+from math import prod
+
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from scipy.optimize import linprog
 
-from ttr import Basic, Model, join, meet, subtype
+from ttr import Basic, Ind, Model, Pred, join, meet, rectype, subtype, this
 from ttr.errors import RefusedError
+from ttr.semantics.quantifiers import truth
 from ttr.semantics.random_variables import RandomVariable
 from ttr.signature.signature import Axiom, Exclusion, Signature
 
@@ -147,6 +152,124 @@ def test_the_complement_under_a_condition(M, S, T):
         assume(False)
     q = M.judge("a", ~T, when=[("a", S)]).p
     assert q == pytest.approx((1 - p.hi, 1 - p.lo))
+
+
+# --- what there is no end of ---------------------------------------------------------
+
+q = Pred("q", Ind)
+DENIED = rectype(w=Ind, g=~q(this.w))
+judgements = st.dictionaries(
+    st.sampled_from([(x, T) for x in "ab" for T in (Ind, q("a"), q("b"))]),
+    st.sampled_from([0, 0.3, 0.8, 1]),
+    max_size=5,
+)
+
+
+def worlds(told):
+    """The ways in which what was told may be, each with its probability."""
+    for so in product((True, False), repeat=len(told)):
+        world = dict(zip(told, so, strict=True))
+        yield world, prod(p if world[key] else 1 - p for key, p in told.items())
+
+
+def least_probability(told):
+    """How probable it surely is that some w is an Ind and something is not of q(w).
+
+    What nobody told of may be of q, if q is open: if some degree of it is between.
+    """
+    is_open = any(T is not Ind and 0 < p < 1 for (_, T), p in told.items())
+    total = 0
+    for world, p in worlds(told):
+        total += p * any(
+            world.get((w, Ind), False)
+            and (
+                not is_open or any(world.get((g, q(w))) is False for g in (*"ab", "()"))
+            )
+            for w in "ab"
+        )
+    return total
+
+
+@given(judgements)
+def test_a_denial_is_as_probable_as_its_known_witnesses_make_it(told):
+    M = Model()
+    for (x, T), p in told.items():
+        M = M.given(x, T, p)
+    found = M.true(DENIED)
+    assert found.lo == pytest.approx(least_probability(told))
+    some = 1 - prod(1 - told.get((x, Ind), 0) for x in "ab")
+    is_open = any(T is Ind and 0 < p < 1 for (_, T), p in told.items())
+    assert found.hi == pytest.approx(1 if is_open else some)
+    assert truth(M, DENIED).p.lo <= least_probability(told) + SLACK
+
+
+# --- conditions of any form ----------------------------------------------------------
+
+THREE = ATOMS[:3]
+WORLDS = [frozenset(so) for n in range(4) for so in combinations(THREE, n)]
+events = st.recursive(
+    st.sampled_from(THREE),
+    lambda inner: st.one_of(
+        inner.map(lambda T: ~T),
+        st.lists(inner, min_size=2, max_size=2).map(lambda parts: meet(*parts)),
+        st.lists(inner, min_size=2, max_size=2).map(lambda parts: join(*parts)),
+    ),
+    max_leaves=3,
+)
+
+
+@st.composite
+def linked_judgements(draw):
+    """A model of what is said of a distribution over worlds, and rows that say it.
+
+    Each row is a linear demand on the weights of the worlds: it adds up to 0.
+    """
+    weights = draw(st.lists(st.integers(1, 6), min_size=8, max_size=8))
+    M = Model(Signature(opened=frozenset(THREE)))
+    M = M.with_unknown_dependence(*[("a", T) for T in THREE])
+    rows = []
+    for T in draw(st.sets(st.sampled_from(THREE), max_size=2)):
+        p = sum(w for w, so in zip(weights, WORLDS, strict=True) if T in so)
+        M = M.given("a", T, p / sum(weights))
+        rows.append([(T in so) - p / sum(weights) for so in WORLDS])
+    for T, S in draw(st.sets(st.sampled_from([*permutations(THREE, 2)]), max_size=2)):
+        both = sum(w for w, so in zip(weights, WORLDS, strict=True) if {S, T} <= so)
+        whole = sum(w for w, so in zip(weights, WORLDS, strict=True) if S in so)
+        M = M.given("a", T, both / whole, when=[("a", S)])
+        rows.append([(S in so) * ((T in so) - both / whole) for so in WORLDS])
+    return M, rows
+
+
+def bounds_by_enumeration(rows, T, conditions):
+    """The least and greatest p(T | conditions) over all weights that meet the rows.
+
+    A linear program over the worlds, scaled so that the conditions have probability 1.
+    """
+    given = [int(all(is_so(S, so) for S in conditions)) for so in WORLDS]
+    event = [g * is_so(T, so) for g, so in zip(given, WORLDS, strict=True)]
+    equations, sums = [*rows, given], [0] * len(rows) + [1]
+    least, most = (
+        linprog([sign * x for x in event], A_eq=equations, b_eq=sums).fun
+        for sign in (1, -1)
+    )
+    return least, -most
+
+
+@given(linked_judgements(), events, st.lists(events, min_size=1, max_size=2))
+def test_a_conditional_degree_is_what_the_worlds_leave(known, T, conditions):
+    M, rows = known
+    assume(any(all(is_so(S, so) for S in conditions) for so in WORLDS))
+    p = M.judge("a", T, when=[("a", S) for S in conditions]).p
+    assert p == pytest.approx(bounds_by_enumeration(rows, T, conditions), abs=1e-6)
+
+
+@given(models(), types, st.sampled_from(ATOMS), types)
+def test_a_condition_that_follows_from_another_adds_nothing(M, T, A, S):
+    try:
+        once = M.judge("a", T, when=[("a", A)]).p
+    except RefusedError:
+        assume(False)
+    assert M.judge("a", T, when=[("a", A), ("a", A | S)]).p == pytest.approx(once)
 
 
 def told_in(order, theory):

@@ -24,6 +24,7 @@ from ttr.probability import (
     Not,
     feasible,
 )
+from ttr.safety.budgets import spend
 from ttr.signature.axioms import find_exclusion, head, supertype_set
 from ttr.signature.signature import Signature
 from ttr.types.interning import identity
@@ -169,15 +170,26 @@ def _follow_links(facts: Assignment, claims: Iterable[Claim]) -> _LinkedClaims:
 def _is_informative(facts: Assignment, claim: Claim) -> bool:
     """Does a claim tell anything about the claims that it is conditioned on?
 
-    In a network a claim of which nothing else is known does not. There all conditionals
-    of a claim have the same conditions, and no axiom is about it.
+    In a network a claim does not of which nothing else is known, nor of what is
+    conditioned on it. There all conditionals of a claim have the same conditions, and
+    no axiom is about it.
     """
-    if facts.degree_of(claim.sit, claim.type)[0] != UNKNOWN:
-        return True
-    parents = [
-        frozenset(on.key for on, _ in one.condition) for one in facts.links.of(claim)
-    ]
-    return len(set(parents)) > 1 or head(claim.type) in facts.theory.axiom_heads
+    waiting, seen = [claim], {claim.key}
+    while waiting:
+        spend()
+        one = waiting.pop()
+        if facts.degree_of(one.sit, one.type)[0] != UNKNOWN:
+            return True
+        parents = [
+            frozenset(on.key for on, _ in said.condition)
+            for said in facts.links.of(one)
+        ]
+        if len(set(parents)) > 1 or head(one.type) in facts.theory.axiom_heads:
+            return True
+        further = [other for other in facts.links.on(one) if other.key not in seen]
+        seen.update(other.key for other in further)
+        waiting += further
+    return False
 
 
 # --- what axioms link ---

@@ -36,7 +36,7 @@ from ttr.judging.judgements import Judgement, Why
 from ttr.judging.perception import fill_fields
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.judging.truth_of_types import Range, probability_of_any, probability_of_some
-from ttr.judging.witnesses import witnesses
+from ttr.judging.witnesses import EMPTY, can_be_listed, witnesses
 from ttr.persistent_maps import Map
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
 from ttr.safety.budgets import (
@@ -47,7 +47,7 @@ from ttr.safety.budgets import (
 )
 from ttr.signature.signature import Expected, Given, Signature
 from ttr.types.interning import identity
-from ttr.types.objects import EventString, FiniteSet, Object, Record, freeze
+from ttr.types.objects import Object, Record, freeze
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import (
@@ -62,9 +62,6 @@ from ttr.types.syntax import (
     as_type,
     kind_of,
 )
-
-_EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
-"""The empty list, set and string, which are witnesses without any fact."""
 
 Conditions: TypeAlias = Iterable[tuple[object, TypeNode]]
 """Judgements: an object and a type each."""
@@ -412,6 +409,9 @@ class Model:
         _, T = _check_closed((), proposition)
         given = None if when is None else _check_closed((), when)[1]
         objects = None if among is None else _objects(among)
+        is_listed = objects is not None or can_be_listed(T)
+        if not is_listed and self._has_unlisted_witness(T):
+            return CERTAIN
         try:
             return probability_of_some(self._facts, T, given, objects)
         except UnsupportedError:
@@ -468,7 +468,7 @@ class Model:
         """
         if isinstance(T, NonEmpty | Plus):
             return self.true(T.item) == CERTAIN
-        if any(self._is_certain(sit, T) for sit in _EMPTY):
+        if any(self._is_certain(sit, T) for sit in EMPTY):
             return True
         try:
             sit, _ = create_witness(self._facts, T)

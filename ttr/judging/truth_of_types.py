@@ -21,7 +21,13 @@ from ttr.judging.degrees_of_claims import probability_of
 from ttr.judging.dependence_analysis import dependence
 from ttr.judging.evaluator import claims_of, derivation
 from ttr.judging.judgements import Why
-from ttr.judging.witnesses import candidates, witnesses
+from ttr.judging.witnesses import (
+    can_be_listed,
+    candidates,
+    listed_type,
+    some_candidates,
+    witnesses,
+)
 from ttr.probability import (
     CERTAIN,
     REFUTED,
@@ -102,15 +108,18 @@ def probability_of_some(
 ) -> Degree:
     """p(T), or p(T | S): how probable it is that something is of T.
 
-    If T is closed, this is one of the known objects; if T is open, there may be others.
-    With `among` it is one of these objects. Raises `RefusedError` where nothing can be
-    of S.
+    If T is closed, this is one of the known objects; if T is open, there may be others,
+    and also where there is no end of what may be of it, as with negations. With `among`
+    it is one of these objects. Raises `RefusedError` where nothing can be of S.
     """
     if when is not None and subtype(when, T, facts.theory).yes:
         return CERTAIN
     objects = None if among is None else list(among)
-    if when is None and objects is None and next(witnesses(facts, T), None) is not None:
-        return CERTAIN
+    is_listed = can_be_listed(T)
+    if when is None and objects is None and is_listed:
+        known = next(witnesses(facts, T), None)
+        if known is not None:
+            return CERTAIN
     whys, event = _some_event(facts, T, objects)
     more, given = _some_event(facts, when, objects) if when is not None else ([], None)
     known = dependence(facts, claims_of([*whys, *more]))
@@ -120,17 +129,27 @@ def probability_of_some(
         raise RefusedError(
             f"nothing is of {when}, so nothing follows from it"
         ) from None
-    return found.p
+    if objects is not None or is_listed:
+        return found.p
+    return Degree(found.p.lo, min(found.p.hi, _most_probable(facts, T, when)))
+
+
+def _most_probable(facts: Assignment, T: TypeNode, when: TypeNode | None) -> float:
+    """How probable T is at most, as far as what can be listed of it goes."""
+    above = listed_type(T)
+    return 1.0 if above is None else probability_of_some(facts, above, when).hi
 
 
 def _some_event(
     facts: Assignment, T: TypeNode, among: Sequence[Object] | None
 ) -> tuple[list[Why], Event]:
     """The event that something is of T, with a derivation for each object."""
-    objects = candidates(facts, T) if among is None else iter(among)
+    is_listed = among is not None or can_be_listed(T)
+    listing = candidates if is_listed else some_candidates
+    objects = listing(facts, T) if among is None else iter(among)
     whys = [derivation(facts, sit, T) for sit in islice(objects, TRIED)]
     events = [why.event() for why in whys if why.p != REFUTED]
     more = next(objects, None) is not None
-    if more or (among is None and facts.leaves_open(T)):
+    if more or not is_listed or (among is None and facts.leaves_open(T)):
         events.append(Atomic(("another object", T), UNKNOWN))
     return whys, AnyOf(tuple(events))

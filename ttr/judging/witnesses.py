@@ -15,20 +15,33 @@ from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import derivation, reduce_applications
 from ttr.probability import Degree
 from ttr.safety.budgets import spend
+from ttr.types.derived_types import order_fields
 from ttr.types.interning import identity
-from ttr.types.objects import Object, Record, UnresolvedError
+from ttr.types.objects import (
+    EventString,
+    FiniteSet,
+    Object,
+    Record,
+    UnresolvedError,
+)
+from ttr.types.paths import labels_mentioned
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Application,
     Basic,
     Join,
     Meet,
+    NonEmpty,
+    Plus,
     PType,
     RecordType,
     Singleton,
     Str,
     TypeNode,
 )
+
+EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
+"""The empty list, set and string, which are witnesses without any fact."""
 
 
 def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
@@ -43,6 +56,38 @@ def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
 def candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
     """The known objects that are of T with a degree above 0, as by `witnesses`."""
     yield from _Listing(facts, 0.0).of(T)
+
+
+def some_candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
+    """The same, but of types of which there is no end those that come to mind.
+
+    They are the objects that facts are about and what is empty; lists of one element.
+    """
+    yield from _Listing(facts, 0.0, is_partial=True).of(T)
+
+
+def listed_type(T: TypeNode) -> TypeNode | None:
+    """A type that can be listed, and of which something is if something is of T.
+
+    >>> from ttr import Ind, ListOf, rectype
+    >>> print(listed_type(rectype(x=Ind, y=ListOf(Ind))))
+    [x : Ind]
+    """
+    match T:
+        case NonEmpty(item) | Plus(item) if can_be_listed(item):
+            return item
+        case Meet(parts):
+            return next(filter(None, map(listed_type, parts)), None)
+        case RecordType(fields):
+            kept: dict[str, TypeNode] = {}
+            needed = {label for _, field in fields for label in labels_mentioned(field)}
+            for label, field in fields:
+                found = listed_type(field)
+                whole = found is field or label not in needed
+                if found is not None and whole and labels_mentioned(field) <= set(kept):
+                    kept[label] = found
+            return RecordType(order_fields(kept))
+    return T if can_be_listed(T) else None
 
 
 def can_be_listed(T: TypeNode) -> bool:
@@ -70,10 +115,14 @@ def can_be_listed(T: TypeNode) -> bool:
 
 @dataclass(frozen=True)
 class _Listing:
-    """Lists what is of a type with a degree above 0 that is at least `least`."""
+    """Lists what is of a type with a degree above 0 that is at least `least`.
+
+    If it is partial, it lists some objects of types of which there is no end.
+    """
 
     facts: Assignment
     least: float
+    is_partial: bool = False
 
     def of(self, T: TypeNode) -> Iterator[Object]:
         spend()
@@ -99,6 +148,12 @@ class _Listing:
                 yield from map(Record, self._fillings(T))
             case Application():
                 yield from self._of_application(T)
+            case NonEmpty(item) if self.is_partial:
+                yield from ((sit,) for sit in self.of(item))
+            case _ if self.is_partial:
+                for sit in (*self.facts.objects(), *EMPTY):
+                    if self._is_of(sit, T):
+                        yield sit
             case _:
                 raise UnsupportedError(
                     f"what is of {T} cannot be listed, as there may be no end of it",

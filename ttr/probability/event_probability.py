@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from typing import NamedTuple, TypeAlias
 
 from ttr.probability.degrees import (
@@ -15,6 +16,7 @@ from ttr.probability.degrees import (
 )
 from ttr.probability.dependence import INDEPENDENT, Component, Dependence
 from ttr.probability.events import (
+    NEVER,
     SURE,
     All,
     AnyOf,
@@ -75,10 +77,64 @@ def chance(
         found = sum_over_cases(event)
         if found is not None:
             return Chance(found, True)
-    condition = literals(given)
-    if condition is None:
-        return _quotient(event, known, given)
-    return _Solving(known, condition).of(event, given)
+    sure, others = _divide(given)
+    others = _relevant(event, sure, others, known)
+    truth = literals(sure) or {}
+    if all(len(_keys(one, known)) == 1 and _is_linked(one, known) for one in others):
+        with suppress(_TooManyCasesError):
+            return _Solving(known, truth, others).of(event)
+    return _quotient(event, known, sure, All(tuple(others)))
+
+
+class _TooManyCasesError(Exception):
+    """A condition with more cases than can be distinguished."""
+
+
+def _divide(given: Event) -> tuple[Event, list[Event]]:
+    """The conjunction of literals that a condition needs, and what else it needs.
+
+    What the literals decide is left out, so that A and (A or B) is A alone. Raises
+    `ImpossibleError` where they contradict one another.
+    """
+    truth: dict[Hashable, bool] = {}
+    sure: list[Event] = []
+    waiting, others = [given], list[Event]()
+    while waiting:
+        spend()
+        one = simplify(waiting.pop(), truth)
+        found = literals(one)
+        if one == NEVER:
+            raise ImpossibleError
+        if found:
+            truth.update(found)
+            sure.append(one)
+            waiting, others = waiting + others, []
+        elif found is None and isinstance(one, All):
+            waiting += one.parts
+        elif found is None:
+            others.append(one)
+    return All(tuple(sure)), others
+
+
+def _relevant(
+    event: Event, sure: Event, others: list[Event], known: Dependence
+) -> list[Event]:
+    """Those of some conditions that bear on an event, directly or by one another.
+
+    Raises `ImpossibleError` where the rest cannot be.
+    """
+    keys, kept, left = _keys(event, known), list[Event](), others
+    while met := [one for one in left if not keys.isdisjoint(_keys(one, known))]:
+        keys = keys.union(*[_keys(one, known) for one in met])
+        kept += met
+        left = [one for one in left if one not in met]
+    if left and chance(All(tuple(left)), known, sure).p.hi == 0.0:
+        raise ImpossibleError
+    return kept
+
+
+def _is_linked(event: Event, known: Dependence) -> bool:
+    return all(one.atom in known.place for one in atoms(event))
 
 
 def are_apart(events: Sequence[Event], known: Dependence = INDEPENDENT) -> bool:
@@ -97,14 +153,13 @@ def _keys(event: Event, known: Dependence) -> set[Hashable]:
     return {known.place.get(one.atom, one.atom) for one in atoms(event)}
 
 
-def _quotient(event: Event, known: Dependence, given: Event) -> Chance:
-    """p(E ∧ C) / (p(E ∧ C) + p(¬E ∧ C)), for a condition that is no conjunction."""
-    if are_apart((event, given), known):
-        if chance(given, known).p.hi == 0.0:
-            raise ImpossibleError
-        return chance(event, known)
-    both = chance(All((event, given)), known)
-    only = chance(All((Not(event), given)), known)
+def _quotient(event: Event, known: Dependence, sure: Event, rest: Event) -> Chance:
+    """p(E ∧ C) / (p(E ∧ C) + p(¬E ∧ C)), each given what is sure.
+
+    It is for a condition C that is about several components.
+    """
+    both = chance(All((event, rest)), known, sure)
+    only = chance(All((Not(event), rest)), known, sure)
     p = share(both.p, only.p)
     if p is None:
         raise ImpossibleError
@@ -140,20 +195,27 @@ def _conjoin(component: Component, event: Event, given: Truth) -> Degree | None:
 class _Solving:
     """Divides an event into independent parts, and linked parts into worlds."""
 
-    def __init__(self, known: Dependence, condition: Truth) -> None:
+    def __init__(
+        self, known: Dependence, condition: Truth, others: Sequence[Event] = ()
+    ) -> None:
         self._known, self._condition = known, condition
+        self._others: dict[int, list[Event]] = {}
+        for one in others:
+            number = next(known.place[it.atom] for it in atoms(one))
+            self._others.setdefault(number, []).append(one)
         self._exact = True
         self._rests_on: dict[int, None] = {}
         self._branches = 1
 
-    def of(self, event: Event, given: Event) -> Chance:
-        """The probability of an event under the condition, which is `given`."""
+    def of(self, event: Event) -> Chance:
+        """The probability of an event under the condition."""
         place = self._known.place
         free = {a: so for a, so in self._condition.items() if a not in place}
-        if simplify(given, {}) == AnyOf(()):
-            raise ImpossibleError
-        for number in dict.fromkeys(place[a] for a in self._condition if a in place):
-            self._in_cases(number, SURE)
+        mine = [place[a] for a in self._condition if a in place]
+        for number in dict.fromkeys((*mine, *self._others)):
+            whole = self._in_cases(number, SURE)
+            if whole is None and number in self._others:
+                raise _TooManyCasesError
         self._rests_on.clear()
         p = self._solve(simplify(event, free))
         found = tuple([self._known.components[number] for number in self._rests_on])
@@ -200,11 +262,13 @@ class _Solving:
         spend()
         component = self._known.components[number]
         mine = {a: so for a, so in self._condition.items() if a in component.degrees}
-        conjoined = _conjoin(component, event, mine)
+        others = self._others.get(number, [])
+        conjoined = None if others else _conjoin(component, event, mine)
         if conjoined is not None:
             self._rests_on[number] = None
             return conjoined
-        asked = (one.atom for one in atoms(event) if one.atom in component.degrees)
+        every = (one for part in (event, *others) for one in atoms(part))
+        asked = (one.atom for one in every if one.atom in component.degrees)
         joint = _joint(component, tuple(dict.fromkeys((*mine, *asked))))
         branches = self._branches
         if joint is None or branches * len(joint.cases) > BRANCHES:
@@ -216,7 +280,7 @@ class _Solving:
         wide = any(p.lo < p.hi for p in worth)
         self._exact = self._exact and joint.exact and not (wide and branches > 1)
         try:
-            return joint.share(worth, mine)
+            return joint.share(worth, mine, others)
         except InfeasibleError:
             raise ContradictionError(component) from None
 
@@ -236,6 +300,7 @@ class _Solving:
         """Bounds that hold for any dependence; unknown under a condition on it."""
         self._exact = False
         given = {self._known.place.get(a, a) for a in self._condition}
+        given.update(self._others)
         return bounds(event) if given.isdisjoint(_keys(event, self._known)) else UNKNOWN
 
 

@@ -6,7 +6,7 @@ atoms by `All`, `AnyOf` and `Not`.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -143,6 +143,18 @@ def substitute(event: Event, by: Mapping[Hashable, Event]) -> Event:
             return Not(substitute(part, by))
         case All(parts) | AnyOf(parts):
             return type(event)(tuple([substitute(part, by) for part in parts]))
+
+
+def meets(case: Truth, given: Truth, others: Sequence[Event] = ()) -> bool:
+    """Does a case agree with what is given, and do the other events happen in it?
+
+    >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
+    >>> meets({"a": True, "b": False}, {"a": True}, [AnyOf((a, b)), Not(b)])
+    True
+    """
+    return all(case[atom] == so for atom, so in given.items()) and all(
+        simplify(one, case) == SURE for one in others
+    )
 
 
 def literals(event: Event) -> dict[Hashable, bool] | None:

@@ -22,7 +22,7 @@ from ttr.probability.degrees import (
     order_ends,
 )
 from ttr.probability.dependence import Component
-from ttr.probability.events import Truth
+from ttr.probability.events import Event, Truth, meets
 from ttr.probability.linear_programs import scale_to_integers
 from ttr.safety.budgets import spend
 
@@ -58,12 +58,15 @@ class Network:
     weights: Sequence[Sequence[int]]
     exact: bool = True
 
-    def share(self, worth: Sequence[Degree], given: Truth) -> Degree:
+    def share(
+        self, worth: Sequence[Degree], given: Truth, others: Sequence[Event] = ()
+    ) -> Degree:
         """How probable an event is of which we have the worth in each case.
 
-        `given` is what is so for sure. Raises `ImpossibleError` where that cannot be.
+        What is `given` is so for sure, and so are the other events. Raises
+        `ImpossibleError` where that cannot be.
         """
-        inside = [all(case[a] == so for a, so in given.items()) for case in self.cases]
+        inside = [meets(case, given, others) for case in self.cases]
         ends, unit = scale_to_integers([x for p in worth for x in p])
         lows, highs = [], []
         for weights in self.weights:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from ttr.probability.degrees import Degree, order_ends
 from ttr.probability.dependence import Component
-from ttr.probability.events import Truth
+from ttr.probability.events import Event, Truth, meets
 from ttr.probability.linear_programs import (
     InfeasibleError,
     Row,
@@ -38,15 +38,16 @@ class Polytope:
     cases: Sequence[Truth]
     exact: bool
 
-    def share(self, worth: Sequence[Degree], given: Truth) -> Degree:
+    def share(
+        self, worth: Sequence[Degree], given: Truth, others: Sequence[Event] = ()
+    ) -> Degree:
         """The bounds of p(E | given), where `worth` has p(E | world) for each world.
 
-        Raises `ImpossibleError` where what is given cannot be, and `InfeasibleError`
-        where the degrees of the component contradict one another.
+        The other events are given, too. Raises `ImpossibleError` where what is given
+        cannot be, and `InfeasibleError` where the degrees of the component contradict
+        one another.
         """
-        inside = [
-            int(all(case[a] == so for a, so in given.items())) for case in self.cases
-        ]
+        inside = [int(meets(case, given, others)) for case in self.cases]
         rows = list(_rows(self.component, self.cases))
         ends, unit = scale_to_integers([x for p in worth for x in p])
         low = [x * one for x, one in zip(ends[::2], inside, strict=True)]

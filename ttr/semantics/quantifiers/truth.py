@@ -13,7 +13,7 @@ from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.hooks import hook
 from ttr.judging.judgements import Why
 from ttr.judging.models import Model, as_model
-from ttr.judging.witnesses import candidates
+from ttr.judging.witnesses import can_be_listed, candidates, some_candidates
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.probability.degrees import degree_of_negation
 from ttr.safety.budgets import spend, within_budget
@@ -142,7 +142,11 @@ class _Truths:
         """The ways to fill the fields with known objects, without recursion."""
         paths = [path for _, S in T.fields for path in free_paths(S)]
         needed = {path.labels[0] for path in paths if path.up == 0}
-        needed |= {label for label, S in T.fields if not isinstance(S, PType)}
+        needed |= {
+            label
+            for label, S in T.fields
+            if not isinstance(S, PType) and can_be_listed(S)
+        }
         waiting: list[Iterator[list[tuple[str, Truth]]]] = [iter(([],))]
         while waiting:
             way = next(waiting[-1], None)
@@ -196,15 +200,24 @@ class _Truths:
 
     def _other(self, T: TypeNode) -> Truth:
         """Any other type is true as the model says."""
-        found = next(
-            (sit for sit, p in known_objects(self._M, T) if p == CERTAIN), None
-        )
+        known = known_objects(self._M, T) if can_be_listed(T) else []
+        found = next((sit for sit, p in known if p == CERTAIN), None)
         if found is not None:
             return truth_of_derivation(self._M, self._M.judge(found, T).why)
         p = self._M.true(T)
+        if p not in (CERTAIN, REFUTED) and not can_be_listed(T):
+            return self._of_unlisted(T)
         return Truth(
             p, Why(Missing(), T, p, "as far as is known"), own_atoms(self._M, p, T)
         )
+
+    def _of_unlisted(self, T: TypeNode) -> Truth:
+        """What there is no end of is at least as certain as what is known of it."""
+        known = some_candidates(self._M.facts, T)
+        grounds = [truth_of_judgement(self._M, sit, T) for sit in known]
+        found = one_true(T, grounds, "one of these is of it")
+        p = Degree(found.p.lo, 1.0)
+        return Truth(p, found.why, found.atoms | own_atoms(self._M, p, T))
 
 
 # --- what the model has been told ----------------------------------------------------
