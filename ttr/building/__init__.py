@@ -1,7 +1,8 @@
 """Types made of types: well-formed record and function types, merge, relabelling.
 
 Read `constructors` and `well_formedness` (when is a type well-formed?), then `merging`;
-each of the others does one thing to given types. May import: computing and
+each of the others does one thing to given types, and `relabelled_subtyping` asks
+whether one is below another with other labels. May import: computing and
 all below it.
 """
 
@@ -10,12 +11,17 @@ from ttr.building.flattening import flatten, unflatten
 from ttr.building.function_domains import fix, restrict
 from ttr.building.generalisation import common_supertype
 from ttr.building.merging import amerge, merge
+from ttr.building.relabelled_subtyping import (
+    RelabelledAnswer,
+    subtype_up_to_relabelling,
+)
 from ttr.building.relabelling import relabel
 from ttr.building.subtraction import subtract
 from ttr.building.well_formedness import wellformed
 
 __all__ = [
     "Pi",
+    "RelabelledAnswer",
     "amerge",
     "common_supertype",
     "fix",
@@ -26,6 +32,7 @@ __all__ = [
     "relabel",
     "restrict",
     "subtract",
+    "subtype_up_to_relabelling",
     "unflatten",
     "wellformed",
 ]

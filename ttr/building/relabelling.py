@@ -252,7 +252,7 @@ def _check_renaming(
         return
     inside: dict[str, list[Object]] = {}
     for kind in kinds:
-        for label, of in _fields(kind):
+        for label, of in nested_fields(kind):
             inside.setdefault(label, []).append(of)
     _check_labels(inside, renaming, where)
     for label, kinds in inside.items():
@@ -280,7 +280,7 @@ def _check_labels(labels: Iterable[str], renaming: _Renaming, where: Address) ->
             )
 
 
-def _fields(T: Object) -> Iterator[tuple[str, Object]]:
+def nested_fields(T: Object) -> Iterator[tuple[str, Object]]:
     """The fields of a type, of its parts, and of the value it is restricted to."""
     spend()
     match T:
@@ -289,10 +289,10 @@ def _fields(T: Object) -> Iterator[tuple[str, Object]]:
         case Record():
             yield from T._fields.items()
         case Singleton(base, value):
-            yield from _fields(base)
-            yield from _fields(value)
+            yield from nested_fields(base)
+            yield from nested_fields(value)
         case Meet(parts) | Join(parts):
             for part in parts:
-                yield from _fields(part)
+                yield from nested_fields(part)
         case Negation(body):
-            yield from _fields(body)
+            yield from nested_fields(body)

@@ -553,6 +553,30 @@ class Prover:
                 return found
         return YES
 
+    def labels_of(self, term: Object) -> tuple[str, ...]:
+        """The labels that a term surely has, each once.
+
+        >>> from ttr import Ind, rectype
+        >>> Prover.for_type(rectype(x=Ind, y=Ind), Signature()).labels_of(ITSELF)
+        ('x', 'y')
+        """
+        term = self._apply_functions(self.witness.normalise(term))
+        if isinstance(term, Record):
+            return tuple(term)
+        known = [R for R in self._types_of(term) if isinstance(R, RecordType)]
+        return tuple(dict.fromkeys(label for R in known for label in R))
+
+    def atoms_of(self, term: Object) -> list[Basic | PType] | None:
+        """The types known of a place, if each is a basic type or a ptype; else None.
+
+        Then without axioms it is surely of these atoms, and of no other.
+        """
+        term = self.witness.normalise(term)
+        known = self._types_of(term)
+        atoms = [T for T in known if isinstance(T, Basic | PType)]
+        simple = isinstance(term, Path | str) and len(atoms) == len(known)
+        return atoms if simple else None
+
     # --- what is known, in words ---
 
     def _types_of(self, term: Object) -> list[TypeNode]:

@@ -205,14 +205,18 @@ def _refute(prover: Prover, T: TypeNode, found: Finding, written: TypeNode) -> A
     S = prover.S
     refutation = Refutation(S, T, prover.theory, found.assumed, written)
     answer = Answer("no", lambda: found.why, refutation)
-    certain = prover.witness.is_certain
-    if certain and _is_plain(S) and _is_plain(T) and has_fields_in_order(S):
+    if is_decided(prover, T) or answer.counter is not None:
         return answer
-    if answer.counter is not None:
-        return answer
-    if certain:
+    if prover.witness.is_certain:
         return Answer("unknown", lambda: found.why)
     return Answer("unknown", lambda: f"{found.why}, but nothing may be of {S}")
+
+
+def is_decided(prover: Prover, T: TypeNode) -> bool:
+    """Is what the prover does not derive of a witness and T surely refuted?"""
+    S = prover.S
+    plain = prover.witness.is_certain and _is_plain(S) and _is_plain(T)
+    return plain and has_fields_in_order(S)
 
 
 _TYPES = (Basic, PType, Singleton, Meet, ListOf, RecordType, Universe)

@@ -137,7 +137,7 @@ class _Parser(TermParser):
         return self._node(trees.Question, start, expected, self._query())
 
     def _query(self) -> trees.Query:
-        """T : T, T <= T, T = T, T, or a probability."""
+        """T : T, T <= T ‹up to relabelling›, T = T, T, or a probability."""
         start = self._at
         left = self._term_or_probability()
         if not isinstance(left, Term):
@@ -150,8 +150,17 @@ class _Parser(TermParser):
         self._note_expected("<=")
         if self._accept_match(_SUBTYPE):
             right = self._term("a type")
-            return self._node(trees.Comparison, start, "<=", left, right)
+            relation = "<= up to relabelling" if self._is_relabelled() else "<="
+            return self._node(trees.Comparison, start, relation, left, right)
         return self._node(trees.Claim, start, left)
+
+    def _is_relabelled(self) -> bool:
+        """Do the words `up to relabelling` follow? If so, take them."""
+        if not self._accept_word("up", "up to relabelling"):
+            return False
+        self._expect_word("to")
+        self._expect_word("relabelling")
+        return True
 
     def _rule(self, start: int) -> Statement:
         """rule x(x : T ‹in T›, …) ‹"text"› ‹of x› ‹where [field, …]› := T."""

@@ -350,7 +350,7 @@ class Judged(Query):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Comparison(Query):
-    """S <= T or S = T; `relation` is "<=" or "="."""
+    """S <= T or S = T; `relation` is "<=", "<= up to relabelling" or "="."""
 
     relation: str
     left: Term

@@ -15,6 +15,7 @@ from ttr.theories.queries import (
     Expects,
     HasDegree,
     IsBelow,
+    IsBelowRelabelled,
     IsOf,
     IsSame,
     IsTrue,
@@ -58,6 +59,8 @@ class CheckReader:
                 return IsOf(read(sit), kind(T))
             case trees.Comparison(_, _, "<=", left, right):
                 return IsBelow(kind(left), kind(right))
+            case trees.Comparison(_, _, "<= up to relabelling", left, right):
+                return IsBelowRelabelled(kind(left), kind(right))
             case trees.Comparison(_, _, _, left, right):
                 return self._equation(left, right)
             case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, _, when):
@@ -76,7 +79,8 @@ class CheckReader:
         self.reader.refuse(
             tree,
             "this cannot be checked",
-            "ask a : T, S <= T, S = T, f(a) = b, merge(S, T) = U, amerge(S, T) = U, "
+            "ask a : T, S <= T, S <= T up to relabelling, S = T, f(a) = b, "
+            "merge(S, T) = U, amerge(S, T) = U, "
             "create(T), wellformed(T), P(a : T) = p, P(a : T) in [lo, hi], "
             "P(a : T | b : S) = p, P(T || S) = p or P(T) = p",
         )

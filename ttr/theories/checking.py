@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, assert_never
 
 from ttr.building.merging import amerge, merge
+from ttr.building.relabelled_subtyping import subtype_up_to_relabelling
 from ttr.computing.definitional_equality import equal
 from ttr.computing.normalisation import normal_value
 from ttr.computing.path_cycles import describe_cycle
@@ -22,6 +23,7 @@ from ttr.theories.queries import (
     Expects,
     HasDegree,
     IsBelow,
+    IsBelowRelabelled,
     IsOf,
     IsSame,
     IsTrue,
@@ -137,6 +139,9 @@ def _evaluate(query: Query, theory: Theory, model: Model) -> _Answer:
             return _is_of(query, model)
         case IsBelow(lower, upper):
             answer = subtype(lower, upper, theory)
+            return _Answer(answer.verdict, answer.verdict, answer.why)
+        case IsBelowRelabelled(lower, upper):
+            answer = subtype_up_to_relabelling(lower, upper, theory)
             return _Answer(answer.verdict, answer.verdict, answer.why)
         case IsSame(left, right):
             answer = equal(left, right, theory)

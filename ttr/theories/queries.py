@@ -29,6 +29,14 @@ class IsBelow:
 
 
 @dataclass(frozen=True)
+class IsBelowRelabelled:
+    """S <= T up to relabelling: S is below T with other labels."""
+
+    lower: TypeNode
+    upper: TypeNode
+
+
+@dataclass(frozen=True)
 class IsSame:
     """S = T: they are the same type or object, with every f(a) worked out."""
 
@@ -104,6 +112,7 @@ class Updates:
 Query: TypeAlias = (
     IsOf
     | IsBelow
+    | IsBelowRelabelled
     | IsSame
     | Merges
     | Creates

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from ttr.building.merging import amerge, merge
+from ttr.building.relabelled_subtyping import subtype_up_to_relabelling
 from ttr.cli.session.sessions import INPUT, LastAnswer, Session, create_witness, declare
 from ttr.computing.normalisation import normal_value
 from ttr.computing.subtyping import subtype
@@ -22,7 +23,7 @@ from ttr.safety.budgets import within_budget
 from ttr.theories.check_statements import CheckReader
 from ttr.theories.checking import answer_checks
 from ttr.theories.game_statements import opened
-from ttr.theories.queries import Check, IsBelow, IsOf
+from ttr.theories.queries import Check, IsBelow, IsBelowRelabelled, IsOf
 from ttr.types.objects import Object
 from ttr.types.printing import notation
 from ttr.types.syntax import TypeNode, as_type
@@ -185,6 +186,10 @@ def _answer_check(session: Session, question: Check) -> Reply:
             return _compare_types(
                 session, _reduced_type(session, lower), _reduced_type(session, upper)
             )
+        case IsBelowRelabelled(lower, upper):
+            S, T = _reduced_type(session, lower), _reduced_type(session, upper)
+            answer = subtype_up_to_relabelling(S, T, session.theory)
+            return Reply(replace(session, last=answer), str(answer))
     report = answer_checks(replace(session.theory, checks=(question,)), session.model)
     if report.holds:
         return Reply(session, "yes")
