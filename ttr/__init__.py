@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from ttr.safety.budgets import budget
     from ttr.theories.checking import check
     from ttr.theories.theory import Theory, load
-    from ttr.types.objects import Record, outer, record, this
+    from ttr.types.objects import Record, record
+    from ttr.types.path_notation import outer, this
     from ttr.types.records import replace
     from ttr.types.syntax import (
         Basic,
@@ -50,7 +51,6 @@ PROVIDERS = {
     "ttr.types.interning.as_python": "ttr.types.printing",
     "ttr.types.notebook_display.as_html": "ttr.display.render",
     "ttr.types.notebook_display.as_latex": "ttr.display.render",
-    "ttr.types.objects.as_application": "ttr.types.syntax",
     "ttr.types.paths.merge_by_form": "ttr.types.merges",
     "ttr.types.syntax.as_function_type": "ttr.types.derived_types",
     "ttr.types.syntax.is_subtype": "ttr.computing.subtyping",
@@ -97,13 +97,12 @@ _HOMES = {
     "ttr.safety.budgets": "budget",
     "ttr.theories.checking": "check",
     "ttr.theories.theory": "Theory load",
-    "ttr.types.objects": (
-        "EventString FiniteSet Record concat fst outer record rst this"
-    ),
+    "ttr.types.objects": ("EventString FiniteSet Record concat fst record rst"),
+    "ttr.types.path_notation": "outer this",
     "ttr.types.records": "replace",
     "ttr.types.syntax": (
         "Application Basic Ind ListOf Negation NonEmpty Plus Pred Rec RecType "
-        "RecordType SetOf Singleton Str Type Universe join meet"
+        "RecordType SetOf Singleton Str Type TypeAt Universe join meet"
     ),
 }
 """Where the names are that users need every day, and those that `repr` prints."""

@@ -44,6 +44,7 @@ from ttr.types import (
     NonEmpty,
     Path,
     Singleton,
+    TypeAt,
     TypeNode,
     Universe,
     concat,
@@ -62,7 +63,20 @@ PREDICATES = (dog, hug, rains, Pred("sees", (Ind,), (Ind, A)), Pred("p", A, B))
 
 LABELS = (
     *("x", "y", "c", "fido", "P", "größe", "λ", "λx", "e1", "x1"),
-    *("list", "set", "str", "Type", "fst", "fun", "check", "not", "in", "dog"),
+    *(
+        "A",
+        "Ind",
+        "list",
+        "set",
+        "str",
+        "Type",
+        "fst",
+        "fun",
+        "check",
+        "not",
+        "in",
+        "dog",
+    ),
 )
 """Labels and variables; some are words of the notation, names or predicates."""
 
@@ -123,7 +137,9 @@ def sequences(draw: st.DrawFn, around: Around, depth: int) -> Object:
 @st.composite
 def functions(draw: st.DrawFn, around: Around, depth: int) -> Object:
     name = draw(st.sampled_from(LABELS))
-    domain = draw(st.one_of(st.just(Ind), st.just(PROPERTY), types_of(around, depth)))
+    domain = draw(
+        st.one_of(st.sampled_from((Ind, PROPERTY, Type)), types_of(around, depth))
+    )
     inside = within(around, Place(0, (BOUND,), domain))
     body = draw(objects(inside, depth - 1))
     return fun({name: domain})(body)
@@ -175,7 +191,7 @@ def types_of(draw: st.DrawFn, around: Around = (), depth: int = 3) -> TypeNode:
         return draw(st.one_of(BASICS, universes))
     inner = types_of(around, depth - 1)
     some = st.lists(inner, min_size=2, max_size=3)
-    match draw(st.integers(0, 11)):
+    match draw(st.integers(0, 12)):
         case 0 | 1:
             pred = draw(st.sampled_from(PREDICATES))
             arity = draw(st.sampled_from(pred.arities))
@@ -197,12 +213,15 @@ def types_of(draw: st.DrawFn, around: Around = (), depth: int = 3) -> TypeNode:
         case 7:
             return draw(inner) >> draw(inner)
         case 8:
-            domain = draw(BASICS)
+            domain = draw(st.sampled_from((Ind, A, B, Type)))
             variable = Place(0, (BOUND,), domain)
             result = draw(types_of(within(around, variable), depth - 1))
             return Pi({draw(st.sampled_from(LABELS)): domain})(result)
         case 9:
             return draw(applications(around, depth))
+        case 10:
+            fitting = paths(around, Type)
+            return draw(st.sampled_from([*map(TypeAt, fitting)] or [Ind]))
     return draw(record_types(around, depth))
 
 
@@ -211,7 +230,7 @@ def record_types(draw: st.DrawFn, around: Around, depth: int) -> TypeNode:
     some = st.lists(st.sampled_from(LABELS), min_size=1, max_size=4, unique=True)
     labels = draw(some)
     plain = labels[: draw(st.integers(1, len(labels)))]
-    kinds = st.one_of(BASICS, st.sampled_from((Ind, PROPERTY, LISTS)))
+    kinds = st.one_of(BASICS, st.sampled_from((Ind, PROPERTY, LISTS, Type)))
     fields: dict[str, TypeNode] = {label: draw(kinds) for label in plain}
     inside = within(around, *(Place(0, (k,), T) for k, T in fields.items()))
     for label in labels[len(plain) :]:
@@ -220,6 +239,11 @@ def record_types(draw: st.DrawFn, around: Around, depth: int) -> TypeNode:
 
 
 @given(types_of())
+@example(rectype(Ind=Type, x=Ind, y=this.Ind, z=Type @ Ind))
+@example(rectype(Ind=Type, n=rectype(Ind=A, x=Ind, y=outer.Ind)))
+@example(rectype(Type=Type, x=Type, y=this.Type))
+@example(rectype(x=Type, f=(Ind >> Type) @ fun(x=Ind)(ListOf(outer.x))))
+@example(rectype(A=A, f=Type @ Pi(A=Type)(this.A >> A)))
 @example(rectype(x=Ind, y=rectype(x=Ind, c=dog(outer.x))))
 @example(rectype(x=Ind, c=hug("x", this.x)))
 @example(rectype(x=Ind, t=Type @ rectype(c=dog(outer.x))))
@@ -275,7 +299,7 @@ def test_a_printed_record_reads_back_as_its_equal(r):
 
 # --- rules ---------------------------------------------------------------------------
 
-KINDS = st.sampled_from((Ind, A, B, PROPERTY, LISTS))
+KINDS = st.sampled_from((Ind, A, B, PROPERTY, LISTS, Type))
 VARIABLES = ("s", "e", *LABELS)
 ENDS = st.sampled_from((0.0, 0.25, 0.7, 1.0))
 

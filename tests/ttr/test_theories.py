@@ -32,7 +32,7 @@ from ttr.theories.statements import StatementReader
 from ttr.theories.theory import Theory, load, theory_of_draft
 from ttr.theories.theory_draft import Draft
 from ttr.types.objects import Path as LabelPath
-from ttr.types.objects import this
+from ttr.types.path_notation import this
 from ttr.types.syntax import Basic, Ind, Pred
 
 NAMES = """

@@ -56,9 +56,13 @@ def rectype(
     for label, field in given.items():
         check_label(label)
         T = apply_to_scope(field) if is_abstraction(field) else field
-        if not isinstance(T, TypeNode):
-            raise IllFormedError(f"the field {label} needs a type, found {kind_of(T)}")
-        found[label] = T
+        try:
+            found[label] = as_type(T)
+        except IllFormedError:
+            found_kind = kind_of(T)
+            raise IllFormedError(
+                f"the field {label} needs a type, found {found_kind}"
+            ) from None
     return check_record_type(RecordType(order_fields(found)), theory)
 
 

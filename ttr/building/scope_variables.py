@@ -13,7 +13,8 @@ from itertools import count
 from typing import TypeGuard
 
 from ttr.errors import IllFormedError
-from ttr.types.objects import Object, Path, PathTo, freeze
+from ttr.types.objects import Object, Path, freeze
+from ttr.types.path_notation import PathTo
 from ttr.types.paths import replace_paths
 
 _FAR = 1 << 30

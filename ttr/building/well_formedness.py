@@ -9,13 +9,14 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
+from ttr.computing.normalisation import normal_type
 from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.subtyping import Answer, subtype
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.objects import BOUND, Object, Path
-from ttr.types.paths import free_paths, parts
+from ttr.types.paths import free_paths, mentions, parts
 from ttr.types.printing import notation
 from ttr.types.substitution import substitute_variable
 from ttr.types.syntax import (
@@ -27,7 +28,9 @@ from ttr.types.syntax import (
     PType,
     RecordType,
     Singleton,
+    TypeAt,
     TypeNode,
+    Universe,
     as_type,
     join,
     meet,
@@ -145,7 +148,7 @@ def _argument_types(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | Non
     waiting: list[tuple[Object, int]] = [(inside, 0)]
     while waiting:
         value, depth = waiting.pop()
-        if isinstance(value, Application):
+        if isinstance(value, Application | TypeAt):
             return None
         if isinstance(value, PType):
             if len(value.pred.arities) > 1:
@@ -165,7 +168,22 @@ def _argument_types(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | Non
 def field_at_path(path: Path, T: RecordType) -> TypeNode:
     """The type of the field that a path leads to, from within T; else
     `IllFormedError`.
+
+    A field may have the type that a manifest field around it is set to.
     """
+    try:
+        return _follow(path, T)
+    except IllFormedError:
+        if len(path.labels) < 2 or not mentions(T, TypeAt):
+            raise
+        computed = normal_type(T, signature_of(None))
+        if computed is T or not isinstance(computed, RecordType):
+            raise
+        return _follow(path, computed)
+
+
+def _follow(path: Path, T: RecordType) -> TypeNode:
+    """The type of the field that a path leads to, as the fields are written."""
     here: TypeNode = T
     for label in path.labels:
         field = _field(here, label)
@@ -274,6 +292,8 @@ def _check_domains(
             domain = _domain(field_at_path(function, around[outermost].fields))
             if domain is not None:
                 _check_arguments(value, (argument,), [(domain,)], around, where, theory)
+        case TypeAt(Path() as path) if path.up == outermost:
+            _check_of_types(path, around, where)
     same, inner = parts(value)
     for part in same:
         _check_domains(part, around, where, theory)
@@ -283,6 +303,30 @@ def _check_domains(
     labels = value.labels if isinstance(value, RecordType) else ()
     for i, part in enumerate(inner):
         _check_domains(part, within, (*where, *labels[i : i + 1]), theory)
+
+
+def _check_of_types(path: Path, around: tuple[_Scope, ...], where: _Where) -> None:
+    """Refuse a path as a type where what it leads to is surely none."""
+    found = field_at_path(path, around[-1].fields)
+    if not _may_be_type(found):
+        scope = tuple(one.names for one in around)
+        raise IllFormedError(
+            f"{_name_field(where)}expected a type, found {notation(path, scope)}, "
+            f"which is of {found}",
+            hint="only what is of Type, RecType, Type^1, … is a type",
+        )
+
+
+def _may_be_type(T: TypeNode) -> bool:
+    """May what is of T be a type, as far as the form of T tells?"""
+    match T:
+        case Singleton(base, _):
+            return _may_be_type(base)
+        case Meet(parts):
+            return any(map(_may_be_type, parts))
+        case Join(parts):
+            return all(map(_may_be_type, parts))
+    return isinstance(T, Universe | Application | TypeAt)
 
 
 def _domain(T: TypeNode) -> TypeNode | None:

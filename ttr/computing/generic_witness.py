@@ -34,6 +34,7 @@ from ttr.types.syntax import (
     SetOf,
     Singleton,
     Str,
+    TypeAt,
     TypeNode,
     Universe,
 )
@@ -191,6 +192,10 @@ class GenericWitness:
         known = self._classes.setdefault(identity(term), _EqualityClass(term))
         claimed = T if isinstance(T, RecordType) else self.normalise(T)
         known.claims.append((claimed, condition))
+        if isinstance(T, TypeAt) and not isinstance(claimed, TypeAt):
+            # What it says of other places is not followed up.
+            self._is_complete = False
+            self._claim_of_term(term, claimed, condition)
         value = _computed_value(claimed)
         if isinstance(value, Basic | PType):
             known.claims.append((value, condition))

@@ -25,7 +25,7 @@ from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.derived_types import order_fields
 from ttr.types.interning import Node, identity
-from ttr.types.objects import BOUND, Object, Path, freeze
+from ttr.types.objects import BOUND, Object, Operation, Path, freeze
 from ttr.types.paths import (
     free_paths,
     labels_mentioned,
@@ -49,7 +49,9 @@ from ttr.types.syntax import (
     Rec,
     RecordType,
     Singleton,
+    TypeAt,
     TypeNode,
+    type_at,
 )
 
 
@@ -147,6 +149,8 @@ class _Normaliser:
                 return self._application(
                     self.of(function, around), self.of(argument, around), around
                 )
+            case TypeAt(term):
+                return self._type_at(self.of(term, around))
             case Merge():
                 merged = map_parts(value, lambda part, _: self.of(part, around))
                 again = isinstance(merged, TypeNode) and not isinstance(merged, Merge)
@@ -199,6 +203,15 @@ class _Normaliser:
                 T = _field(T, path.labels[done], Path(0, path.labels[:done]))
         return path
 
+    def _type_at(self, term: Object) -> TypeNode:
+        """What a normal term stands for where a type is needed."""
+        found = type_at(term)
+        if self._is_strict and isinstance(found, TypeAt) and not _is_open(term):
+            raise IllFormedError(
+                f"{notation(term)} stands where a type is needed, but it is none"
+            )
+        return found
+
     # --- applications ---
 
     def _application(
@@ -223,6 +236,11 @@ def _move_in(T: TypeNode) -> TypeNode:
     """The type as it is seen one scope further in."""
     moved: TypeNode = shift_paths(T, 1)
     return moved
+
+
+def _is_open(term: Object) -> bool:
+    """May a term still compute to something else?"""
+    return isinstance(term, Path | Operation)
 
 
 def _manifest(T: TypeNode) -> tuple[Object] | None:
@@ -361,7 +379,7 @@ def check_computable(value: Object, theory: Signature) -> None:
                 _check_values(part)
             case PType(pred, args):
                 _check_individuals(pred, args)
-    if mentions(value, Application):
+    if mentions(value, Application) or mentions(value, TypeAt):
         normal_form(value, theory)
 
 
@@ -398,7 +416,7 @@ def normal_value(value: Object, theory: Signature) -> Object:
 
     Nothing is of a type that is ill-formed.
     """
-    if not (mentions(value, Application) or mentions(value, Merge)):
+    if not any(mentions(value, kind) for kind in (Application, Merge, TypeAt)):
         return value
     return _Normaliser(theory, is_strict=False).of(value, ())
 

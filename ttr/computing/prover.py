@@ -36,7 +36,7 @@ from ttr.signature.axioms import find_exclusion, supertypes
 from ttr.signature.signature import Signature
 from ttr.types.interning import identity
 from ttr.types.objects import EventString, FiniteSet, Object, Operation, Path, Record
-from ttr.types.paths import free_paths, replace_paths
+from ttr.types.paths import free_paths, paths_to_types, replace_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import field_type, substitute_variable
 from ttr.types.syntax import (
@@ -56,6 +56,7 @@ from ttr.types.syntax import (
     SetOf,
     Singleton,
     Str,
+    TypeAt,
     TypeNode,
     Universe,
     join,
@@ -191,6 +192,8 @@ class Prover:
                 return self._prove_universe(term, T, where)
             case Application():
                 return self._prove_application(term, T, where)
+            case TypeAt():
+                return self._prove_type_at(term, T, where)
         raise assert_never(T)  # type: ignore[arg-type]
 
     # --- atoms, singletons, types of types ---
@@ -234,12 +237,17 @@ class Prover:
         if isinstance(term, TypeNode) and not isinstance(term, Application):
             outside = why_outside(term, T)
             if not outside:
-                return YES
+                return self._prove_levels(term, T, where)
             return no(where, lambda: f"{self._format(term)}: {outside}")
         for known in self._types_of(term):
             if isinstance(known, Universe) and _is_among(known, T):
                 return YES
         return self._not_below(term, T, where)
+
+    def _prove_levels(self, term: TypeNode, T: Universe, where: Where) -> Finding:
+        """Are the types that paths in a type lead to of no higher level?"""
+        most = Universe("Type", T.level)
+        return every(self.prove(path, most, where) for path in paths_to_types(term))
 
     # --- joins and negations ---
 
@@ -522,6 +530,14 @@ class Prover:
         value = self._apply_functions(wanted)
         if isinstance(value, TypeNode) and value is not wanted:
             return self.prove(term, value, where)
+        return self._not_below(term, wanted, where)
+
+    def _prove_type_at(self, term: Object, T: TypeAt, where: Where) -> Finding:
+        wanted = self.witness.normalise(T)
+        if not isinstance(wanted, TypeAt):
+            return self.prove(term, wanted, where)
+        if any(known is wanted for known in self._types_of(term)):
+            return YES
         return self._not_below(term, wanted, where)
 
     def _apply_functions(self, value: Object) -> Object:

@@ -56,6 +56,7 @@ class Refutation:
     theory: Signature
     assumed: tuple[Assumption, ...] = ()
     written: TypeNode | None = None
+    """T as it was written, where T is what that computes to."""
 
 
 @hook
@@ -173,8 +174,8 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     >>> print(subtype(rectype(x=Ind), rectype(x=Ind, c=dog(this.x))))
     no: [x : Ind] has no field c
     """
-    S, written, theory = as_type(S), as_type(T), signature_of(theory)
-    T = written
+    S, T, theory = as_type(S), as_type(T), signature_of(theory)
+    written = T
     if S is not T:
         S, T = normal_type(S, theory), normal_type(T, theory)
     if S is T:
@@ -190,7 +191,7 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
 
 
 def _in_case(S: TypeNode, T: TypeNode, theory: Signature, written: TypeNode) -> Answer:
-    """The answer for one case of a type; T was written in another way, perhaps."""
+    """The answer for one case of a type."""
     prover = Prover.for_type(S, theory)
     if prover.is_impossible:
         return Answer("yes", lambda: f"nothing can be of {S}")

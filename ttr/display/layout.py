@@ -30,7 +30,14 @@ from ttr.types.precedence import (
     is_loose,
     is_loose_beside,
 )
-from ttr.types.printing import Scope, as_object, format_head, notation, variable
+from ttr.types.printing import (
+    Scope,
+    as_object,
+    format_head,
+    labels_of,
+    notation,
+    variable,
+)
 from ttr.types.reserved_words import WORDS
 from ttr.types.syntax import (
     Application,
@@ -50,6 +57,7 @@ from ttr.types.syntax import (
     SetOf,
     Singleton,
     Str,
+    TypeAt,
     TypeNode,
     Universe,
 )
@@ -287,7 +295,9 @@ def layout_of(value: Object, scope: Scope = ()) -> Layout:
     """The layout of a type or an object; its variables are named as in print."""
     spend(4)  # the layout is kept, and drawn later
     match value:
-        case Basic(name) | Universe(name, 0):
+        case Basic():
+            return Word(notation(value, scope), "type")
+        case Universe(name, 0):
             return Word(name, "type")
         case Universe(name, level):
             return Superscript(Word(name, "type"), Word(str(level), "text"))
@@ -298,7 +308,7 @@ def layout_of(value: Object, scope: Scope = ()) -> Layout:
         case RecordType(()):
             return Word("Rec", "type")
         case RecordType(fields):
-            inner = (frozenset(value.labels), *scope)
+            inner = (labels_of(value), *scope)
             rows = tuple([_row(k, T, inner) for k, T in fields])
             return Matrix("[", _COLON, rows, "]")
         case Singleton(base, obj):
@@ -323,6 +333,10 @@ def layout_of(value: Object, scope: Scope = ()) -> Layout:
             return Chain(Sign(" + "), tuple(summands))
         case Operation(name, args):
             return _call(Word(name, "text"), _objects(args, scope))
+        case TypeAt(Path() as path):
+            return Word(notation(value, scope), _role(path))
+        case TypeAt(term):
+            return layout_of(term, scope)
         case ListOf() | NonEmpty() | SetOf() | Plus() | Str():
             types, _ = contents(value)
             word = Word(WORDS[type(value)], "text")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
-from itertools import product
+from itertools import count, product
 
 from ttr.computing.generic_witness import ITSELF, Assumption, elements
 from ttr.computing.path_cycles import break_cycles
@@ -18,10 +18,19 @@ from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import spend
 from ttr.signature.signature import Signature
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object, Path, UnresolvedError
-from ttr.types.paths import replace_paths
+from ttr.types.paths import mentions, paths_to_types, replace_paths, subterms
 from ttr.types.substitution import follow_path
-from ttr.types.syntax import RecordType, TypeNode, meet
+from ttr.types.syntax import (
+    Basic,
+    RecordType,
+    Singleton,
+    TypeAt,
+    TypeNode,
+    Universe,
+    meet,
+)
 
 SIZES = (1, 0, 2)
 """The numbers of elements of lists and sets to try; one shows the most."""
@@ -36,9 +45,7 @@ def find_counterexample(refutation: Refutation) -> Judgement | None:
         if found is None or _degree(found, refutation.S) != CERTAIN:
             continue
         if _degree(found, T) == REFUTED:
-            written = refutation.written or T
-            shown = written if _degree(found, written) == REFUTED else T
-            return found.model.judge(found.sit, shown)
+            return found.model.judge(found.sit, refutation.written or T)
     return None
 
 
@@ -53,11 +60,28 @@ def _starts(refutation: Refutation) -> list[Start]:
     """
     S, assumed = refutation.S, refutation.assumed
     if not assumed:
-        return [(one, ()) for one in dict.fromkeys((S, break_cycles(S)))]
+        starts = (S, break_cycles(S), _tell_types_apart(S))
+        return [(one, ()) for one in dict.fromkeys(starts)]
     of_it = [T for term, T in assumed if term is ITSELF]
     others = tuple([pair for pair in assumed if pair[0] is not ITSELF])
     narrower = [one for pair in others if (one := _with_part(S, *pair)) is not None]
     return [*((one, ()) for one in narrower), (meet(S, *of_it), others), (S, ())]
+
+
+def _tell_types_apart(S: TypeNode) -> TypeNode:
+    """S where each field that others have as their type is a basic type of its own."""
+    if not isinstance(S, RecordType) or not mentions(S, TypeAt):
+        return S
+    used = {path.labels for _, field in S.fields for path in paths_to_types(field)}
+    taken = {part.name for part in subterms([S]) if isinstance(part, Basic)}
+    new = (name for n in count(1) if (name := f"A{n}") not in taken)
+    fields = {
+        label: Singleton(field, Basic(next(new)))
+        if (label,) in used and isinstance(field, Universe)
+        else field
+        for label, field in S.fields
+    }
+    return RecordType(order_fields(fields))
 
 
 def _with_part(S: TypeNode, term: Object, T: TypeNode) -> TypeNode | None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from contextlib import suppress
 from functools import partial, reduce
-from itertools import count, cycle, islice
+from itertools import count, cycle, islice, product
 from typing import assert_never
 
 from ttr.building.merging import merge
@@ -28,6 +29,7 @@ from ttr.judging.evaluator import (
     make_witness,
     reduce_applications,
 )
+from ttr.judging.open_terms import TermFinder
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import spend
 from ttr.types.derived_types import order_fields
@@ -40,8 +42,16 @@ from ttr.types.objects import (
     Path,
     Record,
     UnresolvedError,
+    sort_canonically,
 )
-from ttr.types.paths import free_paths, mentions, replace_paths, shift_paths
+from ttr.types.paths import (
+    free_paths,
+    mentions,
+    paths_to_types,
+    replace_paths,
+    shift_paths,
+    subterms,
+)
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
@@ -63,6 +73,7 @@ from ttr.types.syntax import (
     SetOf,
     Singleton,
     Str,
+    TypeAt,
     TypeNode,
     Universe,
 )
@@ -189,6 +200,20 @@ def _settle_fields(T: RecordType) -> RecordType:
     return RecordType(order_fields(fields))
 
 
+def _choose_types(T: RecordType) -> Iterator[RecordType]:
+    """The type with each field that other fields have as their type made manifest."""
+    used = {path.labels for _, field in T.fields for path in paths_to_types(field)}
+    open_ = [k for k, field in T.fields if (k,) in used and type(field) is Universe]
+    basics = [part for part in subterms([T]) if isinstance(part, Basic)]
+    known = tuple(dict.fromkeys((Ind, Rec, *sort_canonically(basics))))
+    choices = [(*known, _type(T[label], 1)) for label in open_]  # type: ignore[arg-type]
+    for chosen in islice(product(*choices), TRIED) if open_ else ():
+        fields = dict(T.fields)
+        for label, one in zip(open_, chosen, strict=True):
+            fields[label] = Singleton(fields[label], one)
+        yield RecordType(order_fields(fields))
+
+
 def _from_witness(place: Path) -> Path:
     """A place in the witness as a path from one of its fields."""
     return Path(0, place.labels[1:])
@@ -243,6 +268,8 @@ class _WitnessMaker:
                 return _type(T, self._size), facts
             case Application():
                 return self.make(facts, _reduce_to_type(facts, T))
+            case TypeAt():
+                raise RefusedError(f"{T} is no type, so nothing is of it")
         raise assert_never(T)  # type: ignore[arg-type]
 
     # --- lists, strings, records ---
@@ -283,11 +310,17 @@ class _WitnessMaker:
         """A record, field by field, or else by what fields say of each other."""
         try:
             return self._record(facts, T)
-        except RefusedError:
-            settled = _settle_fields(T)
-            if settled is T:
-                raise
-            return self._record(facts, settled)
+        except RefusedError as error:
+            refused = error
+        settled = _settle_fields(T)
+        for other in (settled, *_choose_types(settled)):
+            if other is T:
+                continue
+            try:
+                return self._record(facts, other)
+            except RefusedError as error:
+                refused = error
+        raise refused
 
     def _record(self, facts: Assignment, T: RecordType) -> Made:
         spend(1 + len(T.fields))
@@ -319,6 +352,10 @@ class _WitnessMaker:
         """The first of some functions that is of T."""
         for body, known in self._bodies(facts, T):
             made = Function(T.domain, body, T.hint)
+            if derivation(known, made, T).p == CERTAIN:
+                return made, known
+        with suppress(RefusedError):
+            made, known = TermFinder(self.make).function(facts, T)
             if derivation(known, made, T).p == CERTAIN:
                 return made, known
         raise RefusedError(f"a function of {T} cannot be made up, only be given")

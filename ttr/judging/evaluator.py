@@ -62,6 +62,7 @@ from ttr.types.syntax import (
     SetOf,
     Singleton,
     Str,
+    TypeAt,
     TypeNode,
     Universe,
 )
@@ -180,6 +181,18 @@ class Evaluator(ABC, Generic[Answer]):
         except (UnresolvedError, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
         if isinstance(value, TypeNode):
+            return self.of(sit, value, (), where)
+        rule = f"{notation(value)} is no type"
+        return self.conclude(sit, T, REFUTED, rule, where)
+
+    def _judge_type_at(
+        self, sit: Object, T: TypeAt, around: Around, where: str
+    ) -> Answer:
+        try:
+            value = self._value_of(T, around)
+        except (UnresolvedError, RefusedError) as wrong:
+            return self.conclude(sit, T, REFUTED, wrong.message, where)
+        if not isinstance(value, TypeAt):
             return self.of(sit, value, (), where)
         rule = f"{notation(value)} is no type"
         return self.conclude(sit, T, REFUTED, rule, where)
@@ -324,6 +337,7 @@ _CLAUSES: Mapping[type[TypeNode], str] = {
     Basic: "_judge_basic",
     PType: "_judge_ptype",
     Application: "_judge_application",
+    TypeAt: "_judge_type_at",
     Singleton: "_judge_singleton",
     Meet: "_judge_meet",
     Merge: "_judge_meet",

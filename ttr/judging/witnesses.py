@@ -37,6 +37,7 @@ from ttr.types.syntax import (
     RecordType,
     Singleton,
     Str,
+    TypeAt,
     TypeNode,
 )
 
@@ -100,7 +101,7 @@ def can_be_listed(T: TypeNode) -> bool:
     waiting = [T]
     while waiting:
         match waiting.pop():
-            case Basic() | PType() | Singleton() | Application():
+            case Basic() | PType() | Singleton() | Application() | TypeAt():
                 pass
             case Join(parts) | Str(parts):
                 waiting += parts
@@ -146,6 +147,8 @@ class _Listing:
                 yield from {identity(sit): sit for sit in found}.values()
             case RecordType():
                 yield from map(Record, self._fillings(T))
+            case TypeAt():
+                return  # what is no type
             case Application():
                 yield from self._of_application(T)
             case NonEmpty(item) if self.is_partial:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
-from ttr.building.constructors import fun
+from ttr.building.constructors import Pi
 from ttr.errors import IllFormedError
 from ttr.notation.syntax_trees import Field, Fields, Part, Term
 from ttr.signature.signature import Signature
@@ -63,14 +63,14 @@ def _wrong_alone(label: str, is_wrong: _IsWrong) -> _IsWrong:
 def _is_misfit(field: Object, around: RecordType, theory: Signature) -> bool:
     """Does a path in a field lead nowhere in the record type, or to a wrong type?
 
-    To find out, the field is made the body of a function from the record type, which is
-    a scope of the same kind.
+    To find out, the field is made the result of a function type from the record type,
+    which is a scope of the same kind.
     """
 
     def at(path: Path) -> Path:
         return path if path.up else Path(0, ("r", *path.labels))
 
-    return is_ill_formed(lambda: fun({"r": around}, theory)(replace_paths(field, at)))
+    return is_ill_formed(lambda: Pi({"r": around}, theory)(replace_paths(field, at)))
 
 
 def is_ill_formed(build: Callable[[], Object]) -> bool:

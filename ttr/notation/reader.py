@@ -69,7 +69,14 @@ from ttr.types.objects import (
     check_label,
     concat,
 )
-from ttr.types.printing import Scope
+from ttr.types.printing import (
+    Scope,
+    TypeVariable,
+    hides_type,
+    is_of_types,
+    labels_with,
+    may_hold_types,
+)
 from ttr.types.reserved_words import LIST_OPERATIONS, LOGICAL, RESERVED, WORDS
 from ttr.types.substitution import follow_path
 from ttr.types.syntax import (
@@ -85,6 +92,7 @@ from ttr.types.syntax import (
     TypeNode,
     Universe,
     apply_to,
+    as_type,
     join,
     kind_of,
     meet,
@@ -215,7 +223,7 @@ class Reader:
     def _function(self, term: Abstraction, scope: Scope) -> Function:
         name = self._variable(term.variable)
         domain = self.type(term.domain, scope)
-        body = self.object(term.body, (name, *scope))
+        body = self.object(term.body, (_as_scope(name, domain), *scope))
         build = fun({name: domain}, self.theory.signature)
         return self._bind(build, term.body, body)
 
@@ -342,8 +350,12 @@ class Reader:
         match term:
             case Name():
                 return self._named_type(term, scope)
+            case Literal(_, _, str() as name) if hides_type(scope, name):
+                return self._declared_type(term, name)
             case Call():
                 found = self._call(term, scope)
+                if isinstance(found, Operation) and found.name == "fst":
+                    return as_type(found)
                 return (
                     found if isinstance(found, TypeNode) else self._refuse_as_type(term)
                 )
@@ -366,7 +378,10 @@ class Reader:
 
     def _named_type(self, name: Name, scope: Scope) -> TypeNode:
         head, rest = name.labels[0], name.labels[1:]
-        value = self._value_of(head) if name.up is None else None
+        hidden = hides_type(scope, head) and head not in RESERVED
+        if hidden or name.up is not None:
+            return as_type(self._named_object(name, scope))
+        value = self._value_of(head)
         if isinstance(value, Pred) and not rest:
             self.refuse(
                 name,
@@ -379,17 +394,23 @@ class Reader:
             value = None
         if isinstance(value, TypeNode):
             return value
-        declared = value is not None or head in self.theory.objects
-        if declared or name.up is not None or _is_bound(head, scope):
+        if _is_bound(head, scope):
+            return as_type(self._named_object(name, scope))
+        if value is not None or head in self.theory.objects:
             self._refuse_as_type(name)
         self._refuse_unknown(name, head, scope, "declare it first")
+
+    def _declared_type(self, term: Literal, name: str) -> TypeNode:
+        """The declared type of a name in quotes, where a label around hides it."""
+        value = self._value_of(name)
+        return value if isinstance(value, TypeNode) else self._refuse_as_type(term)
 
     def _function_type(self, term: Arrow, scope: Scope) -> FunType:
         domain = self.type(term.domain, scope)
         if term.variable is None:
             return function_type(domain, self.type(term.result, scope))
         name = self._variable(term.variable)
-        result = self.type(term.result, (name, *scope))
+        result = self.type(term.result, (_as_scope(name, domain), *scope))
         build = Pi({name: domain}, self.theory.signature)
         return self._bind(build, term.result, result)
 
@@ -405,7 +426,11 @@ class Reader:
 
     def _record_type(self, term: Fields, scope: Scope) -> RecordType:
         self.check_distinct([f.label for f in term.fields])
-        scope = (frozenset(f.label.text for f in term.fields), *scope)
+        labels = [field.label.text for field in term.fields]
+        of_types = frozenset(
+            [f.label.text for f in term.fields if self._is_of_types(f.type, scope)]
+        )
+        scope = (labels_with(labels, of_types), *scope)
         found: dict[str, TypeNode] = {}
         for part in term.fields:
             kind = self.type(part.type, scope)
@@ -417,6 +442,16 @@ class Reader:
         except IllFormedError as error:
             wrong = locate_misfit(term, found, self.theory.signature)
             raise error.at(self.source.span(wrong)) from None
+
+    def _is_of_types(self, term: Term, scope: Scope) -> bool:
+        """Is the type of a field written as a type of types?"""
+        match term:
+            case Restriction():
+                return self._is_of_types(term.base, scope)
+            case Name(_, _, (name,), None) if not hides_type(scope, name):
+                value = self._value_of(name)
+                return isinstance(value, TypeNode) and is_of_types(value)
+        return False
 
     # --- where a degree must stand ---
 
@@ -560,6 +595,11 @@ def _names_of_terms(theory: Names) -> Iterator[str]:
     yield from theory.definitions
     yield from theory.basics
     yield from theory.predicates
+
+
+def _as_scope(name: str, domain: TypeNode) -> str:
+    """The name of a variable, as a scope."""
+    return TypeVariable(name) if may_hold_types(domain) else name
 
 
 def _bound_names(scope: Scope) -> Iterator[str]:

@@ -192,7 +192,7 @@ def _merges(query: Merges, theory: Theory) -> _Answer:
         "amerge": lambda: amerge(query.left, query.right, theory),
     }
     merged = operations[query.operation]()
-    if merged is query.result:
+    if normal_value(merged, theory) is query.result:
         return _Answer("yes", "yes")
     return _Answer("no", str(merged), f"it is not {query.result}")
 

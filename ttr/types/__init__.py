@@ -14,11 +14,10 @@ from ttr.types.objects import (
     Record,
     concat,
     fst,
-    outer,
     record,
     rst,
-    this,
 )
+from ttr.types.path_notation import outer, this
 from ttr.types.records import replace
 from ttr.types.syntax import (
     Application,
@@ -42,6 +41,7 @@ from ttr.types.syntax import (
     Singleton,
     Str,
     Type,
+    TypeAt,
     TypeNode,
     Universe,
     join,
@@ -75,6 +75,7 @@ __all__ = [
     "Singleton",
     "Str",
     "Type",
+    "TypeAt",
     "TypeNode",
     "Universe",
     "concat",

@@ -20,6 +20,7 @@ from ttr.types.syntax import (
     Merge,
     RecordType,
     Singleton,
+    TypeAt,
     TypeNode,
     as_type,
     meet,
@@ -51,9 +52,9 @@ def merge_terms(*parts: TypeNode) -> TypeNode:
         return meet(*types)
     values: dict[object, Object] = {}
     plain = dict.fromkeys(_plain_parts(types, values))
-    open_ = [T for T in plain if isinstance(T, Application)]
+    open_ = [T for T in plain if isinstance(T, Application | TypeAt)]
     records = [T for T in plain if isinstance(T, RecordType)]
-    others = [T for T in plain if not isinstance(T, Application | RecordType)]
+    others = [T for T in plain if not isinstance(T, Application | TypeAt | RecordType)]
     known = [*others, *((_merge_fields(records),) if records else ())]
     whole = [*open_, *((meet(*known),) if known else ())]
     base = whole[0] if len(whole) == 1 else Merge(tuple(sort_canonically(whole)))

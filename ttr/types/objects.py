@@ -14,7 +14,6 @@ from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ttr.errors import IllFormedError, TTRError
-from ttr.hooks import hook
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.interning import (
     Node,
@@ -54,7 +53,9 @@ def freeze(value: object) -> Object:
         return Record(value)  # type: ignore[arg-type]
     if kind is set or kind is frozenset:
         return FiniteSet(*value)  # type: ignore[misc]
-    return value._path() if isinstance(value, PathTo) else value
+    if isinstance(value, TermAsType):
+        return value.term
+    return value._path() if isinstance(value, WrittenPath) else value
 
 
 def _freeze_each(values: tuple[object, ...]) -> tuple[Object, ...]:
@@ -63,6 +64,10 @@ def _freeze_each(values: tuple[object, ...]) -> tuple[Object, ...]:
     if _TAKEN_FOR_NOTATION.isdisjoint(map(type, values)):
         return values
     return tuple(map(freeze, values))
+
+
+_TAKEN_FOR_NOTATION: set[type] = {list, tuple, dict, set, frozenset}
+"""The classes that are read as notation; objects of others stay what they are."""
 
 
 # --- paths ---------------------------------------------------------------------------
@@ -100,54 +105,26 @@ class Applied:
     __slots__ = ()
 
 
-@hook
-def as_application(function: object, *args: object) -> Any:
-    """f(a), as written: `ttr.types.syntax.apply_to`."""
-    raise NotImplementedError
+class TermAsType:
+    """Base class of `ttr.types.syntax.TypeAt`, which is its `term` among objects."""
+
+    __slots__ = ()
+    term: Object
+
+    def __init_subclass__(cls) -> None:
+        _TAKEN_FOR_NOTATION.add(cls)
 
 
-class PathTo:
-    """Writes paths as Python attributes: `this.x`, `outer.x`, `this["bg.x"]`."""
+class WrittenPath:
+    """Base class of `ttr.types.path_notation.PathTo`, which Python writes paths with.
+
+    `up` scopes outwards, then along the labels.
+    """
 
     __slots__ = ("_labels", "_up")
 
     def __init__(self, up: int, labels: tuple[str, ...] = ()) -> None:
         self._up, self._labels = up, labels
-
-    def __getattr__(self, label: str) -> PathTo:
-        if label.startswith("_"):
-            raise AttributeError(label)
-        return self[label]
-
-    def __getitem__(self, path: str) -> PathTo:
-        labels = path.split(".") if isinstance(path, str) else [path]
-        for label in labels:
-            check_label(label)
-        return PathTo(self._up, (*self._labels, *labels))
-
-    def __iter__(self) -> Iterator[object]:
-        raise TypeError("a path is no list: write its labels, as in this['bg.x']")
-
-    def __call__(self, *args: Any) -> Any:
-        """`outer(2)` is two scopes out; `this.f(a)` applies what a path leads to."""
-        if self._labels:
-            return as_application(self._path(), *args)
-        if self._up == 0 or len(args) != 1:
-            raise IllFormedError("only outer can be called, as in outer(2).x")
-        if type(args[0]) is not int or args[0] < 1:
-            raise IllFormedError(
-                f"outer takes how many scopes out, 1 or more, found {args[0]!r}"
-            )
-        return PathTo(args[0])
-
-    def __add__(self, other: object) -> Object:
-        return concat(self, other)
-
-    def __radd__(self, other: object) -> Object:
-        return concat(other, self)
-
-    def __repr__(self) -> str:
-        return as_python(Path(self._up, self._labels))
 
     def _path(self) -> Path:
         """The path written so far; raises `IllFormedError` where it has no label."""
@@ -155,24 +132,11 @@ class PathTo:
             raise IllFormedError("a path needs a label, as in this.x or outer.x")
         return Path(self._up, self._labels)
 
-
-this = PathTo(0)
-"""The record in which a field stands: `this.x`, or `this["bg.x"]` for a text path.
-
-It is the innermost record type around the place where it ends up. A Python function
-that puts a record type around its argument captures it: to compose with functions write
-`rectype(x=Ind, c=lambda r: P(r.x))`, where `r.x` is always the x of this record type.
-"""
-
-outer = PathTo(1)
-"""The record one further out, `^.x`; `outer(2).x` is two further out."""
+    def __init_subclass__(cls) -> None:
+        _TAKEN_FOR_NOTATION.add(cls)
 
 
 # --- sets, strings of events and what is computed -------------------------------------
-
-
-_TAKEN_FOR_NOTATION = frozenset((list, tuple, dict, set, frozenset, PathTo))
-"""The classes that are read as notation; objects of others stay what they are."""
 
 
 @node
@@ -268,6 +232,7 @@ def concat(*parts: object) -> Object:
 
     >>> concat(["a"], ["b", "c"])
     ('a', 'b', 'c')
+    >>> from ttr import this
     >>> print(concat(["a"], this.x))
     [a] + .x
     """

@@ -39,9 +39,11 @@ from ttr.types.syntax import (
     SetOf,
     Singleton,
     Str,
+    TypeAt,
     TypeNode,
     join,
     meet,
+    type_at,
 )
 
 Parts = tuple[Object, ...]
@@ -78,6 +80,9 @@ def parts(value: Object) -> tuple[Parts, Parts]:
         case Application(function, argument):
             spend()
             return (function, argument), ()
+        case TypeAt(term):
+            spend()
+            return (term,), ()
         case EventString(inner) | FiniteSet(inner) | Operation(_, inner):
             spend(len(inner))
             return inner, ()
@@ -119,6 +124,8 @@ def map_parts(value: Object, change: Callable[[Object, int], Object]) -> Object:
             return type(value)(change(domain, 0), change(inside, 1), hint)
         case Application(function, argument):
             return Application(change(function, 0), change(argument, 0))
+        case TypeAt(term):
+            return type_at(change(term, 0))
         case Operation(name, args):
             return _apply_operation(name, tuple([change(arg, 0) for arg in args]))
         case Record():
@@ -223,6 +230,25 @@ _free_paths_of_type: Callable[[TypeNode], frozenset[Path]] = cache_on_node(
 )
 
 _NO_PATHS: frozenset[Path] = frozenset()
+
+
+def paths_to_types(value: Object) -> frozenset[Path]:
+    """The paths that start outside of a value and stand in it for types.
+
+    >>> from ttr import ListOf, Type, this
+    >>> paths_to_types(RecordType((("T", Type), ("x", ListOf(this.T)))))
+    frozenset()
+    >>> paths_to_types(ListOf(this.T))
+    frozenset({this.T})
+    """
+    if not mentions(value, TypeAt):
+        return _NO_PATHS
+    if isinstance(value, TypeAt):
+        return free_paths(value)
+    same, inner = parts(value)
+    found = _NO_PATHS.union(*map(paths_to_types, same))
+    further = _NO_PATHS.union(*map(paths_to_types, inner))
+    return found | {Path(p.up - 1, p.labels) for p in further if p.up > 0}
 
 
 def labels_mentioned(field: Object) -> set[str]:

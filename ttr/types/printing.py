@@ -52,12 +52,89 @@ from ttr.types.syntax import (
     SetOf,
     Singleton,
     Str,
+    TypeAt,
     TypeNode,
     Universe,
 )
 
 Scope = tuple[frozenset[str] | str, ...]
 """The scopes around, innermost first: the labels of a record type, or a variable."""
+
+
+class Labels(frozenset[str]):
+    """The labels of a record type; those `of_types` stand for types, as in T : Type.
+
+    Where a type is needed, they hide the declared types of their names.
+    """
+
+    of_types: frozenset[str] = frozenset()
+
+
+class TypeVariable(str):
+    """The name of a variable that may stand for a type, as in λT:Type.
+
+    It hides what is declared like labels `of_types`.
+    """
+
+    __slots__ = ()
+
+    @property
+    def of_types(self) -> frozenset[str]:
+        """The name itself."""
+        return frozenset((self,))
+
+
+def labels_of(T: RecordType) -> frozenset[str]:
+    """The labels of a record type, as a scope.
+
+    >>> from ttr import Ind, Type, rectype
+    >>> sorted(labels_of(rectype(T=Type, x=Ind)).of_types)
+    ['T']
+    """
+    of_types = frozenset([label for label, field in T.fields if is_of_types(field)])
+    return labels_with(T.labels, of_types)
+
+
+def labels_with(labels: Iterable[str], of_types: frozenset[str]) -> frozenset[str]:
+    """Labels as a scope, of which some stand for types."""
+    if not of_types:
+        return frozenset(labels)
+    found = Labels(labels)
+    found.of_types = of_types
+    return found
+
+
+def is_of_types(T: TypeNode) -> bool:
+    """Does a field say by its form that a type is at its label, as T : Type does?"""
+    while isinstance(T, Singleton):
+        T = T.base
+    return isinstance(T, Universe)
+
+
+def may_hold_types(T: TypeNode) -> bool:
+    """Can a type be of T, as far as the form of T tells?
+
+    >>> from ttr import Ind, Type
+    >>> may_hold_types(Type @ Ind), may_hold_types(Ind >> Type)
+    (True, False)
+    """
+    match T:
+        case Singleton(base, _):
+            return may_hold_types(base)
+        case Meet(parts):
+            return all(map(may_hold_types, parts))
+        case Join(parts):
+            return any(map(may_hold_types, parts))
+    return isinstance(T, Universe | Negation | Application | TypeAt)
+
+
+def hides_type(scope: Scope, name: str) -> bool:
+    """Does a label or variable around hide the declared type of its name?"""
+    return any(
+        name in names.of_types
+        for names in scope
+        if isinstance(names, Labels | TypeVariable)
+    )
 
 
 def notation(value: Object, scope: Scope = ()) -> str:
@@ -70,7 +147,9 @@ def notation(value: Object, scope: Scope = ()) -> str:
     [x : Ind, y : [c : run(^.x), x : Ind]]
     """
     match value:
-        case Basic(name) | Universe(name, 0) | Pred(name):
+        case Basic(name):
+            return json_text(name) if hides_type(scope, name) else name
+        case Universe(name, 0) | Pred(name):
             return name
         case Universe(name, level):
             return f"{name}^{level}"
@@ -80,7 +159,7 @@ def notation(value: Object, scope: Scope = ()) -> str:
             return "Rec"
         case RecordType(fields):
             spend(len(fields))
-            inner = (frozenset(value.labels), *scope)
+            inner = (labels_of(value), *scope)
             return f"[{', '.join(_field(k, f, inner) for k, f in fields)}]"
         case Singleton(base, obj):
             return f"{_bracketed_beside(base, scope)}@{_object_beside(obj, scope)}"
@@ -100,6 +179,10 @@ def notation(value: Object, scope: Scope = ()) -> str:
             return " + ".join([_object_beside(arg, scope) for arg in args])
         case Operation(name, args):
             return f"{name}({_objects(args, scope)})"
+        case TypeAt(Path() as path):
+            return _path_to_type(path, scope)
+        case TypeAt(term):
+            return notation(term, scope)
         case Path():
             return _path(value, scope)
     if type(value) in WORDS:
@@ -240,6 +323,14 @@ def _path(path: Path, scope: Scope) -> str:
     return _dotted_path(path.up, path.labels, scope)
 
 
+def _path_to_type(path: Path, scope: Scope) -> str:
+    """A path where a type is needed: bare where it cannot be read as another type."""
+    first = path.labels[0]
+    if first == BOUND or (hides_type(scope, first) and first not in RESERVED):
+        return _path(path, scope)
+    return _dotted_path(path.up, path.labels, scope)
+
+
 def _bound_path(path: Path, scope: Scope) -> str:
     """A variable, or a path from it; where it is bound outside, a dot says so."""
     around = scope[path.up] if path.up < len(scope) else ""
@@ -325,6 +416,8 @@ def python(value: Object) -> str:
             return f"Universe({name!r}, {level})"
         case Pred(name, arities):
             return f"Pred({', '.join([repr(name), *_arities(arities)])})"
+        case TypeAt(term):
+            return f"TypeAt({python(term)})"
         case PType(pred, args):
             return f"{python(pred)}({', '.join(map(python, args))})"
         case Singleton(base, obj):

@@ -22,9 +22,9 @@ from ttr.types.objects import (
     Object,
     Operation,
     Path,
-    PathTo,
     Record,
-    as_application,
+    TermAsType,
+    WrittenPath,
     check_label,
     concat,
     freeze,
@@ -76,10 +76,19 @@ class TypeNode(Node):
 
 
 def as_type(value: object) -> TypeNode:
-    """The value, if it is a type; else `IllFormedError` says what it is."""
+    """The value, if it is a type; else `IllFormedError` says what it is.
+
+    A path stands for the type that it leads to, and so does the first of a list.
+    """
     if isinstance(value, TypeNode):
         return value
+    if isinstance(value, WrittenPath | Path) or _is_first(value):
+        return TypeAt(value)
     raise _not_a_type(value)
+
+
+def _is_first(value: object) -> bool:
+    return isinstance(value, Operation) and value.name == "fst"
 
 
 def _not_a_type(found: object) -> IllFormedError:
@@ -96,7 +105,7 @@ def kind_of(value: object) -> str:
             return f"the record {value}"
         case Function():
             return f"the function {value}"
-        case PathTo() | Path() | Operation():
+        case WrittenPath() | Path() | Operation():
             return f"the object {value}"
         case str():
             return f"the object {value!r}"
@@ -397,7 +406,27 @@ def apply_to(function: object, *args: object) -> Application:
     return function  # type: ignore[return-value]
 
 
-as_application.provided_by(apply_to)
+@node
+class TypeAt(TermAsType, TypeNode):
+    """The type that a term stands for, such as the x : T in [T : Type, x : T].
+
+    Built where a type is needed and a path is given. As an object it is the path.
+    """
+
+    term: Object
+
+    @staticmethod
+    def _normal(term: object) -> tuple[object, ...]:
+        return (freeze(term),)
+
+
+def type_at(term: Object) -> TypeNode:
+    """What a term stands for where a type is needed: a type for itself.
+
+    >>> type_at(Ind) is Ind
+    True
+    """
+    return term if isinstance(term, TypeNode) else TypeAt(term)
 
 
 # --- records and predicates ----------------------------------------------------------

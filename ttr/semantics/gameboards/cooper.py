@@ -12,7 +12,8 @@ from collections.abc import Iterable
 from ttr.building.constructors import rectype
 from ttr.building.merging import merge
 from ttr.judging.models import Model
-from ttr.types.objects import Record, outer, record, this
+from ttr.types.objects import Record, record
+from ttr.types.path_notation import outer, this
 from ttr.types.records import replace
 from ttr.types.syntax import (
     Ind,

@@ -28,7 +28,8 @@ from ttr.semantics.questions import (
     whether,
     with_questions,
 )
-from ttr.types.objects import Object, Record, fst, outer, record
+from ttr.types.objects import Object, Record, fst, record
+from ttr.types.path_notation import outer
 from ttr.types.records import replace
 from ttr.types.syntax import (
     Basic,

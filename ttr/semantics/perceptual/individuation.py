@@ -19,7 +19,8 @@ from ttr.judging.models import Model, as_model
 from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.semantics.perceptual.vectors import Vector, finite_number, vector
-from ttr.types.objects import BOUND, Path, Record, outer, record, this
+from ttr.types.objects import BOUND, Path, Record, record
+from ttr.types.path_notation import outer, this
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import Basic, Function, Ind, PType, RecordType, Type
 

@@ -14,7 +14,8 @@ from typing import TypeGuard
 from ttr.building.constructors import fun, rectype
 from ttr.errors import IllFormedError
 from ttr.semantics.quantifiers.thresholds import Threshold, Thresholds, number, share
-from ttr.types.objects import Object, this
+from ttr.types.objects import Object
+from ttr.types.path_notation import this
 from ttr.types.syntax import Basic, Function, Ind, Pred, PType, Type, TypeNode, kind_of
 
 Property = Function | TypeNode

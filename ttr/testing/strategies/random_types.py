@@ -28,6 +28,7 @@ from ttr.types.objects import (
     rst,
 )
 from ttr.types.paths import free_paths
+from ttr.types.printing import is_of_types
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -48,6 +49,7 @@ from ttr.types.syntax import (
     Singleton,
     Str,
     Type,
+    TypeAt,
     TypeNode,
     Universe,
     join,
@@ -193,6 +195,12 @@ _UNIVERSES = st.sampled_from(
 )
 
 
+def _types_at(words: Words, scopes: Scopes, depth: int) -> st.SearchStrategy[TypeNode]:
+    """The types that paths lead to; basic types if no path leads to one."""
+    found = [TypeAt(path) for path, T in _visible(scopes) if is_of_types(T)]
+    return st.sampled_from(found) if found else _atoms(words, scopes, depth)
+
+
 @st.composite
 def _singletons(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> TypeNode:
     base = draw(_COLLECTIONS)(draw(types(words, scopes, depth)))
@@ -266,7 +274,8 @@ def record_types(
 
 @st.composite
 def _plain(draw: st.DrawFn, words: Words) -> TypeNode:
-    return draw(_LISTS)(draw(_atoms(words, (), 0)))
+    kind = draw(_PLAIN_KIND)
+    return draw(_LISTS)(draw(kind(words, (), 0)))
 
 
 @st.composite
@@ -293,18 +302,20 @@ _SETTING = st.sampled_from(["plain", "plain", "value", "path"])
 _LISTS = st.sampled_from([_itself, _itself, _itself, _itself, ListOf, NonEmpty])
 _COLLECTIONS = st.sampled_from([_itself, _itself, _itself, ListOf, SetOf, Plus, Str])
 
-_LEAVES: tuple[_Kind, ...] = (_atoms, ptypes, ptypes, _universes)
+_LEAVES: tuple[_Kind, ...] = (_atoms, ptypes, ptypes, _universes, _types_at)
 
 _LEAF_KIND = st.sampled_from(_LEAVES)
 _RESULT_KIND = st.sampled_from([types, ptypes, ptypes, lambda *around: st.just(Type)])
-_DOMAIN_KIND = st.sampled_from([_atoms, _atoms, types, record_types])
-_FIELD_KIND = st.sampled_from([types, ptypes])
+_PLAIN_KIND = st.sampled_from([*[_atoms] * 5, _universes])
+_DOMAIN_KIND = st.sampled_from([_atoms, _atoms, types, record_types, _universes])
+_FIELD_KIND = st.sampled_from([types, types, ptypes, ptypes, _types_at])
 _ANY_KIND = st.sampled_from(
     [
         _atoms,
         ptypes,
         *[record_types] * 4,
         _universes,
+        _types_at,
         _singletons,
         _of_several(meet, 1, 3),
         _of_several(join, 1, 3),

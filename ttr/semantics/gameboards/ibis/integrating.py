@@ -36,7 +36,8 @@ from ttr.semantics.gameboards.ibis.planning import (
     question_without_answer,
 )
 from ttr.semantics.questions import NO, YES, Question, combine, downdate, pop, push, top
-from ttr.types.objects import Object, Record, fst, outer
+from ttr.types.objects import Object, Record, fst
+from ttr.types.path_notation import outer
 from ttr.types.records import replace
 from ttr.types.syntax import NonEmpty, PType, RecordType, TypeNode
 from ttr.updates import Algorithm, Rule, all_, first, maybe, repeat, rule, seq
