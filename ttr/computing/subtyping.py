@@ -56,7 +56,6 @@ class Refutation:
     theory: Signature
     assumed: tuple[Assumption, ...] = ()
     written: TypeNode | None = None
-    """T as it was written, where T is what that computes to."""
 
 
 @hook

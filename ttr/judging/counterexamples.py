@@ -45,7 +45,9 @@ def find_counterexample(refutation: Refutation) -> Judgement | None:
         if found is None or _degree(found, refutation.S) != CERTAIN:
             continue
         if _degree(found, T) == REFUTED:
-            return found.model.judge(found.sit, refutation.written or T)
+            written = refutation.written or T
+            shown = written if _degree(found, written) == REFUTED else T
+            return found.model.judge(found.sit, shown)
     return None
 
 

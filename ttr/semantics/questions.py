@@ -35,6 +35,8 @@ from ttr.types.objects import (
     UnresolvedError,
 )
 from ttr.types.path_notation import outer
+from ttr.types.paths import free_paths
+from ttr.types.printing import notation
 from ttr.types.substitution import instantiate_body, resolve_paths
 from ttr.types.syntax import (
     Basic,
