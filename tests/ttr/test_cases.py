@@ -261,6 +261,7 @@ def test_P07_a_record():
 
 def test_P09_a_missing_field(M):
     assert M.judge(record(x="a"), rectype(x=Ind, y=Ind)).p == (0, 0)
+    assert M.judge(record(x="j"), rectype(x=Ind, y=Ind)).p == (0, 0)
 
 
 def test_X01_lists_are_covariant():
