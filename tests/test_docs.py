@@ -114,11 +114,13 @@ def test_pictures_are_small() -> None:
 DEFINITIONS = ROOT / "docs" / "explanation" / "which-definitions.md"
 
 
-def rows_of_definitions() -> list[list[str]]:
-    """The cells of each row: definition, source, is it here, code, tests, reading."""
-    lines = DEFINITIONS.read_text("utf-8").splitlines()
-    rows = [re.split(r"(?<!\\)\|", line)[1:-1] for line in lines if line[:4] == "| **"]
-    return [[cell.strip() for cell in row] for row in rows]
+def definitions() -> dict[str, str]:
+    """The definitions of the page, as they are stated, each with what is said of it."""
+    text = DEFINITIONS.read_text("utf-8")
+    return {
+        item.partition("\n")[0]: re.split(r"\n\n", item.partition("\n")[2])[0]
+        for item in re.split(r"^- (?=\*\*)", text, flags=re.M)[1:]
+    }
 
 
 def names_defined(file: Path) -> set[str]:
@@ -144,9 +146,11 @@ def names_bound(body: list[ast.stmt]) -> Iterator[str]:
                 yield name
 
 
-def linked_names(cell: str) -> list[tuple[str, str, Path]]:
-    """The links of a cell: what they are called, the name in it, and the file."""
-    found = re.findall(r"\[`([^`]+)`\]\(([^)\s]+)\)", cell)
+def linked_names(said: str, how: str) -> list[tuple[str, str, Path]]:
+    """The links of the line that begins so: what they are called, the name in it, and
+    the file."""
+    line = "".join(re.findall(rf"^  - {how} (.*)", said, flags=re.M))
+    found = re.findall(r"\[`([^`]+)`\]\(([^)\s]+)\)", line)
     return [
         (called, name_in(called, path), (DEFINITIONS.parent / path).resolve())
         for called, path in found
@@ -163,25 +167,17 @@ def name_in(called: str, path: str) -> str:
 
 
 def test_definitions_are_where_the_page_says_and_tested() -> None:
-    rows = rows_of_definitions()
-    assert rows
-    for what, _, here, code, tests, _ in rows:
-        assert here in ("yes", "partly"), what
-        coded, tested = linked_names(code), linked_names(tests)
+    found = definitions()
+    assert found
+    for what, said in found.items():
+        coded, tested = linked_names(said, "in"), linked_names(said, "tested by")
         assert coded, f"{what} has no code"
         assert tested, f"{what} has no test"
         for called, name, file in coded + tested:
-            assert name in names_defined(file), f"{what} There is no {called}"
+            assert name in names_defined(file), f"There is no {called}, of {what}"
         for called, name, file in tested:
             assert called == f"{file.relative_to(ROOT).as_posix()}::{name}", what
             assert name.startswith("test_"), what
-
-
-def test_what_is_partly_there_says_what_is_missing() -> None:
-    rows = rows_of_definitions()
-    for what, _, here, _, _, reading in rows:
-        said = re.sub(r"\[\d+\]\(\S+\)|[ ,()]", "", reading)
-        assert said or here == "yes", what
 
 
 # --- what pages show -----------------------------------------------------------------
