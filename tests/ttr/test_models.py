@@ -76,6 +76,19 @@ def test_a_record_has_every_label_and_there_what_is_of_its_type():
     assert M.judge(record(x="a", y="b"), T).holds is False
 
 
+def test_something_may_be_of_a_type_whose_witnesses_cannot_be_listed():
+    """In a closed model b is not of p("a"), so {w = a, g = b} is a witness."""
+    M = Model().given("a", A).given("b", B)
+    assert M.true(rectype(w=A, g=~p(this.w))) == (1, 1)
+    assert M.true(rectype(w=A, n=rectype(g=~p(outer.w), l=ListOf(A)))) == (1, 1)
+    assert M.true(rectype(w=A, g=~p(this.w) & A)) == (1, 1)
+
+
+def test_nothing_is_of_what_contradicts_itself_however_it_is_written():
+    assert Model().true(~(A | ~A)) == (0, 0)
+    assert Model().given("a", A).true(rectype(x=A, y=~(B | ~B))) == (0, 0)
+
+
 def test_each_element_of_a_list_is_of_its_type():
     M = Model().given("a", A)
     assert M.judge((), ListOf(A)).holds is True

@@ -14,6 +14,7 @@ from typing import Any, Protocol, TypeAlias, cast
 
 from ttr.aliases import Alias
 from ttr.computing.normalisation import normal_type, normal_value
+from ttr.computing.subtyping import consistent
 from ttr.errors import (
     IllFormedError,
     RefusedError,
@@ -36,7 +37,7 @@ from ttr.judging.judgements import Judgement, Why
 from ttr.judging.perception import fill_fields
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.judging.truth_of_types import Range, probability_of_any, probability_of_some
-from ttr.judging.witnesses import EMPTY, can_be_listed, witnesses
+from ttr.judging.witnesses import some_witnesses, witnesses
 from ttr.persistent_maps import Map
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
 from ttr.safety.budgets import (
@@ -46,7 +47,6 @@ from ttr.safety.budgets import (
     within_budget,
 )
 from ttr.signature.signature import Expected, Given, Signature
-from ttr.types.interning import identity
 from ttr.types.objects import Object, Record, freeze
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
@@ -415,7 +415,9 @@ class Model:
         try:
             return probability_of_some(self._facts, T, given, objects)
         except UnsupportedError:
-            return CERTAIN if self._has_unlisted_witness(T) else UNKNOWN
+            if self._has_unlisted_witness(T):
+                return CERTAIN
+            return REFUTED if consistent(T, theory=self.theory).no else UNKNOWN
 
     @within_budget(otherwise=_range_unknown)
     def chance(
@@ -468,7 +470,7 @@ class Model:
         """
         if isinstance(T, NonEmpty | Plus):
             return self.true(T.item) == CERTAIN
-        if any(self._is_certain(sit, T) for sit in EMPTY):
+        if next(some_witnesses(self._facts, T), None) is not None:
             return True
         try:
             sit, _ = create_witness(self._facts, T)

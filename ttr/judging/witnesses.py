@@ -24,7 +24,6 @@ from ttr.types.objects import (
     Record,
     UnresolvedError,
 )
-from ttr.types.paths import labels_mentioned
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Application,
@@ -34,6 +33,7 @@ from ttr.types.syntax import (
     NonEmpty,
     Plus,
     PType,
+    Rec,
     RecordType,
     Singleton,
     Str,
@@ -59,36 +59,17 @@ def candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
     yield from _Listing(facts, 0.0).of(T)
 
 
-def some_candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
-    """The same, but of types of which there is no end those that come to mind.
+def some_witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
+    """Some known objects that are certainly of T, also where they cannot be listed.
 
-    They are the objects that facts are about and what is empty; lists of one element.
+    Of a type that cannot be listed they are what is empty, Rec, and the known objects.
+
+    >>> from ttr import Ind, Model, rectype
+    >>> facts = Model().given("fido", Ind).facts
+    >>> print(next(some_witnesses(facts, rectype(x=Ind, y=~(Ind @ "fido")))))
+    {x = fido, y = []}
     """
-    yield from _Listing(facts, 0.0, is_partial=True).of(T)
-
-
-def listed_type(T: TypeNode) -> TypeNode | None:
-    """A type that can be listed, and of which something is if something is of T.
-
-    >>> from ttr import Ind, ListOf, rectype
-    >>> print(listed_type(rectype(x=Ind, y=ListOf(Ind))))
-    [x : Ind]
-    """
-    match T:
-        case NonEmpty(item) | Plus(item) if can_be_listed(item):
-            return item
-        case Meet(parts):
-            return next(filter(None, map(listed_type, parts)), None)
-        case RecordType(fields):
-            kept: dict[str, TypeNode] = {}
-            needed = {label for _, field in fields for label in labels_mentioned(field)}
-            for label, field in fields:
-                found = listed_type(field)
-                whole = found is field or label not in needed
-                if found is not None and whole and labels_mentioned(field) <= set(kept):
-                    kept[label] = found
-            return RecordType(order_fields(kept))
-    return T if can_be_listed(T) else None
+    yield from _Sampling(facts, 1.0).of(T)
 
 
 def can_be_listed(T: TypeNode) -> bool:
@@ -206,6 +187,26 @@ class _Listing:
         for sit in self.of(field):
             spend(4)
             yield {**fields, label: sit}
+
+
+_ANYTHING: tuple[Object, ...] = ((), FiniteSet(), EventString(), Rec)
+"""Objects that may be of a type without an end, whatever is known."""
+
+
+class _Sampling(_Listing):
+    """Lists some of what is of a type, where there may be no end of it."""
+
+    def of(self, T: TypeNode) -> Iterator[Object]:
+        try:
+            yield from super().of(T)
+        except UnsupportedError:
+            match T:
+                case NonEmpty(item):
+                    yield from ((sit,) for sit in self.of(item))
+                case Plus(item):
+                    yield from (string_of((item,), (sit,)) for sit in self.of(item))
+            known = (*_ANYTHING, *self.facts.objects())
+            yield from (sit for sit in known if self._is_of(sit, T))
 
 
 def _listed_part(parts: tuple[TypeNode, ...]) -> TypeNode:
