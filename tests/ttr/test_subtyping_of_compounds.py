@@ -59,6 +59,28 @@ YES = {
     "pieces taken apart": (Plus(Str(A, B)), Plus(A | B)),
     "repeated repetitions": (Plus(Plus(A)), Plus(A)),
     "a smaller result": (A >> (B & C), A >> B),
+    "a union of domains": ((A >> C) & (B >> C), (A | B) >> C),
+    "a union of domains back": ((A | B) >> C, (A >> C) & (B >> C)),
+    "a meet of results": ((A >> B) & (A >> C), A >> (B & C)),
+    "a meet of results back": (A >> (B & C), (A >> B) & (A >> C)),
+    "a smaller domain and a larger result": (A >> B, (A & C) >> (B | C)),
+    "a meet of both": ((A >> B) & (B >> C), (A & B) >> (B & C)),
+    "a union of both": ((A >> B) & (C >> A), (A | C) >> (B | A)),
+    "two domains that are all there is": ((A >> C) & (~A >> C), B >> C),
+    "results that are not possible": (A >> (B & ~B), A >> C),
+    "an impossible domain": (A >> B, (C & ~C) >> B),
+    "a meet of dependent results": (
+        Pi(x=A)(p(this.x)) & Pi(x=A)(B),
+        Pi(x=A)(p(this.x) & B),
+    ),
+    "functions of functions": (
+        (A >> (B >> C)) & (A >> (B >> A)),
+        A >> (B >> (A & C)),
+    ),
+    "functions in fields": (
+        rectype(f=A >> C) & rectype(f=B >> C),
+        rectype(f=(A | B) >> C),
+    ),
     "a larger domain": ((A | B) >> C, A >> C),
     "functions of each part of a domain": ((A >> C) & (B >> C), (A | B) >> C),
     "functions with results of their own": (
@@ -224,7 +246,7 @@ def test_many_cases_are_left_together():
         ((Plus(star(A)), Str() @ EventString()), "yes"),
         ((rectype(x=A), rectype(x=~A, y=B)), "no"),
         ((NonEmpty(A), NonEmpty(A & B)), "yes"),
-        ((NonEmpty(A & ~A),), "unknown"),
+        ((NonEmpty(A & ~A),), "no"),
     ],
 )
 def test_consistency(types, verdict):
@@ -254,3 +276,25 @@ def test_truth_of_types_and_propositions():
     assert M.true(A) == M.true(ListOf(B)) == (1, 1)
     assert M.true(B) == M.true(rectype(x=A, y=B)) == (0, 0)
     assert M.given("b", B, 0.5).true(B) == (0.5, 1)
+
+
+@pytest.mark.parametrize("of", [ListOf, SetOf, star])
+@pytest.mark.parametrize("whole", [lambda T: T, lambda T: rectype(x=T)])
+def test_what_is_empty_is_of_elements_that_exclude_each_other(of, whole):
+    answer = consistent(whole(of(A)), whole(of(~A)))
+    assert answer.yes, str(answer)
+
+
+def test_what_has_an_element_is_not():
+    assert consistent(NonEmpty(A), ListOf(~A)).no
+    assert consistent(rectype(x=NonEmpty(A)), rectype(x=ListOf(~A))).no
+    assert consistent(NonEmpty(A), ListOf(~B)).yes
+    assert consistent(NonEmpty(ListOf(A)), ListOf(ListOf(~A))).yes
+    assert consistent(Plus(A), Plus(~A)).no
+
+
+def test_functions_of_several_types_are_consistent():
+    assert consistent(A >> B, A >> C).yes
+    assert consistent(A >> B, C >> A).yes
+    assert consistent(rectype(f=A >> B), rectype(f=A >> C)).yes
+    assert not consistent(A >> B, A >> ~B).yes

@@ -145,6 +145,15 @@ class GenericWitness:
         """Can there be no such element, so that its list is empty?"""
         return place in self._absent
 
+    def first_elements(self, given: Collection[Path]) -> frozenset[Path]:
+        """The elements that lists surely have: what is so of all is so of these."""
+        return frozenset(
+            element(known.term)
+            for known in self._classes.values()
+            if isinstance(known.term, Path)
+            and any(isinstance(T, NonEmpty) for T in known.types(given))
+        )
+
     def negations(self, given: Collection[Path]) -> list[Assumption]:
         """The negations that are known: each term with the type that it is not of."""
         return [

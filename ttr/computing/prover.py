@@ -107,8 +107,10 @@ class Prover:
     @property
     def _is_contradictory(self) -> bool:
         """Is something surely of a type that is denied of it?"""
-        negations = self.witness.negations(self.given)
-        return any(self.prove(term, T).yes for term, T in negations)
+        given = self.given | self.witness.first_elements(self.given)
+        inside = self if given == self.given else replace(self, given=given)
+        negations = self.witness.negations(given)
+        return any(inside.prove(term, T).yes for term, T in negations)
 
     @property
     def _has_no_string(self) -> bool:
@@ -446,7 +448,7 @@ class Prover:
         if isinstance(term, Function):
             return self._prove_maps(term.domain, term.body, T, where)
         known = [one for one in self._types_of(term) if isinstance(one, FunType)]
-        if known and self._prove_cover(known, T).yes:
+        if known and self._prove_covers(known, T).yes:
             return YES
         return self._not_below(term, T, where)
 
@@ -467,30 +469,39 @@ class Prover:
 
         return self._prove_in_cases(x, T.domain, prove_value)
 
-    def _prove_cover(self, known: Sequence[FunType], T: FunType) -> Finding:
-        """Is every function that is of all these types one of T?
-
-        In each case of T's domain its value is of the results of those types whose
-        domain surely has the argument, and there must be one.
-        """
+    def _prove_covers(self, known: list[FunType], T: FunType) -> Finding:
+        """Is every function of all the known types one of T?"""
         x = self._new_place()
+        wanted = substitute_variable(T.result, x)
+        return self._prove_in_cases(
+            x, T.domain, lambda q: q._prove_value(x, known, wanted)
+        )
 
-        def prove_result(q: Prover) -> Finding:
-            inside = [(one, q.prove(x, one.domain)) for one in known]
-            results = [
-                substitute_variable(one.result, x) for one, found in inside if found.yes
-            ]
-            if not results:
-                return inside[0][1]
-            y = q._new_place()
-            wanted = substitute_variable(T.result, x)
-            return q._prove_in_cases(
-                y,
-                meet(*results),
-                lambda r: YES if r._is_contradictory else r.prove(y, wanted),
-            )
+    def _prove_value(self, x: Path, known: list[FunType], wanted: TypeNode) -> Finding:
+        """Is the value for x, of a function of the known types, of the wanted type?
 
-        return self._prove_in_cases(x, T.domain, prove_result)
+        It is of each result whose domain x is in. If that is not enough, x is in a
+        further domain or it is not.
+        """
+        covering = [one for one in known if self.prove(x, one.domain).yes]
+        if covering:
+            y = self._new_place()
+            result = meet(*[substitute_variable(one.result, x) for one in covering])
+            found = self._prove_in_cases(y, result, lambda q: q.prove(y, wanted))
+            if found.yes:
+                return found
+        for one in known:
+            if one in covering:
+                continue
+            outside = self._assume_new([(x, Negation(one.domain))])
+            inside = self._assume_new([(x, one.domain)])
+            rest = [other for other in known if other is not one]
+            if self not in (outside, inside):
+                return every(
+                    YES if case.is_impossible else case._prove_value(x, others, wanted)
+                    for case, others in ((outside, rest), (inside, known))
+                )
+        return Finding(False)
 
     def _new_place(self) -> Path:
         """A place of which nothing is known yet."""
@@ -503,7 +514,9 @@ class Prover:
         if len(self.assumed) >= ASSUMPTIONS:
             return Finding(False, lambda: "this nests too deep to be followed")
         further = [self.assume((place, case)) for case in cases_or_whole(S)]
-        return every(prove_case(q) for q in further if not q._has_misfit)
+        return every(
+            prove_case(q) for q in further if not (q._has_misfit or q._is_contradictory)
+        )
 
     def _follows_from_function(self, term: Application, T: TypeNode) -> bool:
         """Is a value of T because of the type of the function that gives it?"""

@@ -76,6 +76,8 @@ from ttr.types.syntax import (
     TypeAt,
     TypeNode,
     Universe,
+    join,
+    meet,
 )
 
 
@@ -411,6 +413,9 @@ class _WitnessMaker:
             return sit, _with_certainty(facts, sit, T)
         if all(isinstance(shape, RecordType) for shape in shapes):
             shapes = [reduce(partial(_merge, facts), shapes)]
+        functions = [shape for shape in shapes if isinstance(shape, FunType)]
+        if len(functions) == len(shapes):
+            shapes = [_one_function_type(functions)]
         sit, facts = self.make(facts, min(shapes, key=lambda U: type(U) in _VAGUE))
         return sit, _with_certainty(facts, sit, T)
 
@@ -454,6 +459,12 @@ def _type(T: Universe, size: int) -> TypeNode:
 def _another(labels: Collection[str]) -> str:
     """A label that is not among these."""
     return next(one for one in map("more{}".format, count()) if one not in labels)
+
+
+def _one_function_type(types: list[FunType]) -> FunType:
+    """A type of functions that are of all these types."""
+    domain = join(*[T.domain for T in types])
+    return FunType(domain, meet(*[T.result for T in types]), types[0].hint)
 
 
 def _with_certainty(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
