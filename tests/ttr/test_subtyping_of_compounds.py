@@ -46,6 +46,20 @@ YES = {
     "other forms": (Rec, ~ListOf(A)),
     "a disjunctive syllogism": ((A | B) & ~A, B),
     "a negation in a field": (rectype(x=A & ~B), rectype(x=~B)),
+    "a denied record type": (rectype(x=A, y=B) & ~rectype(x=A), C),
+    "one of two fields is not": (
+        rectype(x=A, y=A) & ~rectype(x=B, y=C),
+        rectype(x=~B) | rectype(y=~C),
+    ),
+    "one of two fields inside is not": (
+        rectype(r=rectype(x=A, y=A)) & ~rectype(r=rectype(x=B, y=C)),
+        rectype(r=rectype(x=~B)) | rectype(r=rectype(y=~C)),
+    ),
+    "excluded middle in a field": (rectype(x=A), rectype(x=B) | rectype(x=~B)),
+    "excluded middle further in": (
+        rectype(r=rectype(x=A)),
+        rectype(r=rectype(x=B)) | rectype(r=~rectype(x=B)),
+    ),
     "elements of lists": (ListOf(A & B), ListOf(A)),
     "elements that are a join": (ListOf(A | B), ListOf(B | C | A)),
     "lists that must be empty": (ListOf(A & ~A), ListOf(B)),

@@ -12,6 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations_with_replacement
+from math import prod
 from typing import assert_never
 
 from ttr.computing.case_analysis import Clause, cases_or_whole, clauses
@@ -65,6 +66,12 @@ from ttr.types.syntax import (
 
 ASSUMPTIONS = 24
 """How many assumptions may be nested before a question is left open."""
+
+DENIALS = 3
+"""How many assumptions there may be where denied record types are taken apart."""
+
+RECORDS = 64
+"""In how many ways something may fail to be of any of the record types of a join."""
 
 
 @dataclass(frozen=True)
@@ -271,7 +278,8 @@ class Prover:
         found = self._prove_one_of(term, plain, where)
         if found.yes:
             return YES
-        further = self._assume_new([(term, part.body) for part in denied])
+        told = [(term, part.body) for part in denied]
+        further = self._assume_new([*told, *_all_but_last_denied(term, plain)])
         if further is not self:
             if further.is_impossible:
                 return YES
@@ -306,16 +314,47 @@ class Prover:
     def _follows_in_each_case(
         self, term: Object, T: TypeNode, known: list[TypeNode]
     ) -> bool:
-        """Is the term of a join, and of T whichever part of the join it is of?"""
+        """Is the term of a join, and of T whichever part of the join it is of?
+
+        Of negations one is taken apart, and the others then are in each case.
+        """
         for one in known:
-            if not isinstance(one, Join):
-                continue
-            further = [self._assume_new([(term, case)]) for case in cases_or_whole(one)]
-            if self in further:
+            further = [
+                self._assume_new([case]) for case in self._ways_to_be(term, one, known)
+            ]
+            if not further or self in further:
                 continue
             if all(case.is_impossible or case.prove(term, T).yes for case in further):
                 return True
+            if isinstance(one, Negation):
+                return False
         return False
+
+    def _may_look_into(self, term: Object) -> bool:
+        """Is it worth while to ask in which field a record fails to be of a type?"""
+        return isinstance(term, Path) and len(self.assumed) < DENIALS
+
+    def _ways_to_be(
+        self, term: Object, T: TypeNode, known: list[TypeNode]
+    ) -> list[Assumption]:
+        """What may be assumed, one or the other, as the term is of T; else nothing.
+
+        A record that is not of a type, but has its labels, is not of it in some field.
+        """
+        match T:
+            case Join():
+                return [(term, case) for case in cases_or_whole(T)]
+            case Negation(RecordType(fields)) if self._may_look_into(term):
+                assert isinstance(term, Path)
+                labels = {
+                    label for R in known if isinstance(R, RecordType) for label in R
+                }
+                if all(label in labels for label, _ in fields):
+                    return [
+                        (step(term, label), Negation(field_type(field, term)))
+                        for label, field in fields
+                    ]
+        return []
 
     # --- lists, sets and strings ---
 
@@ -641,6 +680,17 @@ _BELOW: dict[type[TypeNode], tuple[type[TypeNode], ...]] = {
     SetOf: (SetOf,),
 }
 """The kinds of collection types that lie below one."""
+
+
+def _all_but_last_denied(term: Object, parts: list[TypeNode]) -> list[Assumption]:
+    """That a term is of no record type but the last of several, if these are few.
+
+    If it is of one of them or of the last, then it is of the last where it is of none.
+    """
+    records = [part for part in parts if isinstance(part, RecordType)]
+    if prod(len(T.fields) for T in records) > RECORDS:
+        return []
+    return [(term, Negation(T)) for T in records[:-1]]
 
 
 def _written_elements(
