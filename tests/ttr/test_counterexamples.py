@@ -153,3 +153,11 @@ def test_a_counterexample_is_of_one_type_and_not_of_the_other(S, T, shown):
 def test_what_holds_has_no_counterexample(S, T):
     theory = Theory.parse(f"{NAMES}\nS := {S}\nT := {T}\n")
     assert subtype(theory.S, theory.T, theory).counter is None
+
+
+def test_a_counterexample_is_to_the_type_as_it_was_written():
+    theory = Theory.parse("basic A, B\nF := \\x:A. [y : B]\nobject a : A")
+    T = theory.parse("[z : F(a)]")
+    against = subtype(theory.parse("[z : Rec]"), T, theory).counter
+    assert against.type is T
+    assert against.p == REFUTED

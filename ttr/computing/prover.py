@@ -26,6 +26,7 @@ from ttr.computing.generic_witness import (
     event,
     step,
 )
+from ttr.computing.normal_forms import push_negations_inwards
 from ttr.computing.strings.automata import automaton, automaton_above
 from ttr.computing.strings.automaton_runs import accepts
 from ttr.computing.strings.inclusion import Inclusion, check_inclusion
@@ -351,7 +352,7 @@ class Prover:
                 }
                 if all(label in labels for label, _ in fields):
                     return [
-                        (step(term, label), Negation(field_type(field, term)))
+                        (step(term, label), _denial(field_type(field, term)))
                         for label, field in fields
                     ]
         return []
@@ -680,6 +681,10 @@ _BELOW: dict[type[TypeNode], tuple[type[TypeNode], ...]] = {
     SetOf: (SetOf,),
 }
 """The kinds of collection types that lie below one."""
+
+
+def _denial(T: TypeNode) -> TypeNode:
+    return push_negations_inwards(Negation(T))
 
 
 def _all_but_last_denied(term: Object, parts: list[TypeNode]) -> list[Assumption]:

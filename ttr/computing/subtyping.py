@@ -8,7 +8,7 @@ some witness of S is not of T. `unknown`: neither was found.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases, cases_or_whole
@@ -48,14 +48,14 @@ if TYPE_CHECKING:
 class Refutation:
     """A possible counterexample to S ⊑ T: a witness of S under these assumptions.
 
-    `written` is T as it was written, before it was computed.
+    S and T are what is computed; `asked` is T as it was written, if that differs.
     """
 
     S: TypeNode
     T: TypeNode
     theory: Signature
     assumed: tuple[Assumption, ...] = ()
-    written: TypeNode | None = None
+    asked: TypeNode | None = None
 
 
 @hook
@@ -114,6 +114,13 @@ class Answer:
         if self._refutation is None or not self.no:
             return None
         return counterexample(self._refutation)
+
+    def about(self, asked: TypeNode) -> Answer:
+        """The same answer, whose counterexample is to a type as it was written."""
+        if self._refutation is None or self._refutation.T is asked:
+            return self
+        refutation = replace(self._refutation, asked=asked)
+        return Answer(self.verdict, self._reason, refutation)
 
     def __bool__(self) -> bool:
         raise TypeError("an answer is yes, no or unknown: ask for .yes or .no")
@@ -174,7 +181,7 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     no: [x : Ind] has no field c
     """
     S, T, theory = as_type(S), as_type(T), signature_of(theory)
-    written = T
+    asked = T
     if S is not T:
         S, T = normal_type(S, theory), normal_type(T, theory)
     if S is T:
@@ -183,7 +190,7 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     answers = [_in_case(case, T, theory, written) for case in found or (S,)]
     refuted = next((answer for answer in answers if answer.no), None)
     if refuted is not None:
-        return refuted
+        return refuted.about(asked)
     if len(answers) > 1 and all(answer.yes for answer in answers):
         return Answer("yes", lambda: f"each case of {S} is below {T}")
     return next((answer for answer in answers if answer.unknown), answers[0])

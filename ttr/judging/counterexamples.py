@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import partial
 from itertools import count, product
 
@@ -45,9 +46,8 @@ def find_counterexample(refutation: Refutation) -> Judgement | None:
         if found is None or _degree(found, refutation.S) != CERTAIN:
             continue
         if _degree(found, T) == REFUTED:
-            written = refutation.written or T
-            shown = written if _degree(found, written) == REFUTED else T
-            return found.model.judge(found.sit, shown)
+            against = found.model.judge(found.sit, T)
+            return replace(against, type=refutation.asked or T)
     return None
 
 
