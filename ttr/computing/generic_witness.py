@@ -67,6 +67,41 @@ def event(place: Path, number: int) -> Path:
     return step(place, str(number))
 
 
+def new_place(number: int) -> Path:
+    """A place of which nothing is known: an arbitrary argument, say."""
+    return Path(0, (f"{ITSELF.labels[0]}{number}",))
+
+
+def name_place(place: Path, labels: Collection[str]) -> Path:
+    """A place as a path that people can read, from a record with these labels.
+
+    An element of a list is called so, and so is an event; what is inside one is a path
+    from it. Places of their own are x1, x2 and so on, or y1 if x1 is a label.
+
+    >>> name_place(step(step(ITSELF, "r"), "x"), ["r"]).labels
+    ('r', 'x')
+    >>> name_place(step(element(step(ITSELF, "l")), "x"), ["l"]).labels
+    ('x',)
+    >>> name_place(element(step(ITSELF, "l")), ["l"]).labels
+    ('element',)
+    >>> name_place(new_place(0), ["x1"]).labels
+    ('y1',)
+    """
+    first, *inside = place.labels
+    if not first.startswith(ITSELF.labels[0]):
+        return place
+    if first != ITSELF.labels[0]:
+        number = int(first.removeprefix(ITSELF.labels[0])) + 1
+        names = (f"{letter}{number}" for letter in "xyzuvw")
+        whole = next((name for name in names if name not in labels), f"x{number}")
+        inside = [whole, *inside]
+    for at in range(len(inside) - 1, -1, -1):
+        if inside[at] == _EACH or inside[at].isdigit():
+            whole = "element" if inside[at] == _EACH else "event"
+            return Path(place.up, tuple(inside[at + 1 :]) or (whole,))
+    return Path(place.up, tuple(inside) or ("it",))
+
+
 def elements(term: Object) -> tuple[Object, ...] | None:
     """The elements of a list, a set or a string that is written out, else None."""
     if isinstance(term, FiniteSet | EventString):

@@ -24,6 +24,8 @@ from ttr.computing.generic_witness import (
     element,
     elements,
     event,
+    name_place,
+    new_place,
     step,
 )
 from ttr.computing.normal_forms import push_negations_inwards
@@ -239,7 +241,7 @@ class Prover:
         wanted = self._apply_functions(self.witness.normalise(value))
         if self.witness.are_equal(term, wanted):
             return self.prove(term, base, where)
-        return no(where, partial(self._why_not_equal, wanted, where))
+        return no(where, partial(self._why_not_equal, term, wanted, where))
 
     def _prove_universe(self, term: Object, T: Universe, where: Where) -> Finding:
         if isinstance(term, Merge):
@@ -545,7 +547,7 @@ class Prover:
 
     def _new_place(self) -> Path:
         """A place of which nothing is known yet."""
-        return Path(0, (f"{ITSELF.labels[0]}{len(self.assumed)}",))
+        return new_place(len(self.assumed))
 
     def _prove_in_cases(
         self, place: Path, S: TypeNode, prove_case: Callable[[Prover], Finding]
@@ -657,9 +659,9 @@ class Prover:
     def _why_not_below(self, term: Object, T: TypeNode) -> str:
         return f"{self._format_types(term)} is not below {self._format(T)}"
 
-    def _why_not_equal(self, wanted: Object, where: Where) -> str:
-        one = ".".join(where) or f"a witness of {self.S}"
-        return f"{one} need not be {self._format(wanted)}"
+    def _why_not_equal(self, term: Object, wanted: Object, where: Where) -> str:
+        whole = f"a witness of {self.S}" if term is ITSELF else self._format(term)
+        return f"{'.'.join(where) or whole} need not be {self._format(wanted)}"
 
     def _why_no_field(self, term: Object, label: str) -> str:
         return f"{self._format_types(term)} has no field {label}"
@@ -670,9 +672,11 @@ class Prover:
         return " /\\ ".join(map(self._format, known)) or self._format(term)
 
     def _format(self, value: Object) -> str:
-        """The notation of a value, with places as paths from the witness."""
+        """The notation of a value, with places as paths or under names of their own."""
         labels = frozenset(self.S.labels if isinstance(self.S, RecordType) else ())
-        return notation(replace_paths(value, _from_witness), (labels,))
+        named = replace_paths(value, lambda place: name_place(place, labels))
+        names = {path.labels[0] for path in free_paths(named) if path.up == 0}
+        return notation(named, (labels | names,))
 
 
 _BELOW: dict[type[TypeNode], tuple[type[TypeNode], ...]] = {
@@ -714,11 +718,6 @@ def _ask_of(term: Object, T: TypeNode) -> Callable[[Prover], Finding]:
 def _is_closed(term: Object, T: TypeNode) -> bool:
     """Can a model be asked? Questions about functions are answered here."""
     return not (isinstance(T, FunType) or free_paths(term) or free_paths(T))
-
-
-def _from_witness(place: Path) -> Path:
-    inside = place.labels[: len(ITSELF.labels)] == ITSELF.labels
-    return Path(place.up, place.labels[inside:] or place.labels)
 
 
 def _is_among(U: Universe, T: Universe) -> bool:

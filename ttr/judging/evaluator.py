@@ -43,7 +43,12 @@ from ttr.types.objects import (
 )
 from ttr.types.paths import free_paths, map_parts, mentions
 from ttr.types.printing import notation
-from ttr.types.substitution import Around, instantiate_body, resolve_paths
+from ttr.types.substitution import (
+    Around,
+    instantiate_body,
+    resolve_paths,
+    substitute_variable,
+)
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -486,7 +491,9 @@ class _Derivation(Evaluator[Why]):
         try:
             value = reduce_applications(self.facts, resolve_paths(sit.body, scope))
         except (UnresolvedError, RefusedError) as wrong:
-            return [inside, Why(sit.body, T.result, REFUTED, wrong.message)]
+            result = substitute_variable(T.result, x)
+            value = Application(sit, x)
+            return [inside, Why(value, result, REFUTED, wrong.message)]
         return [inside, self.of(value, T.result, scope)]
 
 
