@@ -1,6 +1,7 @@
 """Subtyping up to relabelling: which relabelling, and why there is none."""
 
 import pickle
+import re
 
 import pytest
 
@@ -234,7 +235,7 @@ def test_a_theory_checks_it():
 
 def test_a_check_that_fails_says_why():
     report = check(Theory.parse(PETS + "    check T <= S up to relabelling"))
-    assert "no field of [x : Ind, c : cat(x)] can be" in str(report)
+    assert re.search(r"why:      .*no field of .* can be", str(report))
 
 
 @pytest.mark.parametrize(

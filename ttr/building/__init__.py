@@ -2,8 +2,8 @@
 
 Read `constructors` and `well_formedness` (when is a type well-formed?), then `merging`;
 each of the others does one thing to given types, and `relabelled_subtyping` asks
-whether one is below another with other labels. May import: computing and
-all below it.
+whether one is below another with other labels; so do axioms with `conditions`. May
+import: computing and all below it.
 """
 
 from ttr.building.constructors import Pi, fun, rectype

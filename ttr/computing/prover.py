@@ -37,6 +37,7 @@ from ttr.computing.universe_levels import why_outside
 from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
 from ttr.signature.axioms import find_exclusion, supertypes
+from ttr.signature.conditional_axioms import Way, ways_to_follow
 from ttr.signature.signature import Signature
 from ttr.types.interning import identity
 from ttr.types.objects import EventString, FiniteSet, Object, Operation, Path, Record
@@ -220,9 +221,20 @@ class Prover:
             for axiom, upper in supertypes(known, self.theory.axioms):
                 if upper is wanted:
                     return Finding(True, partial("by the axiom {}".format, axiom))
+        for way in self._ways_to_follow(term, wanted):
+            return Finding(True, partial(_why_by_conditions, way))
         if isinstance(term, Operation) and term.name == "fst":
             return self._prove_first(term, T, where)
         return self._not_below(term, wanted, where)
+
+    def _ways_to_follow(self, term: Object, T: Basic | PType) -> Iterator[Way]:
+        """The ways in which T follows by axioms whose conditions are derivable."""
+        if not self.theory.conditional_axioms:
+            return
+        known = [K for K in self._types_of(term) if isinstance(K, Basic | PType)]
+        for way in ways_to_follow(T, known, self.theory):
+            if all(one.compare(self.theory)[0] == "yes" for one in way.conditions):
+                yield way
 
     def _prove_first(self, term: Operation, T: TypeNode, where: Where) -> Finding:
         """The first element of a list is of the type of all its elements."""
@@ -677,6 +689,11 @@ class Prover:
         named = replace_paths(value, lambda place: name_place(place, labels))
         names = {path.labels[0] for path in free_paths(named) if path.up == 0}
         return notation(named, (labels | names,))
+
+
+def _why_by_conditions(way: Way) -> str:
+    axioms = " and ".join(map(str, way.axioms))
+    return f"by the axiom {axioms}"
 
 
 _BELOW: dict[type[TypeNode], tuple[type[TypeNode], ...]] = {

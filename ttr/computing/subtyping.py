@@ -222,8 +222,19 @@ def _refute(prover: Prover, T: TypeNode, found: Finding, written: TypeNode) -> A
 def is_decided(prover: Prover, T: TypeNode) -> bool:
     """Is what the prover does not derive of a witness and T surely refuted?"""
     S = prover.S
+    if prover.theory.conditional_axioms and not _is_without_conditions(prover, T):
+        return False
     plain = prover.witness.is_certain and _is_plain(S) and _is_plain(T)
     return plain and has_fields_in_order(S)
+
+
+def _is_without_conditions(prover: Prover, T: TypeNode) -> bool:
+    """Is no axiom with conditions about what the types mention?"""
+    heads = prover.theory.axiom_heads
+    return not any(
+        isinstance(part, Basic | Pred) and part in heads
+        for part in subterms([prover.S, T])
+    )
 
 
 _TYPES = (Basic, PType, Singleton, Meet, ListOf, RecordType, Universe)

@@ -7,7 +7,7 @@ follows for records, lists and other types.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any, TypeAlias
@@ -30,6 +30,10 @@ from ttr.signature.axioms import (
     match_schema,
     subtypes,
     supertypes,
+)
+from ttr.signature.conditional_axioms import (
+    heads_below,
+    ways_to_follow,
 )
 from ttr.signature.signature import Signature
 from ttr.types.interning import identity
@@ -102,11 +106,18 @@ class Assignment:
             return self._clip(sit, T, known, (least, lower), (most, upper)), lower
         if perceptual or self._is_open(T):
             return Degree(0.0, most), upper or "nothing is known of it"
-        return REFUTED, "nothing says so"
+        failed = ""
+        for p, way in self._degrees_by_conditions(facts, sit, T):
+            if p.hi > 0.0:
+                return Degree(0.0, most), f"it may be {way}"
+            failed = failed or f", not {way}"
+        return REFUTED, f"nothing says so{failed}"
 
     def _is_open(self, T: Atom) -> bool:
         """May other objects be of T than the facts say, by itself or by an axiom?"""
         heads = [head(T), *(head(one) for _, one in subtypes(T, self.theory.axioms))]
+        if self.theory.conditional_axioms:
+            heads += heads_below(heads, self.theory)
         return any(one in self.opened or one in self.functions for one in heads)
 
     def can_be(self, sit: Object, pred: Pred) -> bool:
@@ -186,6 +197,9 @@ class Assignment:
         kinds = [T]
         for _, lower in subtypes(T, self.theory.axioms):
             kinds += _instances(lower, self.told)
+        if self.theory.conditional_axioms:
+            below = frozenset(heads_below([head(T)], self.theory))
+            kinds += sorted((K for K in self.told if head(K) in below), key=str)
         told = {
             key: entry
             for kind in kinds
@@ -333,7 +347,33 @@ class Assignment:
                 if facts[kind].lo > best:
                     best = facts[kind].lo
                     why = f"by {axiom} and {notation(sit)} : {kind}"
+        for p, way in self._degrees_by_conditions(facts, sit, T):
+            if p.lo > best:
+                best, why = p.lo, way
         return best, why
+
+    def _degrees_by_conditions(
+        self, facts: Facts, sit: Object, T: Atom
+    ) -> Iterator[tuple[Degree, str]]:
+        """How probable T is by each way to follow under conditions, and by which.
+
+        The conditions may depend on one another and on the facts: what holds of all at
+        once has Fréchet's bounds.
+        """
+        if not self.theory.conditional_axioms:
+            return
+        for way in ways_to_follow(T, facts, self.theory):
+            degrees, reasons = [facts[way.source]], []
+            for condition in way.conditions:
+                p, reason = condition.degree(self)
+                degrees.append(p)
+                reasons.append(reason)
+                if p == REFUTED:
+                    break
+            axioms = " and ".join(f"{one}" for one in way.axioms)
+            shown = "; ".join(filter(None, reasons))
+            said = f"by {axioms} and {notation(sit)} : {way.source}"
+            yield _degree_of_all(degrees), f"{said}: {shown}" if shown else said
 
     def _bound_above(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is at most as probable as a : U, wherever T <: U; and by which."""
@@ -369,6 +409,17 @@ class Assignment:
                 why = f"by {exclusion} and the witness function of {one}"
                 found.append((complement(seen.lo), why))
         return min(found)
+
+
+def _degree_of_all(degrees: Iterable[Degree]) -> Degree:
+    """The bounds on all at once, however they depend on one another.
+
+    >>> print(_degree_of_all([Degree(0.8, 0.9), Degree(0.7, 1.0)]))
+    [0.5, 0.9]
+    """
+    found = tuple(degrees)
+    least = sum(p.lo for p in found) - (len(found) - 1)
+    return Degree(max(0.0, least), min(p.hi for p in found))
 
 
 def _instances(schema: Atom, facts: Map[Atom, Any]) -> list[Atom]:

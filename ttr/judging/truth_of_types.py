@@ -9,12 +9,13 @@ the known ones for all.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
+from ttr.computing.normalisation import normal_type
 from ttr.computing.subtyping import subtype
-from ttr.errors import RefusedError
+from ttr.errors import RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.conditioning import derive_conditional
 from ttr.judging.degrees_of_claims import probability_of
@@ -39,9 +40,15 @@ from ttr.probability import (
     ImpossibleError,
 )
 from ttr.probability.events import SURE
-from ttr.types.objects import Object
+from ttr.signature.signature import (
+    Condition,
+    Signature,
+    format_argument,
+    value_of,
+)
+from ttr.types.objects import Object, Path
 from ttr.types.printing import notation
-from ttr.types.syntax import TypeNode, meet
+from ttr.types.syntax import TypeNode, as_type, meet
 
 TRIED = 1_000
 """The number of objects that are judged one by one; any others may be of the type."""
@@ -138,6 +145,38 @@ def _most_probable(facts: Assignment, T: TypeNode, when: TypeNode | None) -> flo
     """How probable T is at most, as far as what can be listed of it goes."""
     above = listed_type(T)
     return 1.0 if above is None else probability_of_some(facts, above, when).hi
+
+
+@dataclass(frozen=True)
+class IsTrue(Condition):
+    """The condition of an axiom that something is of T; a path is a variable."""
+
+    type: Object
+
+    @property
+    def terms(self) -> tuple[Object, ...]:
+        """The type, or the variable for it."""
+        return (self.type,)
+
+    def with_values(self, bound: Mapping[Path, Object]) -> IsTrue:
+        """The condition on the value of its variable."""
+        return IsTrue(value_of(self.type, bound))
+
+    def compare(self, theory: Signature) -> tuple[str, str]:
+        """Unknown: of what there is something depends on the model."""
+        return "unknown", f"{self} depends on what there is"
+
+    def degree(self, facts: Assignment) -> tuple[Degree, str]:
+        """p(T); unknown where the objects of T cannot be listed."""
+        T = normal_type(as_type(self.type), facts.theory)
+        try:
+            p = probability_of_some(facts, T)
+        except UnsupportedError:
+            p = UNKNOWN
+        return p, f"{T} is true" if p == CERTAIN else f"P({T}) = {p}"
+
+    def __str__(self) -> str:
+        return f"true({format_argument(self.type)})"
 
 
 def _some_event(

@@ -64,7 +64,7 @@ class _Parser(TermParser):
     # --- statements ---
 
     def _statement(self) -> Statement:
-        """x := T, or T <: T, or a statement that begins with a keyword."""
+        """x := T, or T <: T ‹if condition, …›, or what begins with a keyword."""
         start = self._at
         word = PATH.match(self._text, start)
         if word and self._is_keyword(word):
@@ -76,7 +76,11 @@ class _Parser(TermParser):
             return self._node(trees.Definition, start, name, self._term())
         lower = self._term()
         self._expect("<:")
-        return self._node(trees.AxiomClaim, start, lower, self._term("a type"))
+        upper = self._term("a type")
+        if not self._accept_word("if", "if"):
+            return self._node(trees.AxiomClaim, start, lower, upper)
+        when = self._comma_separated(self._query)
+        return self._node(trees.ConditionalAxiomClaim, start, lower, upper, when)
 
     def _is_keyword(self, word: re.Match[str]) -> bool:
         if word[0] in _BEFORE_NAMES:

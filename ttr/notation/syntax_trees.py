@@ -320,6 +320,15 @@ class AxiomClaim(Statement):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class ConditionalAxiomClaim(Statement):
+    """S <: T if C, …, where each C is what a check may ask."""
+
+    lower: Term
+    upper: Term
+    when: tuple[Query, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Question(Statement):
     """check Q; `expected` is yes, no, unknown or error."""
 

@@ -1,4 +1,4 @@
 """What a theory assumes: declarations, axioms, exclusions, and what these entail.
 
-Read `signature` first, then `axioms`. May import: types.
+Read `signature` first, then `axioms` and `conditional_axioms`. May import: types.
 """

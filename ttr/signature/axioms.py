@@ -12,15 +12,17 @@ from ttr.types.objects import Object, Path
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import Basic, Pred, PType
 
-_Binding = Mapping[Path, Object]
+Binding = Mapping[Path, Object]
 
-_Atom = Basic | PType
+Atom = Basic | PType
 
 
 def supertypes(
     T: Basic | PType, axioms: tuple[Axiom, ...]
 ) -> Iterator[tuple[Axiom, Basic | PType]]:
     """Each type that the axioms put above T, once, with the last axiom used.
+
+    Axioms with conditions are left out (`ttr.signature.conditional_axioms`).
 
     >>> from ttr import Ind, Pred, this
     >>> dog, puppy = Pred("dog", Ind), Pred("puppy", Ind)
@@ -29,7 +31,8 @@ def supertypes(
     ...     print(upper, "by", axiom)
     dog(rex) by puppy(x) <: dog(x)
     """
-    yield from _closure(T, [(axiom, axiom.lower, axiom.upper) for axiom in axioms])
+    steps = [(one, one.lower, one.upper) for one in axioms if not one.when]
+    yield from _closure(T, steps)
 
 
 def subtypes(
@@ -39,19 +42,20 @@ def subtypes(
 
     A schematic variable that occurs only on the lower side stays a path.
     """
-    yield from _closure(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
+    steps = [(one, one.upper, one.lower) for one in axioms if not one.when]
+    yield from _closure(T, steps)
 
 
-def supertype_set(T: _Atom, theory: Signature) -> frozenset[_Atom]:
+def supertype_set(T: Atom, theory: Signature) -> frozenset[Atom]:
     """The types that the axioms put above T."""
     found = theory._memo.get(T)
     if found is None:
         found = frozenset(upper for _, upper in supertypes(T, theory.axioms))
         theory._memo[T] = found
-    return cast(frozenset[_Atom], found)
+    return cast(frozenset[Atom], found)
 
 
-def find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
+def find_exclusion(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
     """The exclusion of the two types, or of types above them; None if there is none.
 
     >>> from ttr import Ind, Pred, this
@@ -68,7 +72,7 @@ def find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
     return cast(Exclusion | None, theory._memo[S, T])
 
 
-def _find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
+def _find_exclusion(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
     mine, theirs = (S, *supertype_set(S, theory)), (T, *supertype_set(T, theory))
     for exclusion in theory.exclusions:
         sides = exclusion.left, exclusion.right
@@ -78,7 +82,7 @@ def _find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
     return None
 
 
-def _match_both(schemas: tuple[_Atom, _Atom], types: tuple[_Atom, _Atom]) -> bool:
+def _match_both(schemas: tuple[Atom, Atom], types: tuple[Atom, Atom]) -> bool:
     """Do both types match their schemas with the same values of the variables?"""
     left, right = (match_schema(*pair) for pair in zip(schemas, types, strict=True))
     if left is None or right is None:
@@ -89,11 +93,11 @@ def _match_both(schemas: tuple[_Atom, _Atom], types: tuple[_Atom, _Atom]) -> boo
 
 
 def _closure(
-    T: _Atom, steps: Sequence[tuple[Axiom, _Atom, _Atom]]
-) -> Iterator[tuple[Axiom, _Atom]]:
+    T: Atom, steps: Sequence[tuple[Axiom, Atom, Atom]]
+) -> Iterator[tuple[Axiom, Atom]]:
     if not steps:
         return
-    by_head: dict[Basic | Pred, list[tuple[Axiom, _Atom, _Atom]]] = {}
+    by_head: dict[Basic | Pred, list[tuple[Axiom, Atom, Atom]]] = {}
     for step in steps:
         by_head.setdefault(head(step[1]), []).append(step)
     found, waiting = {T}, [T]
@@ -102,19 +106,19 @@ def _closure(
             bound = match_schema(start, current)
             if bound is None:
                 continue
-            reached = _instantiate(end, bound)
+            reached = instantiate(end, bound)
             if reached not in found:
                 found.add(reached)
                 waiting.append(reached)
                 yield axiom, reached
 
 
-def head(T: _Atom) -> Basic | Pred:
+def head(T: Atom) -> Basic | Pred:
     """The basic type itself, or the predicate of a ptype."""
     return T if isinstance(T, Basic) else T.pred
 
 
-def match_schema(schema: Basic | PType, T: Basic | PType) -> _Binding | None:
+def match_schema(schema: Basic | PType, T: Basic | PType) -> Binding | None:
     """The values of the variables for which the schema is T, or None."""
     if isinstance(schema, Basic) or isinstance(T, Basic):
         return {} if schema is T else None
@@ -128,7 +132,7 @@ def match_schema(schema: Basic | PType, T: Basic | PType) -> _Binding | None:
     return bound
 
 
-def _instantiate(schema: Basic | PType, bound: _Binding) -> Basic | PType:
+def instantiate(schema: Basic | PType, bound: Binding) -> Basic | PType:
     """The schema with its variables replaced."""
     found: Basic | PType = replace_paths(schema, lambda path: bound.get(path, path))
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,15 +12,56 @@ from ttr.aliases import Alias
 from ttr.errors import IllFormedError, Span
 from ttr.escapes import json_text
 from ttr.persistent_maps import Map
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.types.interning import as_notation
 from ttr.types.objects import Object, Path, Record
 from ttr.types.syntax import Basic, Pred, PType, RecordType, TypeNode, kind_of
 
 if TYPE_CHECKING:
+    from ttr.judging.assignments import Assignment
     from ttr.updates.update_strategies import Algorithm
 
 Interval = tuple[float, float]
 """An interval of probability [lo, hi] with 0 <= lo <= hi <= 1."""
+
+
+class Condition(ABC):
+    """A condition under which an axiom holds, on types and variables.
+
+    What it takes to answer it lies above this room: it is a value that can be asked.
+    """
+
+    @property
+    @abstractmethod
+    def terms(self) -> tuple[Object, ...]:
+        """What it is about: types, and paths for variables."""
+
+    @abstractmethod
+    def with_values(self, bound: Mapping[Path, Object]) -> Condition:
+        """The condition on the values of its variables."""
+
+    def narrowest(self, bound: Mapping[Path, Object]) -> Mapping[Path, Object]:
+        """For a variable that may have any value above another's, that one."""
+        return {}
+
+    @property
+    def holds_by_form(self) -> bool:
+        """Does it hold whatever the theory and the model?"""
+        return False
+
+    @abstractmethod
+    def compare(self, theory: Signature) -> tuple[str, str]:
+        """Is it derivable or refuted in every model: yes, no or unknown; and why."""
+
+    def degree(self, facts: Assignment) -> tuple[Degree, str]:
+        """How certain it is in a model, and why."""
+        verdict, why = self.compare(facts.theory)
+        return {"yes": CERTAIN, "no": REFUTED}.get(verdict, UNKNOWN), why
+
+
+def value_of(term: Object, bound: Mapping[Path, Object]) -> Object:
+    """The value of a variable, if it has one; any other term itself."""
+    return bound.get(term, term) if isinstance(term, Path) else term
 
 
 @dataclass(frozen=True)
@@ -27,14 +69,27 @@ class Axiom:
     """A declared subtyping S <: T; paths in it are schematic variables.
 
     `right(x, y) <: left(y, x)` says that every situation in which x is right of y is
-    one in which y is left of x, whatever x and y are.
+    one in which y is left of x, whatever x and y are. With conditions it says so only
+    of those values of the variables for which they hold.
     """
 
     lower: Basic | PType
     upper: Basic | PType
+    when: tuple[Condition, ...] = ()
+
+    @cached_property
+    def variables(self) -> frozenset[Object]:
+        """The schematic variables."""
+        terms = [
+            arg for T in (self.lower, self.upper) for arg in getattr(T, "args", ())
+        ]
+        terms += [term for condition in self.when for term in condition.terms]
+        return frozenset(term for term in terms if isinstance(term, Path))
 
     def __str__(self) -> str:
-        return f"{_format_schema(self.lower)} <: {_format_schema(self.upper)}"
+        pair = f"{_format_schema(self.lower)} <: {_format_schema(self.upper)}"
+        when = ", ".join(map(str, self.when))
+        return f"{pair} if {when}" if when else pair
 
 
 @dataclass(frozen=True)
@@ -55,10 +110,11 @@ def _format_schema(T: Basic | PType) -> str:
     """The type with its variables bare and the names of objects quoted."""
     if isinstance(T, Basic):
         return T.name
-    return f"{T.pred.name}({', '.join(map(_format_argument, T.args))})"
+    return f"{T.pred.name}({', '.join(map(format_argument, T.args))})"
 
 
-def _format_argument(arg: Object) -> str:
+def format_argument(arg: Object) -> str:
+    """A variable bare, the name of an object quoted, anything else as notation."""
     match arg:
         case Path(_, labels):
             return labels[0]
@@ -136,6 +192,11 @@ class Signature:
         exclusions = [T for one in self.exclusions for T in (one.left, one.right)]
         types = (*axioms, *exclusions)
         return frozenset(T if isinstance(T, Basic) else T.pred for T in types)
+
+    @cached_property
+    def conditional_axioms(self) -> tuple[Axiom, ...]:
+        """The axioms that hold under conditions."""
+        return tuple([one for one in self.axioms if one.when])
 
     related = Alias("axiom_heads")
 

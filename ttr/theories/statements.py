@@ -6,8 +6,10 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from ttr.building.conditions import IsBelow
 from ttr.computing.normalisation import check_computable
 from ttr.errors import IllFormedError, suggestion
+from ttr.judging.truth_of_types import IsTrue
 from ttr.notation import syntax_trees as trees
 from ttr.notation.names import is_declared
 from ttr.notation.reader import Reader
@@ -21,7 +23,13 @@ from ttr.notation.syntax_trees import (
     Word,
     inside,
 )
-from ttr.signature.signature import Axiom, Exclusion, Expected, Given
+from ttr.signature.signature import (
+    Axiom,
+    Condition,
+    Exclusion,
+    Expected,
+    Given,
+)
 from ttr.theories.game_statements import read_game
 from ttr.theories.rule_statements import read_rule
 from ttr.theories.strategy_statements import kinds_gathered, read_strategy
@@ -29,7 +37,7 @@ from ttr.theories.theory_draft import Draft
 from ttr.types.objects import Object, Path
 from ttr.types.paths import free_paths
 from ttr.types.reserved_words import LOGICAL, RESERVED
-from ttr.types.syntax import Basic, Pred, PType
+from ttr.types.syntax import Basic, Pred, PType, TypeNode
 
 
 @dataclass(frozen=True)
@@ -76,8 +84,10 @@ class StatementReader:
                 self._strategy(tree)
             case trees.GameStatement():
                 self._game(tree)
-            case trees.AxiomClaim():
-                self._axiom(tree)
+            case trees.AxiomClaim(_, _, lower, upper):
+                self._axiom(tree, lower, upper, ())
+            case trees.ConditionalAxiomClaim(_, _, lower, upper, when):
+                self._axiom(tree, lower, upper, when)
             case trees.Question():
                 from ttr.theories.check_statements import CheckReader
 
@@ -206,20 +216,58 @@ class StatementReader:
         for kind in sorted(kinds_gathered(value)):
             self.draft.gathered.setdefault(kind, name.text)
 
-    def _axiom(self, tree: trees.AxiomClaim) -> None:
-        lower = self._schema(tree.lower)
-        if isinstance(tree.upper, trees.Denial):
-            excluded = self._schema(tree.upper.body)
+    def _axiom(
+        self,
+        tree: Statement,
+        left: Term,
+        right: Term,
+        conditions: tuple[trees.Query, ...],
+    ) -> None:
+        lower = self._schema(left)
+        if isinstance(right, trees.Denial):
+            excluded = self._schema(right.body)
+            if conditions:
+                self.reader.refuse(conditions[0], "an exclusion has no conditions")
             self.draft.exclusions[Exclusion(lower, excluded)] = None
             return
-        upper = self._schema(tree.upper)
-        for path in sorted(free_paths(upper) - free_paths(lower), key=str):
+        upper = self._schema(right)
+        when = tuple([self._condition(one) for one in conditions])
+        bound = {one.upper for one in when if isinstance(one, IsBelow)}
+        for path in sorted(free_paths(upper) - free_paths(lower) - bound, key=str):
             self.reader.refuse(
-                tree.upper,
+                right,
                 f"the variable {path.labels[0]} stands on the right only",
                 f"quote it to name the object: '{path.labels[0]}'",
             )
-        self.draft.axioms[Axiom(lower, upper)] = None
+        axiom = Axiom(lower, upper, when)
+        sides = free_paths(lower) | free_paths(upper)
+        for path in sorted(axiom.variables - sides, key=str):
+            self.reader.refuse(
+                tree, f"the variable {path.labels[0]} stands in a condition only"
+            )
+        self.draft.axioms[axiom] = None
+
+    def _condition(self, tree: trees.Query) -> Condition:
+        """A condition of an axiom: S <= T, perhaps up to relabelling, or true(T)."""
+        match tree:
+            case trees.Comparison(_, _, "<=", lower, upper):
+                return IsBelow(self._content(lower), self._content(upper))
+            case trees.Comparison(_, _, "<= up to relabelling", lower, upper):
+                return IsBelow(self._content(lower), self._content(upper), True)
+            case trees.Claim(_, _, Application(_, _, Name(_, _, ("true",)), (T,))):
+                return IsTrue(self._content(T))
+        self.reader.refuse(
+            tree,
+            "this is no condition of an axiom",
+            "write S <= T, S <= T up to relabelling or true(T)",
+        )
+
+    def _content(self, term: Term) -> Path | TypeNode:
+        """A side of a condition: a variable, or a type."""
+        match term:
+            case Name(_, _, (name,), None) if not self._is_type(name):
+                return Path(0, (name,))
+        return self.reader.type(term, ())
 
     def _schema(self, term: Term) -> Basic | PType:
         """A side of an axiom, in which the names that are no types are variables."""
