@@ -372,7 +372,7 @@ def dialogues() -> dict[str, set[str]]:
 def gameboards() -> dict[str, set[str]]:
     """The public names of questions and of the boards of the literature."""
     boards = [f"ttr.semantics.gameboards.{name}" for name in ("cooper", "kos", "ibis")]
-    named = ("ttr.semantics.questions", *boards)
+    named = ("ttr.semantics.attitudes", "ttr.semantics.questions", *boards)
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 

@@ -24,8 +24,7 @@ from ttr.computing.prover import Prover
 from ttr.computing.subtyping import Answer, is_decided, subtype
 from ttr.errors import IllFormedError, TooLargeError
 from ttr.safety.budgets import spend, within_budget
-from ttr.signature.axioms import head
-from ttr.signature.signature import Signature, signature_of
+from ttr.signature.signature import Signature, head, signature_of
 from ttr.types.objects import Path
 from ttr.types.paths import free_paths, replace_paths, subterms
 from ttr.types.printing import notation

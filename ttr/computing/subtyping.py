@@ -7,8 +7,8 @@ some witness of S is not of T. `unknown`: neither was found.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases, cases_or_whole
@@ -222,19 +222,16 @@ def _refute(prover: Prover, T: TypeNode, found: Finding, written: TypeNode) -> A
 def is_decided(prover: Prover, T: TypeNode) -> bool:
     """Is what the prover does not derive of a witness and T surely refuted?"""
     S = prover.S
-    if prover.theory.conditional_axioms and not _is_without_conditions(prover, T):
+    heads = prover.theory.conditional_heads
+    if heads and any(part in heads for part in _heads_in(S, T)):
         return False
     plain = prover.witness.is_certain and _is_plain(S) and _is_plain(T)
     return plain and has_fields_in_order(S)
 
 
-def _is_without_conditions(prover: Prover, T: TypeNode) -> bool:
-    """Is no axiom with conditions about what the types mention?"""
-    heads = prover.theory.axiom_heads
-    return not any(
-        isinstance(part, Basic | Pred) and part in heads
-        for part in subterms([prover.S, T])
-    )
+def _heads_in(*types: TypeNode) -> Iterator[Basic | Pred]:
+    """The basic types and predicates in the types."""
+    return (part for part in subterms(types) if isinstance(part, Basic | Pred))
 
 
 _TYPES = (Basic, PType, Singleton, Meet, ListOf, RecordType, Universe)

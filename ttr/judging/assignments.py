@@ -26,7 +26,6 @@ from ttr.probability import (
 from ttr.safety.budgets import spend
 from ttr.signature.axioms import (
     find_exclusion,
-    head,
     match_schema,
     subtypes,
     supertypes,
@@ -35,7 +34,7 @@ from ttr.signature.conditional_axioms import (
     heads_below,
     ways_to_follow,
 )
-from ttr.signature.signature import Signature
+from ttr.signature.signature import Signature, head
 from ttr.types.interning import identity
 from ttr.types.objects import Object
 from ttr.types.paths import free_paths, subterms
@@ -417,7 +416,7 @@ def _degree_of_all(degrees: Iterable[Degree]) -> Degree:
     >>> print(_degree_of_all([Degree(0.8, 0.9), Degree(0.7, 1.0)]))
     [0.5, 0.9]
     """
-    found = tuple(degrees)
+    found = [p for p in degrees if p != CERTAIN] or [CERTAIN]
     least = sum(p.lo for p in found) - (len(found) - 1)
     return Degree(max(0.0, least), min(p.hi for p in found))
 

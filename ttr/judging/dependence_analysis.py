@@ -24,9 +24,8 @@ from ttr.probability import (
     Not,
     feasible,
 )
-from ttr.safety.budgets import spend
-from ttr.signature.axioms import find_exclusion, head, supertype_set
-from ttr.signature.signature import Signature
+from ttr.signature.axioms import find_exclusion, supertype_set
+from ttr.signature.signature import Signature, head
 from ttr.types.interning import identity
 from ttr.types.objects import Object
 

@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from ttr.judging.assignments import Assignment
 from ttr.safety.budgets import spend
-from ttr.signature.axioms import head
+from ttr.signature.signature import head
 from ttr.types.objects import Object, Record
 from ttr.types.syntax import Join, Meet, Pred, PType, RecordType, TypeNode
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import cast
 
-from ttr.signature.signature import Axiom, Exclusion, Signature
+from ttr.signature.signature import Axiom, Exclusion, Signature, head
 from ttr.types.interning import identity
 from ttr.types.objects import Object, Path
 from ttr.types.paths import replace_paths
@@ -111,11 +111,6 @@ def _closure(
                 found.add(reached)
                 waiting.append(reached)
                 yield axiom, reached
-
-
-def head(T: Atom) -> Basic | Pred:
-    """The basic type itself, or the predicate of a ptype."""
-    return T if isinstance(T, Basic) else T.pred
 
 
 def match_schema(schema: Basic | PType, T: Basic | PType) -> Binding | None:

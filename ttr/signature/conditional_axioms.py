@@ -14,13 +14,12 @@ from ttr.safety.budgets import spend
 from ttr.signature.axioms import (
     Atom,
     Binding,
-    head,
     instantiate,
     match_schema,
     subtypes,
     supertypes,
 )
-from ttr.signature.signature import Axiom, Condition, Signature
+from ttr.signature.signature import Axiom, Condition, Signature, head
 from ttr.types.interning import identity
 from ttr.types.syntax import Basic, Pred
 
@@ -58,7 +57,7 @@ def ways_to_follow(
     ...     print(way.source, "if", *way.conditions)
     ltm(sam, [x : Ind]) if [x : Ind] <= [y : Ind] up to relabelling
     """
-    if not theory.conditional_axioms or head(goal) not in theory.axiom_heads:
+    if head(goal) not in theory.conditional_heads:
         return
     reached = list(_follow_forwards(known, theory))
     for way in _follow_backwards(goal, reached, theory, frozenset()):

@@ -190,13 +190,25 @@ class Signature:
         """The basic types and predicates that an axiom or an exclusion is about."""
         axioms = [T for one in self.axioms for T in (one.lower, one.upper)]
         exclusions = [T for one in self.exclusions for T in (one.left, one.right)]
-        types = (*axioms, *exclusions)
-        return frozenset(T if isinstance(T, Basic) else T.pred for T in types)
+        return frozenset(map(head, (*axioms, *exclusions)))
 
     @cached_property
     def conditional_axioms(self) -> tuple[Axiom, ...]:
         """The axioms that hold under conditions."""
         return tuple([one for one in self.axioms if one.when])
+
+    @cached_property
+    def conditional_heads(self) -> frozenset[Basic | Pred]:
+        """The basic types and predicates that axioms with conditions may lead to."""
+        found = dict.fromkeys(head(one.upper) for one in self.conditional_axioms)
+        waiting = list(found)
+        for lower in waiting:
+            for axiom in self.axioms:
+                upper = head(axiom.upper)
+                if head(axiom.lower) is lower and upper not in found:
+                    found[upper] = None
+                    waiting.append(upper)
+        return frozenset(found)
 
     related = Alias("axiom_heads")
 
@@ -206,6 +218,11 @@ class Signature:
                 f"a theory is made of a tuple of axioms, found {kind_of(self.axioms)}",
                 hint="to read a text, write Theory.parse(text)",
             )
+
+
+def head(T: Basic | PType) -> Basic | Pred:
+    """The basic type itself, or the predicate of a ptype."""
+    return T if isinstance(T, Basic) else T.pred
 
 
 def signature_of(theory: object) -> Signature:

@@ -15,7 +15,7 @@ from ttr.probability.degrees import (
     independent_conjunction,
     independent_disjunction,
 )
-from ttr.signature.axioms import head
+from ttr.signature.signature import head
 from ttr.types.interning import identity
 from ttr.types.objects import Missing, Object, Record
 from ttr.types.syntax import Basic, PType, RecordType, TypeNode
