@@ -370,9 +370,10 @@ def dialogues() -> dict[str, set[str]]:
 
 
 def gameboards() -> dict[str, set[str]]:
-    """The public names of questions and of the boards of the literature."""
+    """The public names of contents, questions and the boards of the literature."""
     boards = [f"ttr.semantics.gameboards.{name}" for name in ("cooper", "kos", "ibis")]
-    named = ("ttr.semantics.attitudes", "ttr.semantics.questions", *boards)
+    rooms = [f"ttr.semantics.{name}" for name in ("attitudes", "questions", "storage")]
+    named = (*rooms, *boards)
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 

@@ -6,6 +6,7 @@ To be read in any order, the small ones first:
   2012, Larsson 2002);
 - `quantifiers` by witness sets and `parametric_content` (Cooper 2023), and a `fragment`
   of English built on both;
+- `storage` of quantifiers (Cooper 2023);
 - `attitudes` (Cooper 2023): believing and knowing by matching a view;
 - `modality` (Cooper 2023), and `topoi`, which use its answers (Breitholtz 2020);
 - `propositional_entailment`, `random_variables`, and `learning` from judgements

@@ -12,7 +12,7 @@ from ttr.types.objects import (
     Record,
     UnresolvedError,
 )
-from ttr.types.paths import replace_paths
+from ttr.types.paths import map_parts, replace_paths
 from ttr.types.syntax import Function, TypeNode
 
 Around = tuple[Mapping[str, Object], ...]
@@ -102,6 +102,22 @@ def substitute_variable(body: Object, term: Object) -> Object:
         return follow_labels(term, path.labels[1:])
 
     return replace_paths(body, outside)
+
+
+def replace_name(value: TypeNode, name: str, *labels: str) -> Object:
+    """The type one scope further in, with the path of these labels for an object.
+
+    >>> from ttr import Ind, Pred
+    >>> replace_name(Pred("run", Ind)("fido"), "fido", "x")
+    Pred('run', Basic('Ind'))(this.x)
+    """
+
+    def at(value: Object, depth: int) -> Object:
+        if isinstance(value, str):
+            return Path(depth, labels) if value == name else value
+        return map_parts(value, lambda part, deeper: at(part, depth + deeper))
+
+    return at(value, 0)
 
 
 def follow_labels(value: Object, labels: tuple[str, ...]) -> Object:

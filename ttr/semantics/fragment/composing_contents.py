@@ -15,7 +15,6 @@ from ttr.semantics.fragment.content_types import (
     Variables,
     all_of,
     equality,
-    replace_name,
 )
 from ttr.semantics.fragment.determiner_meanings import apply_determiner
 from ttr.semantics.fragment.lexicon import Lexicon
@@ -23,6 +22,7 @@ from ttr.semantics.fragment.sentence_parsing import OutsideFragmentError, Phrase
 from ttr.semantics.parametric_content import content, strong, weak
 from ttr.semantics.quantifiers import Determiner, absent, every, exist
 from ttr.types.objects import BOUND, FiniteSet
+from ttr.types.substitution import replace_name
 from ttr.types.syntax import Function, Ind, PType, Singleton, TypeNode, as_type, join
 
 _NounPhrase: TypeAlias = Callable[[Property], TypeNode]

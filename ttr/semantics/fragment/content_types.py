@@ -7,8 +7,8 @@ from itertools import count
 from typing import TypeAlias
 
 from ttr.building.constructors import rectype
-from ttr.types.objects import BOUND, Object, Path
-from ttr.types.paths import map_parts
+from ttr.types.objects import BOUND
+from ttr.types.substitution import replace_name
 from ttr.types.syntax import Function, Ind, RecordType, Singleton, TypeNode
 
 Property: TypeAlias = Callable[[str], TypeNode]
@@ -40,17 +40,6 @@ class Variables:
 def abstract_over(said: TypeNode, name: str) -> Function:
     """The function λx:Ind. said[x/name]: a variable in place of the name."""
     return Function(Ind, replace_name(said, name, BOUND), "x")
-
-
-def replace_name(said: TypeNode, name: str, *labels: str) -> Object:
-    """The type one scope further in, with the path of these labels for the name."""
-
-    def at(value: Object, depth: int) -> Object:
-        if isinstance(value, str):
-            return Path(depth, labels) if value == name else value
-        return map_parts(value, lambda part, deeper: at(part, depth + deeper))
-
-    return at(said, 0)
 
 
 def all_of(*parts: TypeNode) -> TypeNode:

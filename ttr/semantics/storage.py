@@ -1,0 +1,206 @@
+"""Underspecified contents: a content with a store of quantifiers (Cooper storage).
+
+A sentence with quantifiers has one underspecified content: what is said of some
+variables, and for each variable the quantifier in store that is to bind it. Each way to
+retrieve them, one after the other, is a reading; what is retrieved last has the widest
+scope. Variables are objects by name.
+
+>>> from ttr import Pred
+>>> from ttr.semantics.quantifiers import every, exist
+>>> poet, poem = Pred("poet", Ind), Pred("poem", Ind)
+>>> recite = Pred("recite", Ind, Ind)
+>>> store = stored("a", every, poet("a")), stored("b", exist, poem("b"))
+>>> for reading in readings(Underspecified(recite("a", "b"), store)):
+...     print(reading)
+every(\\a:Ind. poet(a), \\a:Ind. exist(\\b:Ind. poem(b), \\b:Ind. recite(a, b)))
+exist(\\b:Ind. poem(b), \\b:Ind. every(\\a:Ind. poet(a), \\a:Ind. recite(a, b)))
+
+Sources: Cooper 2023, on underspecification; Keller 1988 for stores inside others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ttr.computing.normalisation import normal_form
+from ttr.errors import IllFormedError
+from ttr.safety.budgets import spend, within_budget
+from ttr.signature.signature import Signature
+from ttr.types.interning import identity
+from ttr.types.objects import BOUND, Object
+from ttr.types.paths import subterms
+from ttr.types.substitution import replace_name
+from ttr.types.syntax import (
+    Function,
+    Ind,
+    Singleton,
+    Type,
+    TypeNode,
+    as_type,
+    join,
+    kind_of,
+)
+
+__all__ = ["Stored", "Underspecified", "readings", "stored", "type_of_readings"]
+
+Quantifying: TypeAlias = Callable[..., TypeNode]
+"""A determiner, of a restrictor and a scope; or a quantifier, of a scope alone."""
+
+
+@dataclass(frozen=True)
+class Underspecified:
+    """A content with a store: what is said of the variables, and what binds them.
+
+    The store is in the order of the sentence: of two quantifiers, the first has wide
+    scope in the first reading. Raises `IllFormedError` for two with one variable.
+    """
+
+    content: TypeNode
+    store: tuple[Stored, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "content", as_type(self.content))
+        object.__setattr__(self, "store", tuple(self.store))
+        for one in self.store:
+            if not isinstance(one, Stored):
+                raise IllFormedError(
+                    f"a store has stored quantifiers, found {kind_of(one)}",
+                    hint='write stored("x", every, dog("x"))',
+                )
+        names = [one.variable for one in _all_stored(self.store)]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise IllFormedError(f"two quantifiers in store are to bind {twice}")
+
+    @property
+    def is_plugged(self) -> bool:
+        """Is nothing in store? Then it is its only reading."""
+        return not self.store
+
+
+@dataclass(frozen=True)
+class Stored:
+    """A quantifier in store, and the variable that it is to bind.
+
+    The restrictor may have a store of its own: its quantifiers take scope inside it, or
+    are in store where it is retrieved. Without one, `quantifier` takes the scope alone.
+    """
+
+    variable: str
+    quantifier: Quantifying
+    restrictor: Underspecified | None = None
+    domain: TypeNode = Ind
+
+
+def stored(
+    variable: str,
+    quantifier: Quantifying,
+    restrictor: TypeNode | Underspecified | None = None,
+    domain: TypeNode = Ind,
+) -> Stored:
+    r"""A quantifier to be put in store: a determiner with its restrictor, or a whole.
+
+    The quantifier is a `Determiner`, a function of a theory, as in
+    \P:(Ind -> Type). \Q:(Ind -> Type). …, or any Python function of properties. Raises
+    `IllFormedError` where the variable is no name or the quantifier no function.
+    """
+    if not isinstance(variable, str):
+        raise IllFormedError(f"a variable is a name, found {kind_of(variable)}")
+    if not callable(quantifier):
+        raise IllFormedError(
+            f"a quantifier is a function of properties, found {kind_of(quantifier)}"
+        )
+    if restrictor is not None and not isinstance(restrictor, Underspecified):
+        restrictor = Underspecified(restrictor)
+    return Stored(variable, quantifier, restrictor, as_type(domain))
+
+
+@within_budget
+def readings(
+    sentence: Underspecified, theory: Signature | None = None, /
+) -> tuple[TypeNode, ...]:
+    """The readings of an underspecified content: what its retrievals compute to.
+
+    Each is there once, the one with the scopes of the sentence first. A retrieval that
+    leaves a variable free is none: a quantifier whose variable stands in the restrictor
+    of another one is retrieved after it, or inside the restrictor. Raises
+    `IllFormedError` as `normal_form`, and `TooLargeError` for too many.
+    """
+    variables = frozenset(one.variable for one in _all_stored(sentence.store))
+    found: dict[object, TypeNode] = {}
+    for content, left in _retrievals(sentence.content, sentence.store):
+        if left or not variables.isdisjoint(_names_in(content)):
+            continue
+        reading = as_type(normal_form(content, theory))
+        found.setdefault(identity(reading), reading)
+    return tuple(found.values())
+
+
+def type_of_readings(
+    sentence: Underspecified, theory: Signature | None = None, /
+) -> TypeNode:
+    """The type of the readings: a content is of it iff it is one of them.
+
+    >>> print(type_of_readings(Underspecified(Ind)))
+    Type@Ind
+    """
+    return join(*[Singleton(Type, one) for one in readings(sentence, theory)])
+
+
+def _retrievals(
+    content: TypeNode, store: tuple[Stored, ...]
+) -> Iterator[tuple[TypeNode, tuple[Stored, ...]]]:
+    """What becomes of a content after some retrievals, with what is left in store."""
+    spend()
+    yield content, store
+    for number in reversed(range(len(store))):
+        one = store[number]
+        rest = (*store[:number], *store[number + 1 :])
+        if any(one.variable in _names_of(other) for other in rest):
+            continue
+        for restrictor, lifted in _restrictors(one):
+            kept = (*rest[:number], *lifted, *rest[number:])
+            yield from _retrievals(_bind(one, restrictor, content), kept)
+
+
+def _restrictors(
+    one: Stored,
+) -> Iterator[tuple[TypeNode | None, tuple[Stored, ...]]]:
+    """The contents of a restrictor, each with what is lifted from its store."""
+    if one.restrictor is None:
+        yield None, ()
+    else:
+        yield from _retrievals(one.restrictor.content, one.restrictor.store)
+
+
+def _bind(one: Stored, restrictor: TypeNode | None, scope: TypeNode) -> TypeNode:
+    """The quantifier of the restrictor and the scope, as properties of the variable."""
+    parts = [scope] if restrictor is None else [restrictor, scope]
+    properties = [
+        Function(one.domain, replace_name(part, one.variable, BOUND), one.variable)
+        for part in parts
+    ]
+    return as_type(one.quantifier(*properties))
+
+
+def _all_stored(store: tuple[Stored, ...]) -> Iterator[Stored]:
+    """The quantifiers in a store, and in the stores of their restrictors."""
+    for one in store:
+        spend()
+        yield one
+        if one.restrictor is not None:
+            yield from _all_stored(one.restrictor.store)
+
+
+def _names_of(one: Stored) -> frozenset[str]:
+    """The names in the restrictor of a stored quantifier, and in its own store."""
+    if one.restrictor is None:
+        return frozenset()
+    inside = (_names_of(other) for other in one.restrictor.store)
+    return _names_in(one.restrictor.content).union(*inside)
+
+
+def _names_in(T: Object) -> frozenset[str]:
+    return frozenset(part for part in subterms([T]) if isinstance(part, str))
