@@ -13,22 +13,25 @@ from generators import models, record_types, samples, types
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import Ind, ListOf, Model, Pred, Rec, RecType, Theory
+from ttr import Ind, ListOf, Model, Pred, Rec, RecType, Theory, fun, rectype, this
 from ttr.computing.definitional_equality import equal, kept_redexes
 from ttr.computing.generic_witness import ITSELF
 from ttr.computing.normalisation import normal_form, normal_type
 from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.prover import Prover
 from ttr.computing.subtyping import subtype
+from ttr.computing.universe_levels import level_of
 from ttr.errors import IllFormedError
 from ttr.judging.evaluator import derivation
 from ttr.signature.signature import signature_of
-from ttr.types import Application, Function, RecordType
+from ttr.types import Application, Function, RecordType, Universe
 from ttr.types.derived_types import order_fields
 from ttr.types.objects import BOUND, Path
+from ttr.types.syntax import as_type
 
 p, q = Pred("p", Ind), Pred("q", Ind, Ind)
 THEORY = Theory.parse("basic Ind\nobject j, k : Ind")
+THEORY_OF_TERMS = Theory.of(Ind, p("j"), q("j", "k"))
 NONE = signature_of(None)
 
 
@@ -160,9 +163,91 @@ def as_node(term, around=()):
             return RecordType((("e", pred(*arguments)),))
         case Both(r, s):
             within = ("x", *around)
-            fields = (("x", Ind), ("r", as_node(r, within)), ("s", as_node(s, within)))
-            return RecordType(order_fields(dict(fields)))
+            one, other = (as_type(as_node(part, within)) for part in (r, s))
+            fields = {"x": Ind, "r": one, "s": other}
+            return RecordType(order_fields(fields))
     return term
+
+
+def in_python(term, around=()):
+    """The term composed by Python functions, each of what stands around it."""
+    match term:
+        case Var(index):
+            return around[index]
+        case Lam(domain, body):
+            return fun(v=kind_of(domain))(lambda v: in_python(body, (v, *around)))
+        case App(f, a):
+            return Application(in_python(f, around), in_python(a, around))
+        case Atom(pred, args):
+            return rectype(e=pred(*[in_python(one, around) for one in args]))
+        case Both(r, s):
+            return rectype(
+                x=Ind,
+                r=lambda it: in_python(r, (it.x, *around)),
+                s=lambda it: in_python(s, (it.x, *around)),
+            )
+    return term
+
+
+@given(terms())
+def test_nothing_is_captured_in_python(term):
+    assert in_python(term) is as_node(term)
+    assert normal_form(in_python(term), THEORY) is as_node(evaluate(term))
+
+
+@given(terms())
+def test_nothing_is_captured_in_notation(term):
+    assert THEORY_OF_TERMS.parse(str(as_node(term))) is as_node(term)
+
+
+# --- functions over types ------------------------------------------------------------
+
+Types = Universe("Type", 1)
+ID, K, S = map(
+    THEORY.parse,
+    (
+        r"\A:Type^1. \x:A. x",
+        r"\A:Type^1. \B:Type^1. \x:A. \y:B. x",
+        r"\A:Type^1. \B:Type^1. \C:Type^1. "
+        r"\f:(A -> (B -> C)). \g:(A -> B). \x:A. f(x)(g(x))",
+    ),
+)
+
+
+def applied(function, *args):
+    for one in args:
+        function = Application(function, one)
+    return function
+
+
+@given(st.data(), *[st.sampled_from(KINDS)] * 3)
+def test_functions_over_types_compute_at_every_type(data, a, b, c):
+    """Their values have the codomain at the argument, before and after computing."""
+    A, B, C = map(kind_of, (a, b, c))
+    f = as_node(data.draw(terms((a, (b, c)), depth=2)))
+    g = as_node(data.draw(terms((a, b), depth=2)))
+    x, y = (as_node(data.draw(terms(kind, depth=2))) for kind in (a, b))
+    for written, wanted, of in (
+        (applied(ID, A, x), x, A),
+        (applied(K, A, B, x, y), x, A),
+        (applied(S, A, B, C, f, g, x), applied(f, x, applied(g, x)), C),
+        (applied(S, A, B >> A, A, applied(K, A, B >> A), applied(K, A, B), x), x, A),
+    ):
+        found = normal_form(written, THEORY)
+        assert found is normal_form(wanted, THEORY)
+        prover = Prover.for_type(Rec, THEORY).assume(*THEORY.declared.items())
+        assert prover.prove(found, of).yes
+        assert Model(THEORY).judge(written, of).holds
+
+
+@given(types(), types())
+def test_what_a_field_stands_for_is_what_it_computes_to(T, U):
+    assume(well_formed(T) and well_formed(U))
+    high = Universe("Type", max(map(level_of, (T, U))))
+    of_T = rectype(T=high @ T, x=this.T, l=ListOf(this.T), f=this.T >> U)
+    given_T = rectype(T=high @ T, x=T, l=ListOf(T), f=T >> U)
+    assert normal_form(of_T) is normal_form(given_T)
+    assert subtype(of_T, rectype(T=high, x=this.T, f=this.T >> U)).yes
 
 
 @given(terms())

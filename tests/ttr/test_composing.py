@@ -192,7 +192,7 @@ def test_a_merge_waits_for_what_it_merges():
     theory = Theory.parse(LEXICON)
     body = theory.parse(r"\P:(Ind -> RecType). \v:Ind. merge(P(v), [a : red(v)])")
     assert body is theory.Red
-    assert str(body) == r"\P:(Ind -> RecType). \v:Ind. merge(P(v), [a : red(v)])"
+    assert str(body) == r"\P:(Ind -> RecType). \x:Ind. merge(P(x), [a : red(x)])"
     kind = theory.parse("((Ind -> RecType) -> (Ind -> RecType))")
     assert Model(theory).judge(body, kind).holds
 

@@ -123,10 +123,10 @@ COUNTEREXAMPLES = [
     (
         "([x : A] -> RecType)",
         "([x : A] -> list(A))",
-        r"\x1:[x : A]. [i = x1 : [x : A]]",
+        r"\r:[x : A]. [i = r : [x : A]]",
     ),
     ("(A -> A)", "list(A)", r"\x:A. x"),
-    ("(A -> (A -> A))", "(A -> (A -> B))", r"\x:A. \x1:A. x1"),
+    ("(A -> (A -> A))", "(A -> (A -> B))", r"\x:A. \y:A. y"),
     ("[x = y : A, y = x : A, z : A]", "[z : B]", "{x = a1, y = a1, z = a2}"),
     ("[l : list(plus(A))]", "[l : list(str(A, A))]", "{l = [<a1>]}"),
     ("[l : nelist(plus(A))]", "[l : nelist(str(A, A))]", "{l = [<a1>]}"),

@@ -49,7 +49,7 @@ def test_a_field_set_to_a_field_with_a_value_is_as_high_as_the_value():
 
 
 def test_a_function_takes_what_it_is_given():
-    assert str(with_levels(fun(x=Type)(this.x)(Type))) == r"(\x:Type^1. x)(Type)"
+    assert str(with_levels(fun(x=Type)(this.x)(Type))) == r"(\T:Type^1. T)(Type)"
 
 
 @pytest.mark.parametrize(

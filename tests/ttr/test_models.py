@@ -348,7 +348,7 @@ def test_elements_of_a_list_that_is_created_are_of_their_type():
         (Basic("B") @ "b", r"\x:Ind. b"),
         (RecType, r"\x:Ind. Rec"),
         (rectype(y=Ind), r"\x:Ind. {y = a1}"),
-        (FunType(Ind, Ind), r"\x:Ind. \x1:Ind. a1"),
+        (FunType(Ind, Ind), r"\x:Ind. \y:Ind. a1"),
     ],
 )
 def test_a_function_that_is_created_is_constant(result, shown):

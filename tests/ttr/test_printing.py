@@ -77,9 +77,15 @@ WRITTEN = {
     "[A : Ind, f = \\x:A. A /\\ A : (A -> Type)]": rectype(
         A=Ind, f=(A >> Type) @ fun(x=A)(A)
     ),
-    "\\A1:Ind. asks(A)": fun(A=Ind)(asks(A)),
-    "((A1 : Ind) -> [c : asks(A), d : dog(A1)])": Pi(A=Ind)(
+    "\\x:Ind. asks(A)": fun(A=Ind)(asks(A)),
+    "((x : Ind) -> [c : asks(A), d : dog(x)])": Pi(A=Ind)(
         rectype(c=asks(A), d=dog(outer.A))
+    ),
+    "((z : Ind) -> [c : asks(x), y : dog(z)])": Pi(A=Ind)(
+        rectype(c=asks(Basic("x")), y=dog(outer.A))
+    ),
+    "\\x1:Ind. [x : Ind, y : Ind, z : hug(x1, y)]": fun(v=Ind)(
+        rectype(x=Ind, y=Ind, z=hug(outer.v, this.y))
     ),
     "dog(<bool True>)": dog(True),
     "dog(<NoneType None>)": dog(None),

@@ -940,12 +940,13 @@ def test_more_mistakes_are_named(message):
     ("state", "event", "names"),
     [("s", "e", ("s", "e")), ("a", "b", ("a", "b")), ("s", "s", ("s", "s_"))],
 )
-def test_an_update_keeps_the_names_of_its_variables(state, event, names):
+def test_an_update_keeps_the_names_of_its_text(state, event, names):
     theory = Theory.parse(f"""
         basic Ind
         f := \\{state}:[x : Ind]. \\{event}:[y : Ind]. [x = {event}.y : Ind]
     """)
-    assert update(theory.f).names == names
+    assert update(theory.f, theory=theory).names == names
+    assert update(theory.f).names == ("s", "e")
     start, said = record(x="a"), record(y="b")
     after = run(update(theory.f), start, events=[said], type=rectype(x=Ind), model=M)
     assert after.state == record(x="b")

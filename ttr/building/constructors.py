@@ -97,7 +97,7 @@ def fun(
     name, domain = _variable("fun", variable, named)
 
     def of(body: object) -> Function:
-        return check_binder(Function(domain, _inside(name, body), name), theory)
+        return check_binder(Function(domain, _inside(name, body)), theory, name)
 
     return of
 
@@ -118,7 +118,7 @@ def Pi(
 
     def of(result: Field) -> FunType:
         inside = as_type(_inside(name, result))
-        return check_binder(FunType(domain, inside, name), theory)
+        return check_binder(FunType(domain, inside), theory, name)
 
     return of
 

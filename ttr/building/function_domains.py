@@ -12,6 +12,7 @@ from ttr.signature.signature import Signature
 from ttr.types.derived_types import order_fields
 from ttr.types.objects import BOUND, Path
 from ttr.types.paths import replace_paths
+from ttr.types.printing import variable
 from ttr.types.syntax import Function, RecordType, TypeNode, as_type, kind_of
 
 
@@ -31,7 +32,7 @@ def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Fu
     if not isinstance(f, Function):
         raise IllFormedError(f"restrict takes a function, found {kind_of(f)}")
     domain = merge(f.domain, as_type(S), theory)
-    return check_binder(Function(domain, f.body, f.hint), theory)
+    return check_binder(Function(domain, f.body), theory)
 
 
 @within_budget
@@ -51,8 +52,8 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
     [x : Ind, c : run(x)]
     """
     match f:
-        case Function(RecordType() as domain, RecordType() as body, hint):
-            inside = _replace_variable(body, hint)
+        case Function(RecordType() as domain, RecordType() as body):
+            inside = _replace_variable(body, variable(f, ()))
         case _:
             raise IllFormedError(
                 "fix takes a function from a record type to a record type, as in "
@@ -62,7 +63,7 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
     return check_record_type(merged, theory)
 
 
-def _replace_variable(body: RecordType, variable: str) -> RecordType:
+def _replace_variable(body: RecordType, name: str) -> RecordType:
     """The body with paths from the variable as paths from the record itself.
 
     So it has one scope instead of two.
@@ -75,8 +76,7 @@ def _replace_variable(body: RecordType, variable: str) -> RecordType:
             return Path(path.up - 1, path.labels)
         if len(path.labels) == 1:
             raise IllFormedError(
-                f"there is no fixed-point type: something is said of {variable} "
-                "as a whole"
+                f"there is no fixed-point type: something is said of {name} as a whole"
             )
         return Path(0, path.labels[1:])
 

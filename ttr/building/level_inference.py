@@ -126,19 +126,17 @@ def _infer_levels(value: Object, around: _Scopes) -> Object:
             for label, field in fields:
                 scope[label] = as_type(_infer_levels(field, (scope, *around)))
             return RecordType(tuple(scope.items()))
-        case Function(domain, inside, hint) | FunType(domain, inside, hint):
+        case Function(domain, inside) | FunType(domain, inside):
             read = as_type(_infer_levels(domain, around))
-            return type(value)(
-                read, _infer_levels(inside, ({BOUND: read}, *around)), hint
-            )
+            return type(value)(read, _infer_levels(inside, ({BOUND: read}, *around)))
         case Singleton(base, obj):
             found = _Placed(_infer_levels(obj, around), around)
             return Singleton(
                 _infer_levels(_raise_levels(base, [found]), around), found.value
             )
-        case Application(Function(domain, body, hint), argument):
+        case Application(Function(domain, body), argument):
             found = _Placed(_infer_levels(argument, around), around)
-            wider = Function(_raise_levels(domain, [found]), body, hint)
+            wider = Function(_raise_levels(domain, [found]), body)
             return Application(_infer_levels(wider, around), found.value)
     return map_parts(value, lambda part, _: _infer_levels(part, around))
 
@@ -170,10 +168,8 @@ def _raise_levels(T: TypeNode, values: list[_Placed]) -> TypeNode:
             return Singleton(_raise_levels(base, values), obj)
         case Meet(kinds):
             return meet(*[_raise_levels(kind, values) for kind in kinds])
-        case FunType(domain, result, hint):
-            return FunType(
-                domain, _raise_levels(result, list(_results_of(values))), hint
-            )
+        case FunType(domain, result):
+            return FunType(domain, _raise_levels(result, list(_results_of(values))))
     return T
 
 

@@ -17,7 +17,7 @@ from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.objects import BOUND, Object, Path
 from ttr.types.paths import free_paths, mentions, parts
-from ttr.types.printing import notation
+from ttr.types.printing import Scope, labels_of, notation, variable
 from ttr.types.substitution import substitute_variable
 from ttr.types.syntax import (
     Application,
@@ -83,10 +83,15 @@ _BINDER = TypeVar("_BINDER", Function, FunType)
 
 
 @within_budget
-def check_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
-    """The binder itself, if its paths resolve and fit; else `IllFormedError`."""
+def check_binder(
+    binder: _BINDER, theory: Signature | None = None, name: str = ""
+) -> _BINDER:
+    """The binder itself, if its paths resolve and fit; else `IllFormedError`.
+
+    `name` is what its variable is called in the error.
+    """
     inside = binder.body if isinstance(binder, Function) else binder.result
-    _check(inside, _scope(binder), (), signature_of(theory))
+    _check(inside, _scope(binder, name), (), signature_of(theory))
     return binder
 
 
@@ -107,17 +112,29 @@ def check_value(
 
 
 class _Scope(NamedTuple):
-    """The fields that paths may start from, and their names in print."""
+    """The fields that paths may start from, what has them, and a variable's name."""
 
     fields: RecordType
-    names: frozenset[str] | str
+    value: RecordType | Function | FunType
+    name: str = ""
 
 
-def _scope(value: RecordType | Function | FunType) -> _Scope:
+def _scope(value: RecordType | Function | FunType, name: str = "") -> _Scope:
     """A record type with its labels; for a binder, one field for its variable."""
     if isinstance(value, RecordType):
-        return _Scope(value, frozenset(value))
-    return _Scope(RecordType(((BOUND, value.domain),)), value.hint)
+        return _Scope(value, value)
+    return _Scope(RecordType(((BOUND, value.domain),)), value, name)
+
+
+def _names(around: tuple[_Scope, ...], theory: Signature | None) -> Scope:
+    """The scopes, innermost first, with the names that are printed in them."""
+    found: Scope = signature_of(theory).spelling
+    for one in reversed(around):
+        if isinstance(one.value, RecordType):
+            found = (labels_of(one.value), *found)
+        else:
+            found = (one.name or variable(one.value, found), *found)
+    return found
 
 
 def _check(
@@ -293,7 +310,7 @@ def _check_domains(
             if domain is not None:
                 _check_arguments(value, (argument,), [(domain,)], around, where, theory)
         case TypeAt(Path() as path) if path.up == outermost:
-            _check_of_types(path, around, where)
+            _check_of_types(path, around, where, theory)
     same, inner = parts(value)
     for part in same:
         _check_domains(part, around, where, theory)
@@ -305,11 +322,16 @@ def _check_domains(
         _check_domains(part, within, (*where, *labels[i : i + 1]), theory)
 
 
-def _check_of_types(path: Path, around: tuple[_Scope, ...], where: _Where) -> None:
+def _check_of_types(
+    path: Path,
+    around: tuple[_Scope, ...],
+    where: _Where,
+    theory: Signature | None,
+) -> None:
     """Refuse a path as a type where what it leads to is surely none."""
     found = field_at_path(path, around[-1].fields)
     if not _may_be_type(found):
-        scope = tuple(one.names for one in around)
+        scope = _names(around, theory)
         raise IllFormedError(
             f"{_name_field(where)}expected a type, found {notation(path, scope)}, "
             f"which is of {found}",
@@ -353,7 +375,7 @@ def _check_arguments(
     if first is None or None in misfits:
         return
     arg, wanted, found = first
-    scope = tuple(one.names for one in around)
+    scope = _names(around, theory)
     raise IllFormedError(
         f"{_name_field(where)}{notation(value, scope)} needs {wanted} for "
         f"{notation(arg, scope)}, but that is of {found}"

@@ -13,7 +13,7 @@ from ttr.computing.normalisation import normal_form
 from ttr.computing.subtyping import Answer
 from ttr.errors import TooLargeError
 from ttr.safety.budgets import within_budget
-from ttr.signature.signature import Signature
+from ttr.signature.signature import Signature, signature_of
 from ttr.types.interning import identity
 from ttr.types.objects import Object, freeze
 from ttr.types.paths import subterms
@@ -47,7 +47,7 @@ def equal(left: Object, right: Object, theory: Signature | None = None, /) -> An
     for value in (one, other):
         kept = next(kept_redexes(value), None)
         if kept is not None:
-            return Answer("unknown", partial(_why_kept, kept))
+            return Answer("unknown", partial(_why_kept, kept, theory))
     return Answer("no", lambda: f"{notation(one)} is not {notation(other)}")
 
 
@@ -59,7 +59,11 @@ def kept_redexes(value: Object) -> Iterator[Application]:
                 yield part
 
 
-def _why_kept(kept: Application) -> str:
+def _why_kept(kept: Application, theory: Signature | None) -> str:
     assert isinstance(kept.function, Function)
-    argument, domain = notation(kept.argument), notation(kept.function.domain)
-    return f"it is not known that {argument} is of {domain}, in {notation(kept)}"
+    text = signature_of(theory).spelling
+    argument, domain = kept.argument, kept.function.domain
+    return (
+        f"it is not known that {notation(argument, text)} is of "
+        f"{notation(domain, text)}, in {notation(kept, text)}"
+    )

@@ -141,10 +141,10 @@ class _Normaliser:
         match value:
             case RecordType():
                 return self._record_type(value, around)
-            case Function(domain, inside, hint) | FunType(domain, inside, hint):
+            case Function(domain, inside) | FunType(domain, inside):
                 kind = self._type(domain, around)
                 scope = _Scope({BOUND: _move_in(kind)})
-                return type(value)(kind, self.of(inside, (scope, *around)), hint)
+                return type(value)(kind, self.of(inside, (scope, *around)))
             case Application(function, argument):
                 return self._application(
                     self.of(function, around), self.of(argument, around), around
@@ -224,9 +224,11 @@ class _Normaliser:
         if derived.is_derivable:
             return self.of(substitute_variable(function.body, argument), around)
         if self._is_strict and derived.is_impossible:
+            text = self._theory.spelling
             raise IllFormedError(
-                f"{notation(function)} takes objects of {notation(function.domain)}, "
-                f"and {notation(argument)} cannot be one"
+                f"{notation(function, text)} takes objects of "
+                f"{notation(function.domain, text)}, and {notation(argument, text)} "
+                "cannot be one"
                 + (f", as it is of {derived.type}" if derived.type else "")
             )
         return whole

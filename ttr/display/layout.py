@@ -33,6 +33,7 @@ from ttr.types.precedence import (
 from ttr.types.printing import (
     Scope,
     as_object,
+    fields_in_order,
     format_head,
     labels_of,
     notation,
@@ -307,8 +308,9 @@ def layout_of(value: Object, scope: Scope = ()) -> Layout:
             return _call(Word(pred.name, "predicate"), _objects(args, scope))
         case RecordType(()):
             return Word("Rec", "type")
-        case RecordType(fields):
+        case RecordType():
             inner = (labels_of(value), *scope)
+            fields = fields_in_order(value, scope)
             rows = tuple([_row(k, T, inner) for k, T in fields])
             return Matrix("[", _COLON, rows, "]")
         case Singleton(base, obj):

@@ -92,7 +92,8 @@ _ToLayout = Callable[[Object], Layout]
 
 def _layout_function(theory: Signature | None, unfold: int | None) -> _ToLayout:
     fold = abbreviator(theory, unfold)
-    return lambda value: layout_of(fold(value))
+    text = () if theory is None else theory.spelling
+    return lambda value: layout_of(fold(value), fold.spelling(text))
 
 
 def _layout(value: object, to_layout: _ToLayout) -> Layout:

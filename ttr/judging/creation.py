@@ -353,7 +353,7 @@ class _WitnessMaker:
     def _function(self, facts: Assignment, T: FunType) -> Made:
         """The first of some functions that is of T."""
         for body, known in self._bodies(facts, T):
-            made = Function(T.domain, body, T.hint)
+            made = Function(T.domain, body)
             if derivation(known, made, T).p == CERTAIN:
                 return made, known
         with suppress(RefusedError):

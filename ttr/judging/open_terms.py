@@ -101,7 +101,7 @@ class TermFinder:
         outer = [(shift_paths(term, 1), shift_paths(K, 1)) for term, K in variables]
         inner = _with_parts(x, shift_paths(T.domain, 1))
         body, facts = self._term(facts, T.result, (*inner, *outer), depth)
-        return Function(T.domain, body, T.hint), facts
+        return Function(T.domain, body), facts
 
     def _record(
         self, facts: Assignment, T: RecordType, variables: Variables, depth: int

@@ -18,7 +18,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NoReturn, TypeVar
 
 from ttr.building.constructors import Pi, fun, rectype
@@ -54,8 +54,9 @@ from ttr.notation.syntax_trees import (
 from ttr.notation.syntax_trees import Application as Call
 from ttr.probability import degree
 from ttr.safety.budgets import within_budget
-from ttr.signature.signature import Interval
+from ttr.signature.signature import Interval, Signature
 from ttr.types.derived_types import function_type, star
+from ttr.types.interning import Node
 from ttr.types.merges import merge_terms
 from ttr.types.objects import (
     BOUND,
@@ -71,7 +72,9 @@ from ttr.types.objects import (
 )
 from ttr.types.printing import (
     Scope,
+    Spelling,
     TypeVariable,
+    Written,
     hides_type,
     is_of_types,
     labels_with,
@@ -158,13 +161,14 @@ class Reader:
     """Reads the terms of one text in one theory.
 
     `later` has the line of each declaration that is still to come, `way_out` the hint
-    for a name that means nothing.
+    for a name that means nothing. What is read notes in `written` how it is written.
     """
 
     theory: Names
     source: Source
     later: Mapping[str, int] = field(default_factory=dict)
     way_out: str = "declare it first"
+    written: dict[Node, Written] = field(default_factory=dict)
 
     # --- where an object or a type may stand ---
 
@@ -224,8 +228,9 @@ class Reader:
         name = self._variable(term.variable)
         domain = self.type(term.domain, scope)
         body = self.object(term.body, (_as_scope(name, domain), *scope))
-        build = fun({name: domain}, self.theory.signature)
-        return self._bind(build, term.body, body)
+        found = self._bind(fun, name, domain, term.body, body)
+        self.written.setdefault(found, name)
+        return found
 
     def _apply(
         self, term: Term, operation: Callable[..., Object], args: tuple[Object, ...]
@@ -411,18 +416,33 @@ class Reader:
             return function_type(domain, self.type(term.result, scope))
         name = self._variable(term.variable)
         result = self.type(term.result, (_as_scope(name, domain), *scope))
-        build = Pi({name: domain}, self.theory.signature)
-        return self._bind(build, term.result, result)
+        found = self._bind(Pi, name, domain, term.result, result)
+        self.written.setdefault(found, name)
+        return found
 
-    def _bind(self, build: Callable[[Any], _B], term: Term, inside: Object) -> _B:
+    def _bind(
+        self,
+        kind: Callable[..., Callable[[Any], _B]],
+        name: str,
+        domain: TypeNode,
+        term: Term,
+        inside: Object,
+    ) -> _B:
         """The function or function type with this body; an error says where it is."""
+        variable = {name: domain}
         try:
-            return build(inside)
+            return kind(variable, self.theory.signature)(inside)
         except IllFormedError as error:
+            build = kind(variable, self._theory_as_written())
             wrong = locate_error(
                 term, inside, lambda T: is_ill_formed(lambda: build(T))
             )
-            raise error.at(self.source.span(wrong)) from None
+            as_written = _error_of(lambda: build(inside)) or error
+            raise as_written.at(self.source.span(wrong)) from None
+
+    def _theory_as_written(self) -> Signature:
+        """The theory, with the order and the names of this text for its errors."""
+        return replace(self.theory.signature, spelling=(Spelling(self.written),))
 
     def _record_type(self, term: Fields, scope: Scope) -> RecordType:
         self.check_distinct([f.label for f in term.fields])
@@ -438,10 +458,14 @@ class Reader:
                 kind = Singleton(kind, self.object(part.value, scope))
             found[part.label.text] = kind
         try:
-            return rectype(found, self.theory.signature)
+            T = rectype(found, self.theory.signature)
         except IllFormedError as error:
             wrong = locate_misfit(term, found, self.theory.signature)
-            raise error.at(self.source.span(wrong)) from None
+            theory = self._theory_as_written()
+            as_written = _error_of(lambda: rectype(found, theory)) or error
+            raise as_written.at(self.source.span(wrong)) from None
+        self.written.setdefault(T, tuple(labels))
+        return T
 
     def _is_of_types(self, term: Term, scope: Scope) -> bool:
         """Is the type of a field written as a type of types?"""
@@ -597,6 +621,15 @@ def _names_of_terms(theory: Names) -> Iterator[str]:
     yield from theory.predicates
 
 
+def _error_of(build: Callable[[], object]) -> IllFormedError | None:
+    """The error that building something raises, or None."""
+    try:
+        build()
+    except IllFormedError as error:
+        return error
+    return None
+
+
 def _as_scope(name: str, domain: TypeNode) -> str:
     """The name of a variable, as a scope."""
     return TypeVariable(name) if may_hold_types(domain) else name
@@ -605,7 +638,8 @@ def _as_scope(name: str, domain: TypeNode) -> str:
 def _bound_names(scope: Scope) -> Iterator[str]:
     """The labels and variables in scope."""
     for names in scope:
-        yield from (names,) if isinstance(names, str) else names
+        if not isinstance(names, Spelling):
+            yield from (names,) if isinstance(names, str) else names
 
 
 def _is_bound(name: str, scope: Scope) -> bool:

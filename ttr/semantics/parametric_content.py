@@ -78,7 +78,7 @@ def strong(of: Record, /) -> FunType:
     >>> Donkey = rectype(x=Ind, c=Pred("donkey", Ind)(this.x))
     >>> bray = fun(r=Donkey)(Pred("bray", Ind)(this.r.x))
     >>> print(strong(content(Donkey, bray)))
-    ((bg : [x : Ind, c : donkey(x)]) -> bray(bg.x))
+    ((r : [x : Ind, c : donkey(x)]) -> bray(r.x))
     """
     bg, fg = _parts(of)
     return Pi(bg=bg)(as_type(_body_at(fg, "bg")))

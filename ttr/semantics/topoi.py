@@ -209,7 +209,7 @@ def combine_topoi(
     first, second = topos(first), topos(second)
     bg = merge(first.bg, second.bg, theory)
     body = merge(as_type(first.fg.body), as_type(second.fg.body), theory)
-    return Topos(Function(bg, body, first.fg.hint))
+    return Topos(Function(bg, body))
 
 
 def compatible(

@@ -15,6 +15,7 @@ from ttr.persistent_maps import Map
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.types.interning import as_notation
 from ttr.types.objects import Object, Path, Record
+from ttr.types.printing import Scope
 from ttr.types.syntax import Basic, Pred, PType, RecordType, TypeNode, kind_of
 
 if TYPE_CHECKING:
@@ -179,6 +180,9 @@ class Signature:
     exclusions: tuple[Exclusion, ...] = ()
     declared: Mapping[str, TypeNode] = field(default_factory=dict)
     """The types with which objects are declared: they hold in every model."""
+
+    spelling: Scope = ()
+    """How its text writes what it defines; the scope around what is printed of it."""
 
     @cached_property
     def _memo(self) -> dict[object, Any]:

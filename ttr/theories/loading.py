@@ -264,6 +264,7 @@ def _merge_import(mine: Draft, other: Draft, span: Span) -> None:
     mine.openings.update(other.openings)
     mine.objects |= other.objects
     mine.declared.update(other.declared)
+    mine.written.update(other.written)
     mine.opened |= other.opened
     mine.axioms.update(other.axioms)
     mine.exclusions.update(other.exclusions)

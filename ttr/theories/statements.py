@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from ttr.building.conditions import IsBelow
@@ -34,8 +34,10 @@ from ttr.theories.game_statements import read_game
 from ttr.theories.rule_statements import read_rule
 from ttr.theories.strategy_statements import kinds_gathered, read_strategy
 from ttr.theories.theory_draft import Draft
+from ttr.types.interning import Node
 from ttr.types.objects import Object, Path
 from ttr.types.paths import free_paths
+from ttr.types.printing import Written, spelling_of
 from ttr.types.reserved_words import LOGICAL, RESERVED
 from ttr.types.syntax import Basic, Pred, PType, TypeNode
 
@@ -176,12 +178,26 @@ class StatementReader:
 
     def _definition(self, tree: trees.Definition) -> None:
         self._check_free(tree.name, "defined", ())
-        value = self.reader.object(tree.value, ())
+        reader = replace(self.reader, written={})
+        value = reader.object(tree.value, ())
         try:
             check_computable(value, self.draft.signature)
-        except IllFormedError as error:
+        except IllFormedError:
+            error = self._error_as_written(value, reader.written)
             raise error.at(self.source.span(tree.value)) from None
         self.draft.definitions[tree.name.text] = value
+        self.draft.written[tree.name.text] = reader.written
+
+    def _error_as_written(
+        self, value: Object, written: dict[Node, Written]
+    ) -> IllFormedError:
+        """What is wrong with a value, in the order and with the names of the text."""
+        spelling = spelling_of([written, *self.draft.written.values()])
+        try:
+            check_computable(value, replace(self.draft.signature, spelling=spelling))
+        except IllFormedError as error:
+            return error
+        raise AssertionError(value)
 
     def _rule(self, tree: trees.RuleStatement) -> None:
         self._check_free(tree.name, "a rule", ())

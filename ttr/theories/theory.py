@@ -20,7 +20,9 @@ from ttr.signature.signature import (
 from ttr.theories.game_statements import opened
 from ttr.theories.loading import draft_of_file, draft_of_text
 from ttr.theories.theory_draft import Draft
+from ttr.types.interning import Node
 from ttr.types.objects import Object
+from ttr.types.printing import Scope, Written, spelling_of
 from ttr.types.syntax import Basic, Pred, kind_of
 
 if TYPE_CHECKING:
@@ -96,6 +98,8 @@ class Theory(Signature):
     rules: Mapping[str, Rule] = field(default_factory=dict)
     strategies: Mapping[str, Algorithm] = field(default_factory=dict)
     openings: Mapping[str, Opening] = field(default_factory=dict)
+    written: Mapping[str, Mapping[Node, Written]] = field(default_factory=dict)
+    """How each definition is written: the order of fields, the names of variables."""
 
     parse = _Parse()
 
@@ -127,7 +131,18 @@ class Theory(Signature):
             self.definitions,
             self.exclusions,
             self.declared,
+            self.spelling,
         )
+
+    def spelling_of(self, name: str) -> Scope:
+        r"""How the text writes what a name stands for, as the scope to print it in.
+
+        >>> from ttr.types.printing import notation
+        >>> kennel = Theory.parse('basic B, A\nPair := [b : B, a : A]')
+        >>> print(kennel.Pair, notation(kennel.Pair, kennel.spelling_of("Pair")))
+        [a : A, b : B] [b : B, a : A]
+        """
+        return spelling_of([self.written.get(name, {}), *self.written.values()])
 
     @cached_property
     def games(self) -> Mapping[str, Game]:
@@ -235,4 +250,6 @@ def theory_of_draft(draft: Draft) -> Theory:
         strategies=dict(draft.strategies),
         openings=dict(draft.openings),
         declared=dict(draft.declared),
+        written=dict(draft.written),
+        spelling=spelling_of(draft.written.values()),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,9 @@ from ttr.signature.signature import (
     Opening,
     Signature,
 )
+from ttr.types.interning import Node
 from ttr.types.objects import Object
+from ttr.types.printing import Written
 from ttr.types.syntax import Basic, Pred, TypeNode
 from ttr.updates.rules import Rule
 from ttr.updates.update_strategies import Algorithm
@@ -30,7 +33,8 @@ class Draft:
 
     `used` are the names that statements have mentioned: a predicate among them cannot
     get another arity. `gathered` says which strategy or game has gathered all rules of
-    a kind: no rule of this kind may follow.
+    a kind: no rule of this kind may follow. `written` says of each definition how it is
+    written: the order of its fields, the names of its variables.
     """
 
     source: str = "<text>"
@@ -49,6 +53,7 @@ class Draft:
     used: set[str] = field(default_factory=set)
     gathered: dict[str, str] = field(default_factory=dict)
     declared: dict[str, TypeNode] = field(default_factory=dict)
+    written: dict[str, Mapping[Node, Written]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, theory: Theory) -> Draft:
@@ -68,6 +73,7 @@ class Draft:
             strategies=dict(theory.strategies),
             openings=dict(theory.openings),
             declared=dict(theory.declared),
+            written=dict(theory.written),
         )
 
     @property

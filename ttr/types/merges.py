@@ -45,7 +45,7 @@ def merge_terms(*parts: TypeNode) -> TypeNode:
     >>> print(merge_terms(Ind @ "j", A))
     (A /\ Ind)@j
     >>> print(fun(f=Ind >> RecType)(merge_terms(this.f("j"), rectype(x=Ind))))
-    \f:(Ind -> RecType). merge(f(j), [x : Ind])
+    \P:(Ind -> RecType). merge(P(j), [x : Ind])
     """
     types = dict.fromkeys(map(as_type, parts))
     if len(types) < 2:

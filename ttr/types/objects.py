@@ -464,8 +464,7 @@ def _order_key(value: object) -> _OrderKey:
 
 @cache_on_node
 def _order_key_of_node(value: Node) -> _OrderKey:
-    names = [name for name in value.__match_args__ if name != "hint"]
-    fields = [_order_key(getattr(value, name)) for name in names]
+    fields = [_order_key(getattr(value, name)) for name in value.__match_args__]
     return _compose_key(value._sign, type(value).__name__, fields)
 
 

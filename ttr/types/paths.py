@@ -120,8 +120,8 @@ def map_parts(value: Object, change: Callable[[Object, int], Object]) -> Object:
             return Negation(change(body, 0))
         case Str(inner) | EventString(inner) | FiniteSet(inner):
             return type(value)(*[change(part, 0) for part in inner])
-        case FunType(domain, inside, hint) | Function(domain, inside, hint):
-            return type(value)(change(domain, 0), change(inside, 1), hint)
+        case FunType(domain, inside) | Function(domain, inside):
+            return type(value)(change(domain, 0), change(inside, 1))
         case Application(function, argument):
             return Application(change(function, 0), change(argument, 0))
         case TypeAt(term):

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import keyword
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import count
 
 from ttr.escapes import json_text
 from ttr.safety.budgets import spend
-from ttr.types.interning import as_notation, as_python
+from ttr.types.interning import Node, as_notation, as_python
 from ttr.types.objects import (
     BOUND,
     EventString,
@@ -57,8 +59,49 @@ from ttr.types.syntax import (
     Universe,
 )
 
-Scope = tuple[frozenset[str] | str, ...]
-"""The scopes around, innermost first: the labels of a record type, or a variable."""
+Written = tuple[str, ...] | str
+"""How a text writes a node: the labels of a record type, or the name of a variable."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Spelling:
+    """How a text writes what stands in it: the order of fields, the names of variables.
+
+    As the outermost of the scopes it has values printed so. A name that is taken gets a
+    number; what the text does not write has its own order and names.
+    """
+
+    written: Mapping[Node, Written]
+
+
+Scope = tuple[frozenset[str] | str | Spelling, ...]
+"""The scopes around, innermost first: the labels of a record type, or a variable.
+
+A `Spelling` may be the outermost.
+"""
+
+
+def spelling_of(texts: Iterable[Mapping[Node, Written]]) -> Scope:
+    """How texts write what stands in them, as a scope; the first text counts."""
+    written: dict[Node, Written] = {}
+    for text in texts:
+        for value, way in text.items():
+            written.setdefault(value, way)
+    return (Spelling(written),) if written else ()
+
+
+def as_written(value: Node, scope: Scope) -> Written | None:
+    """How the text writes a node, if there is a text and the node stands in it."""
+    if not scope:
+        return None
+    spelling = scope[-1]
+    return spelling.written.get(value) if isinstance(spelling, Spelling) else None
+
+
+def fields_in_order(T: RecordType, scope: Scope) -> Iterable[tuple[str, TypeNode]]:
+    """The fields of a record type, in the order of the text if there is one."""
+    labels = as_written(T, scope)
+    return T.fields if labels is None else [(label, T[label]) for label in labels]
 
 
 class Labels(frozenset[str]):
@@ -91,8 +134,11 @@ def labels_of(T: RecordType) -> frozenset[str]:
     >>> sorted(labels_of(rectype(T=Type, x=Ind)).of_types)
     ['T']
     """
-    of_types = frozenset([label for label, field in T.fields if is_of_types(field)])
-    return labels_with(T.labels, of_types)
+    of_types = [k for k, T in T.fields if type(T) in _OF_TYPES and is_of_types(T)]
+    return labels_with(T.labels, frozenset(of_types))
+
+
+_OF_TYPES = (Universe, Singleton)
 
 
 def labels_with(labels: Iterable[str], of_types: frozenset[str]) -> frozenset[str]:
@@ -130,11 +176,11 @@ def may_hold_types(T: TypeNode) -> bool:
 
 def hides_type(scope: Scope, name: str) -> bool:
     """Does a label or variable around hide the declared type of its name?"""
-    return any(
-        name in names.of_types
-        for names in scope
-        if isinstance(names, Labels | TypeVariable)
-    )
+    hiding = [names for names in scope if isinstance(names, _HIDING)]
+    return any(name in names.of_types for names in hiding)
+
+
+_HIDING = (Labels, TypeVariable)
 
 
 def notation(value: Object, scope: Scope = ()) -> str:
@@ -157,9 +203,10 @@ def notation(value: Object, scope: Scope = ()) -> str:
             return f"{pred.name}({_objects(args, scope)})"
         case RecordType(()):
             return "Rec"
-        case RecordType(fields):
-            spend(len(fields))
+        case RecordType():
+            spend(len(value.fields))
             inner = (labels_of(value), *scope)
+            fields = fields_in_order(value, scope)
             return f"[{', '.join(_field(k, f, inner) for k, f in fields)}]"
         case Singleton(base, obj):
             return f"{_bracketed_beside(base, scope)}@{_object_beside(obj, scope)}"
@@ -274,10 +321,16 @@ def _binder(value: FunType | Function, scope: Scope) -> str:
 
 
 def variable(value: FunType | Function, scope: Scope) -> str:
-    """The name to write for the variable: its hint, with a number if it is taken.
+    """The name to write for the variable: the first that is free of those for its type.
 
     Taken are the names of the variables around, and of the labels, predicates and basic
-    types in the body.
+    types in the body. Types are called T, U, …, properties P, Q, …, other functions f,
+    g, …, records r, s, … and anything else x, y, z. Where the scope has the spelling of
+    a text, the variable is called as it is there.
+
+    >>> from ttr import Ind, Pi, Type, fun, this
+    >>> print(fun(v=Ind)(fun(w=Ind)(this.w)), Pi(v=Ind >> Type)(this.v("a")))
+    \\x:Ind. \\y:Ind. y ((P : (Ind -> Type)) -> P(a))
     """
     inside = value.body if isinstance(value, Function) else value.result
     taken = {name for name in scope if isinstance(name, str)} | RESERVED
@@ -287,10 +340,28 @@ def variable(value: FunType | Function, scope: Scope) -> str:
                 taken.update(part)
             case Pred(name) | Basic(name):
                 taken.add(name)
-    name, number = value.hint, 1
-    while name in taken:
-        name, number = f"{value.hint}{number}", number + 1
-    return name
+    written = as_written(value, scope)
+    names = [written] if isinstance(written, str) else usual_names(value.domain)
+    for name in names:
+        if name not in taken:
+            return name
+    return next(name for n in count(1) if (name := f"{names[0]}{n}") not in taken)
+
+
+def usual_names(domain: TypeNode) -> str:
+    """What variables of a domain are usually called, a letter each."""
+    match domain:
+        case Universe():
+            return "TUVW"
+        case FunType(_, result):
+            return "PQR" if usual_names(result) in ("TUVW", "PQR") else "fgh"
+        case RecordType():
+            return "rstu"
+        case Singleton(base, _):
+            return usual_names(base)
+        case Meet(parts) if any(isinstance(part, RecordType) for part in parts):
+            return "rstu"
+    return "xyz"
 
 
 def format_head(function: Object, scope: Scope) -> str:
@@ -344,7 +415,7 @@ def _dotted_path(up: int, labels: tuple[str, ...], scope: Scope) -> str:
     return f"{'^' * (up - binders)}.{'.'.join(labels)}"
 
 
-def _labels(names: frozenset[str] | str) -> frozenset[str]:
+def _labels(names: frozenset[str] | str | Spelling) -> frozenset[str]:
     return names if isinstance(names, frozenset) else frozenset()
 
 
@@ -456,14 +527,15 @@ def python(value: Object) -> str:
 
 def _python_binder(value: FunType | Function) -> str:
     match value:
-        case Function(domain, body, hint):
+        case Function(domain, body):
             call, inside = "fun", body
         case FunType(domain, result) if not binds(result):
             return f"({python(domain)} >> {python(shift_paths(result, -1))})"
-        case FunType(domain, inside, hint):
+        case FunType(domain, inside):
             call = "Pi"
-    named = replace_paths(inside, lambda path: _name_variable(path, hint))
-    return f"{call}({_keywords([(hint, domain)])})({python(named)})"
+    name = usual_names(domain)[0]
+    named = replace_paths(inside, lambda path: _name_variable(path, name))
+    return f"{call}({_keywords([(name, domain)])})({python(named)})"
 
 
 def _name_variable(path: Path, variable: str) -> Path:

@@ -327,15 +327,16 @@ class Str(TypeNode):
 
 
 class _Binder(Node):
-    """Something with a bound variable of a domain; the variable's name is a hint.
+    """Something with a bound variable of a domain, which has no name.
 
-    Inside, the variable is the path `BOUND`, so its name is no part of identity.
+    Inside, the variable is the path `BOUND`. A name that is given is checked and
+    forgotten; what is printed for a variable is up to `ttr.types.printing.variable`.
     """
 
     __slots__ = ()
 
     @staticmethod
-    def _key(domain: TypeNode, inside: object, hint: str) -> tuple[object, ...]:
+    def _key(domain: TypeNode, inside: object) -> tuple[object, ...]:
         return domain, identity(inside)
 
 
@@ -348,15 +349,14 @@ class FunType(_Binder, TypeNode):
 
     domain: TypeNode
     result: TypeNode
-    hint: str = "x"
     _sign = "("
 
     @staticmethod
     def _normal(
-        domain: TypeNode, result: TypeNode, hint: str = "x"
+        domain: TypeNode, result: TypeNode, name: str = "x"
     ) -> tuple[object, ...]:
-        check_label(hint)
-        return as_type(domain), as_type(result), hint
+        check_label(name)
+        return as_type(domain), as_type(result)
 
 
 @node
@@ -365,13 +365,12 @@ class Function(_Binder):
 
     domain: TypeNode
     body: Object
-    hint: str = "x"
     _sign = "\\"
 
     @staticmethod
-    def _normal(domain: TypeNode, body: object, hint: str = "x") -> tuple[object, ...]:
-        check_label(hint)
-        return as_type(domain), freeze(body), hint
+    def _normal(domain: TypeNode, body: object, name: str = "x") -> tuple[object, ...]:
+        check_label(name)
+        return as_type(domain), freeze(body)
 
     def __call__(self, *args: object) -> Application:
         """The application of the function, as written; `Model.apply` works it out."""

@@ -12,8 +12,10 @@ from ttr.errors import Span, TTRError, UpdateError
 from ttr.judging.evaluator import reduce_applications
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree, degree
+from ttr.signature.signature import Signature, signature_of
 from ttr.types.objects import BOUND, Object, Path
 from ttr.types.paths import free_paths, replace_paths
+from ttr.types.printing import as_written
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import Function, RecordType, TypeNode, kind_of
 
@@ -233,12 +235,14 @@ def update(
     p: object = CERTAIN,
     doc: str = "",
     span: Span | None = None,
+    theory: Signature | None = None,
 ) -> Rule:
     r"""The rule of an update function (S → (E → T)), or of a tacit one (S → T).
 
     If the state is of S and the event of E, the next state is of the asymmetric merge
-    of the state's own type with T. Raises `UpdateError` for any other function.
-    Source: Cooper 2023, chapter 2.
+    of the state's own type with T. With the theory that defines the function, state and
+    event are called as in its text, else s and e. Raises `UpdateError` for any other
+    function. Source: Cooper 2023, chapter 2.
 
     >>> from ttr import Theory, record
     >>> from ttr.updates import run
@@ -260,12 +264,13 @@ def update(
         raise UpdateError(
             f"an update is a function of states, records, found {function}"
         )
-    names, on, inside = [function.hint], None, function.body
+    names, on, inside = [_name_of(function, theory, "s")], None, function.body
     if isinstance(inside, Function):
         if free_paths(inside.domain):
             raise UpdateError(f"the event's type depends on the state in {function}")
         on = inside.domain
-        names.append(inside.hint + "_" * (inside.hint == function.hint))
+        event = _name_of(inside, theory, "e")
+        names.append(event + "_" * (event == names[0]))
         inside = inside.body
     return Rule(
         name,
@@ -281,6 +286,12 @@ def update(
         doc=doc,
         span=span,
     )
+
+
+def _name_of(function: Function, theory: Signature | None, usual: str) -> str:
+    """The name of a function's variable in the text of a theory, or the usual one."""
+    found = as_written(function, signature_of(theory).spelling)
+    return found if isinstance(found, str) else usual
 
 
 def _with_names(value: Object, names: list[str]) -> Object:

@@ -12,6 +12,7 @@ from ttr.errors import TTRError, UnsupportedError
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory
     from ttr.types.objects import Object
+    from ttr.types.printing import Scope
 
 _FORMATS = ("text", "box", "latex", "html")
 
@@ -74,6 +75,7 @@ def _text_of(theory: Theory, options: argparse.Namespace) -> str:
     from ttr.display.abbreviations import abbreviator
     from ttr.display.html import page
     from ttr.display.render import box, html, latex
+    from ttr.signature.signature import Signature
 
     if options.name in {*theory.rules, *theory.strategies, *theory.openings}:
         return _rule_text(theory, options)
@@ -82,15 +84,18 @@ def _text_of(theory: Theory, options: argparse.Namespace) -> str:
     value = theory[options.name]
     if options.normal:
         value = normal_form(value, theory)
-    value = abbreviator(theory, unfold)(value)
+    fold = abbreviator(theory, unfold)
+    value = fold(value)
+    text = fold.spelling(theory.spelling_of(options.name))
+    as_written = Signature(spelling=text)
     match options.form:
         case "box":
-            return box(value)
+            return box(value, theory=as_written)
         case "latex":
-            return latex(value)
+            return latex(value, theory=as_written)
         case "html":
-            return page(options.name, html(value))
-    return _declaration(theory, options.name, value)
+            return page(options.name, html(value, theory=as_written))
+    return _declaration(theory, options.name, value, text)
 
 
 def _rule_text(theory: Theory, options: argparse.Namespace) -> str:
@@ -103,14 +108,14 @@ def _rule_text(theory: Theory, options: argparse.Namespace) -> str:
     return declaration(theory, options.name, abbreviator(theory, options.unfold))
 
 
-def _declaration(theory: Theory, name: str, value: Object) -> str:
+def _declaration(theory: Theory, name: str, value: Object, text: Scope) -> str:
     """The name as a statement that declares it."""
     from ttr.notation.names import format_predicate
     from ttr.types.printing import notation
     from ttr.types.syntax import Pred
 
     if name in theory.definitions:
-        return f"{name} := {notation(value)}"
+        return f"{name} := {notation(value, text)}"
     if isinstance(value, Pred):
         return format_predicate(value)
     return f"basic {name}"

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import partial, reduce
 from pathlib import Path
 
 from ttr.cli.session.replies import Reply, answer, evaluate_term, list_changes
@@ -139,11 +139,11 @@ def _run_command(session: Session, text: str) -> Reply:
 
 
 def _box(session: Session, argument: str) -> Reply:
-    return _draw(session, argument, box)
+    return _draw(session, argument, partial(box, theory=session.theory))
 
 
 def _latex(session: Session, argument: str) -> Reply:
-    return _draw(session, argument, latex)
+    return _draw(session, argument, partial(latex, theory=session.theory))
 
 
 def _draw(session: Session, argument: str, draw: Callable[[object], str]) -> Reply:
@@ -158,7 +158,7 @@ def _normal(session: Session, argument: str) -> Reply:
     if value is None or isinstance(value, Answer | Judgement):
         raise TTRError("there is nothing to compute", hint="name a type or an object")
     found = normal_form(value, session.theory)
-    return Reply(replace(session, last=found), notation(found))
+    return Reply(replace(session, last=found), notation(found, session.theory.spelling))
 
 
 def _why(session: Session, _: str) -> Reply:

@@ -288,7 +288,8 @@ def _answer_term(session: Session, claim: trees.Term, reader: Reader) -> Reply:
 
 
 def _show(session: Session, value: LastAnswer) -> Reply:
-    return Reply(replace(session, last=value), notation(value))
+    text = notation(value, session.theory.spelling)
+    return Reply(replace(session, last=value), text)
 
 
 def _is_rule_or_game(session: Session, name: str) -> bool:

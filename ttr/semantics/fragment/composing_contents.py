@@ -141,7 +141,7 @@ class _Composer:
             self._bound.append(y)
             said = self._vp(vp)(x)
             self._bound.pop()
-            fg = Function(bg, replace_name(said, y, BOUND, "y"), "r")
+            fg = Function(bg, replace_name(said, y, BOUND, "y"))
             return purified(content(bg, fg))
 
         return self._np(np)(beating)

@@ -39,7 +39,7 @@ class Variables:
 
 def abstract_over(said: TypeNode, name: str) -> Function:
     """The function λx:Ind. said[x/name]: a variable in place of the name."""
-    return Function(Ind, replace_name(said, name, BOUND), "x")
+    return Function(Ind, replace_name(said, name, BOUND))
 
 
 def all_of(*parts: TypeNode) -> TypeNode:

@@ -123,7 +123,7 @@ def _of_type(P: TypeNode) -> Formula:
             return Disjunction(tuple(map(_of_type, parts)))
         case Singleton(_, str(name)):
             return Is(name)
-    return OpaqueProperty(Function(P, P, "x"))
+    return OpaqueProperty(Function(P, P))
 
 
 def _of_thing(T: TypeNode) -> Formula:

@@ -224,7 +224,7 @@ def _function_types(
     domain = draw(_domains(words, scopes, depth))
     kind = draw(_RESULT_KIND)
     result = draw(kind(words, (_inside(BOUND, domain), *scopes), depth))
-    return check_binder(FunType(domain, result, draw(_LABEL)))
+    return check_binder(FunType(domain, result))
 
 
 @st.composite
@@ -387,7 +387,7 @@ def _functions(
     domain = draw(_domains(words, scopes, depth))
     within = (_inside(BOUND, domain), *scopes)
     body = draw(bodies(words, within, depth))
-    return check_binder(Function(domain, body, draw(_LABEL)))
+    return check_binder(Function(domain, body))
 
 
 @st.composite
