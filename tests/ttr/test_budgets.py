@@ -34,7 +34,7 @@ from ttr.errors import TooLargeError
 from ttr.safety import budgets
 from ttr.safety.budgets import open_purse, spend, within_budget
 from ttr.theories.checking import check
-from ttr.types import TypeNode
+from ttr.types import Meet, TypeNode
 from ttr.updates import rule
 from ttr.updates.games import Game
 
@@ -57,7 +57,7 @@ def deep_record(times: int) -> object:
     return value
 
 
-def pigeons(holes: int) -> TypeNode:
+def pigeons(holes: int) -> Meet:
     """One pigeon more than there are holes, no two in one: nothing is of it."""
     at = [[Basic(f"P{p}H{h}") for h in range(holes)] for p in range(holes + 1)]
     somewhere = [join(*row) for row in at]
@@ -67,7 +67,9 @@ def pigeons(holes: int) -> TypeNode:
         for i, one in enumerate(at)
         for other in at[:i]
     ]
-    return meet(*somewhere, *alone)
+    found = meet(*somewhere, *alone)
+    assert isinstance(found, Meet)
+    return found
 
 
 def friends(count: int) -> tuple[Model, TypeNode]:
@@ -90,10 +92,10 @@ UNKNOWN: dict[str, Callable[[], Answer]] = {
     "doubled records": lambda: subtype(doubled(40, A), doubled(39, A)),
     "doubled joins": lambda: subtype(doubled(40, A | B), rectype(l=doubled(38, A))),
     "joins against negations": lambda: subtype(
-        meet(*[Basic(f"A{i}") | Basic(f"B{i}") for i in range(9)]),
-        join(*[~(Basic(f"A{i}") | ~Basic(f"B{i}")) for i in range(9)]),
+        meet(*[part for part in pigeons(8).parts if len(part.parts) == 8]),
+        join(*[~part for part in pigeons(8).parts if len(part.parts) == 2]),
     ),
-    "pigeonholes": lambda: subtype(pigeons(5), C),
+    "pigeonholes": lambda: subtype(pigeons(8), C),
     "consistent joins": lambda: consistent(doubled(40, A | B), doubled(40, C)),
     "chains of functions": lambda: subtype(_arrows(30, A), _arrows(29, A)),
 }
@@ -105,6 +107,53 @@ def _arrows(times: int, T: TypeNode) -> TypeNode:
     return T
 
 
+def _pairs_of_joins(count: int) -> tuple[TypeNode, list[TypeNode], list[TypeNode]]:
+    As = [Basic(f"A{i}") for i in range(count)]
+    Bs = [Basic(f"B{i}") for i in range(count)]
+    both = meet(*[A | B for A, B in zip(As, Bs, strict=True)])
+    denied = [~(A | ~B) for A, B in zip(As, Bs, strict=True)]
+    return both, denied, [~(A & B) for A, B in zip(As, Bs, strict=True)]
+
+
+SEARCHED: dict[str, tuple[str, Callable[[], Answer]]] = {
+    "joins against negations": (
+        "no",
+        lambda: subtype(_pairs_of_joins(9)[0], join(*_pairs_of_joins(9)[1])),
+    ),
+    "joins against a union": (
+        "yes",
+        lambda: subtype(
+            _pairs_of_joins(9)[0], join(Basic("A0"), *_pairs_of_joins(9)[1])
+        ),
+    ),
+    "joins against as many negations": (
+        "yes",
+        lambda: consistent(_pairs_of_joins(9)[0], *_pairs_of_joins(9)[2]),
+    ),
+    "pigeonholes": ("yes", lambda: subtype(pigeons(5), C)),
+    "inconsistent pigeonholes": ("no", lambda: consistent(pigeons(6))),
+    "pigeonholes in a field": (
+        "yes",
+        lambda: subtype(rectype(x=pigeons(5), y=A), rectype(y=B)),
+    ),
+    "pigeonholes in a list": (
+        "yes",
+        lambda: subtype(ListOf(pigeons(5)), ListOf(C)),
+    ),
+    "functions from pigeonholes": (
+        "yes",
+        lambda: subtype(A >> B, pigeons(5) >> B),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SEARCHED)
+def test_a_search_that_learns_stays_within_few_steps(name):
+    verdict, ask = SEARCHED[name]
+    with ttr.budget(steps=FEW):
+        assert ask().verdict == verdict
+
+
 @pytest.mark.parametrize("name", UNKNOWN)
 def test_what_is_too_large_is_unknown(name):
     with ttr.budget(steps=FEW):
@@ -114,7 +163,7 @@ def test_what_is_too_large_is_unknown(name):
 
 
 def test_degrees_are_unknown_where_the_budget_ends():
-    M, circle = friends(12)
+    M, circle = friends(40)
     with ttr.budget(steps=FEW):
         assert M.true(circle) == ttr.probability.Degree(0.0, 1.0)
         judged = M.judge(deep_record(25), doubled(25, Ind))

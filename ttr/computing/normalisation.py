@@ -21,7 +21,7 @@ from weakref import WeakKeyDictionary
 from ttr.computing.generic_witness import Assumption, GenericWitness
 from ttr.computing.prover import Prover
 from ttr.errors import IllFormedError
-from ttr.safety.budgets import spend, within_budget
+from ttr.safety.budgets import open_purse, spend, within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.derived_types import order_fields
 from ttr.types.interning import Node, identity
@@ -87,11 +87,30 @@ _Scopes = tuple[_Scope, ...]
 """What stands around, innermost first."""
 
 
+class _Cost:
+    """The steps that a normal form takes: its own, and those of others that it needs.
+
+    Whoever finds it in the memo spends the same again, each of the others once: so an
+    answer does not depend on what was asked before.
+    """
+
+    __slots__ = ("others", "own", "spent_on_others")
+
+    def __init__(self) -> None:
+        self.own = 0
+        self.others: list[_Cost] = []
+        self.spent_on_others = 0
+
+
+_CHEAP = 64
+"""A normal form of fewer steps is paid for wherever it stands, not only once."""
+
+
 _KNOWN: WeakKeyDictionary[
-    Signature, tuple[WeakKeyDictionary[Node, Object | None], ...]
+    Signature, tuple[WeakKeyDictionary[Node, tuple[Object | None, _Cost]], ...]
 ] = WeakKeyDictionary()
-"""The normal forms of closed types, by theory, where an application that is ill-formed
-is kept and where it is refused; None for a type that is its own.
+"""The normal forms of closed types with their costs, by theory, where an application
+that is ill-formed is kept and where it is refused; None for a type that is its own.
 """
 
 
@@ -107,6 +126,8 @@ class _Normaliser:
         kinds = _KNOWN.setdefault(theory, (WeakKeyDictionary(), WeakKeyDictionary()))
         self._known = kinds[is_strict]
         self._made: dict[tuple[object, ...], Object] = {}
+        self._paid: set[_Cost] = set()
+        self._cost = _Cost()
 
     def of(self, value: Object, around: _Scopes) -> Object:
         """The normal form of what stands in these scopes."""
@@ -130,12 +151,49 @@ class _Normaliser:
         return self._made[key]
 
     def _of_closed(self, value: Node) -> Object:
-        known = self._known
-        if value not in known:
-            found = self._compute(value, ())
-            known[value] = None if found is value else found
-        found = known[value]
+        known = self._known.get(value)
+        if known is None:
+            known = self._find(value)
+        else:
+            self._pay(known[1])
+        found = known[0]
         return value if found is None else found
+
+    def _find(self, value: Node) -> tuple[Object | None, _Cost]:
+        """Compute a normal form, and remember it with what it cost."""
+        purse, around = open_purse(), self._cost
+        assert purse is not None
+        left = purse.left
+        cost = self._cost = _Cost()
+        computed = self._compute(value, ())
+        self._cost = around
+        spent = left - purse.left
+        cost.own = spent - cost.spent_on_others
+        known = (None if computed is value else computed, cost)
+        self._known[value] = known
+        self._note(cost, spent)
+        return known
+
+    def _pay(self, cost: _Cost) -> None:
+        """Spend what a normal form cost, but for what was spent here before."""
+        spent = 0
+        waiting = [cost]
+        while waiting:
+            one = waiting.pop()
+            if one not in self._paid:
+                spent += one.own
+                waiting += one.others
+                if one.others or one.own >= _CHEAP:
+                    self._paid.add(one)
+        spend(spent)
+        self._note(cost, spent)
+
+    def _note(self, cost: _Cost, spent: int) -> None:
+        """Note that what is being computed needed this, and what was spent on it."""
+        if cost.others or cost.own >= _CHEAP:
+            self._paid.add(cost)
+            self._cost.others.append(cost)
+            self._cost.spent_on_others += spent
 
     def _compute(self, value: Node, around: _Scopes) -> Object:
         match value:
@@ -222,7 +280,10 @@ class _Normaliser:
             return whole
         derived = _Derivation(self._theory, around, argument, function.domain)
         if derived.is_derivable:
-            return self.of(substitute_variable(function.body, argument), around)
+            value = substitute_variable(function.body, argument)
+            if _stays_normal(function.body, argument):
+                return value
+            return self.of(value, around)
         if self._is_strict and derived.is_impossible:
             text = self._theory.spelling
             raise IllFormedError(
@@ -232,6 +293,19 @@ class _Normaliser:
                 + (f", as it is of {derived.type}" if derived.type else "")
             )
         return whole
+
+
+def _stays_normal(body: Object, argument: Object) -> bool:
+    """Is a normal body still normal with a normal argument for its variable?
+
+    It is if the argument is a name or a path, and stands nowhere on the way to
+    something else.
+    """
+    if not (type(argument) is str or isinstance(argument, Path)):
+        return False
+    if mentions(body, Application) or mentions(body, Merge):
+        return False
+    return all(path.up > 0 or path.labels == (BOUND,) for path in free_paths(body))
 
 
 def _move_in(T: TypeNode) -> TypeNode:
@@ -420,6 +494,11 @@ def normal_value(value: Object, theory: Signature) -> Object:
     """
     if not any(mentions(value, kind) for kind in (Application, Merge, TypeAt)):
         return value
+    return _compute_normal_value(value, theory)
+
+
+@within_budget
+def _compute_normal_value(value: Object, theory: Signature) -> Object:
     return _Normaliser(theory, is_strict=False).of(value, ())
 
 

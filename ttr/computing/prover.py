@@ -16,6 +16,7 @@ from math import prod
 from typing import assert_never
 
 from ttr.computing.case_analysis import Clause, cases_or_whole, clauses
+from ttr.computing.case_search import is_every_case_ruled_out
 from ttr.computing.findings import YES, Finding, Where, every, no
 from ttr.computing.generic_witness import (
     ITSELF,
@@ -329,21 +330,22 @@ class Prover:
     def _follows_in_each_case(
         self, term: Object, T: TypeNode, known: list[TypeNode]
     ) -> bool:
-        """Is the term of a join, and of T whichever part of the join it is of?
+        """Is the term of a join, and of T whichever part of the join it is of?"""
+        joins = [one for one in known if isinstance(one, Join)]
+        joins = [one for one in joins if not any(part in known for part in one.parts)]
+        if not joins:
+            return False
 
-        Of negations one is taken apart, and the others then are in each case.
-        """
-        for one in known:
-            further = [
-                self._assume_new([case]) for case in self._ways_to_be(term, one, known)
-            ]
-            if not further or self in further:
-                continue
-            if all(case.is_impossible or case.prove(term, T).yes for case in further):
-                return True
-            if isinstance(one, Negation):
+        def is_ruled_out(case: TypeNode) -> bool:
+            further = self._assume_new([(term, case)])
+            if further is self:
                 return False
-        return False
+            return further.is_impossible or further.prove(term, T).yes
+
+        atoms = [one for one in known if isinstance(one, Basic | PType | Negation)]
+        whole = meet(*joins, *atoms)
+        wanted = self.witness.normalise(T)
+        return is_every_case_ruled_out(whole, wanted, self.theory, is_ruled_out)
 
     def _may_look_into(self, term: Object) -> bool:
         """Is it worth while to ask in which field a record fails to be of a type?"""
@@ -488,13 +490,15 @@ class Prover:
         if len(self.assumed) >= ASSUMPTIONS:
             return False
         one = self._new_place()
-        further = [self.assume((one, case)) for case in cases_or_whole(S)]
-        return all(
-            q._has_misfit
-            or q._is_contradictory
-            or (bool(types) and q.prove(one, join(*types)).yes)
-            for q in further
-        )
+        T = join(*types) if types else None
+
+        def is_ruled_out(case: TypeNode) -> bool:
+            q = self.assume((one, case))
+            if q._has_misfit or q._is_contradictory:
+                return True
+            return T is not None and q.prove(one, T).yes
+
+        return is_every_case_ruled_out(S, T, self.theory, is_ruled_out)
 
     # --- functions ---
 

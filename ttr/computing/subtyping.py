@@ -9,10 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
+from itertools import islice
 from typing import TYPE_CHECKING
 
-from ttr.computing.case_analysis import cases, cases_or_whole
-from ttr.computing.findings import Finding
+from ttr.computing.case_analysis import cases, clauses, has_cases
+from ttr.computing.case_search import open_cases
+from ttr.computing.findings import YES, Finding
 from ttr.computing.generic_witness import ITSELF, Assumption
 from ttr.computing.normalisation import normal_type
 from ttr.computing.path_cycles import has_fields_in_order
@@ -42,6 +45,13 @@ from ttr.types.syntax import (
 
 if TYPE_CHECKING:
     from ttr.judging.judgements import Judgement
+
+
+MANY = 16
+"""After how many proofs of cases one of the whole is tried, field by field."""
+
+TRIED = 256
+"""How many cases are looked at in which an answer is left open."""
 
 
 @dataclass(frozen=True)
@@ -186,14 +196,65 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
         S, T = normal_type(S, theory), normal_type(T, theory)
     if S is T:
         return Answer("yes", lambda: f"{S} is below itself")
+    if clauses(T) is None:
+        return _by_contradiction(S, T, theory)
+    return _in_each_case(S, T, theory) if has_cases(S) else _in_case(S, T, theory)
+
+
+def _in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
+    """The answer for a type with joins: no if it is for some case, yes if for all."""
+    proofs: dict[TypeNode, tuple[Prover, Finding]] = {}
+    is_whole_below = False
+
+    def is_below(case: TypeNode) -> bool:
+        nonlocal is_whole_below
+        if len(proofs) == MANY:
+            is_whole_below = Prover.for_type(S, theory).prove(ITSELF, T).yes
+        if is_whole_below:
+            return True
+        prover = Prover.for_type(case, theory)
+        found = YES if prover.is_impossible else prover.prove(ITSELF, T)
+        proofs[case] = prover, found
+        return found.yes
+
+    left_open: Answer | None = None
+    for case in islice(open_cases(S, T, theory, is_below), TRIED):
+        prover, found = proofs[case]
+        answer = _refute(prover, T, found)
+        if answer.no:
+            return answer
+        left_open = answer if left_open is None else left_open
+    if left_open is not None:
+        return left_open
+    return Answer("yes", partial(_why_in_each_case, S, T, theory))
+
+
+def _why_in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> str:
     found = cases(S)
-    answers = [_in_case(case, T, theory, written) for case in found or (S,)]
-    refuted = next((answer for answer in answers if answer.no), None)
-    if refuted is not None:
-        return refuted.about(asked)
-    if len(answers) > 1 and all(answer.yes for answer in answers):
-        return Answer("yes", lambda: f"each case of {S} is below {T}")
-    return next((answer for answer in answers if answer.unknown), answers[0])
+    if found and len(found) == 1:
+        return _in_case(found[0], T, theory).why
+    return f"each case of {S} is below {T}"
+
+
+def _by_contradiction(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
+    """The answer for a T of very many clauses: can something be of S and not of T?"""
+    left_open = False
+    for case in islice(_possible_cases(meet(S, Negation(T)), theory), TRIED):
+        against = Refutation(case, T, theory)
+        answer = Answer("no", partial("{} is not below {}".format, S, T), against)
+        if answer.counter is not None:
+            return answer
+        left_open = True
+    if left_open:
+        return Answer("unknown", partial("{} may not be below {}".format, S, T))
+    return Answer("yes", partial("each case of {} is below {}".format, S, T))
+
+
+def _possible_cases(T: TypeNode, theory: Signature) -> Iterator[TypeNode]:
+    """The cases of a type of which it is not derivable that nothing is of them."""
+    return open_cases(
+        T, None, theory, lambda case: Prover.for_type(case, theory).is_impossible
+    )
 
 
 def _in_case(S: TypeNode, T: TypeNode, theory: Signature, written: TypeNode) -> Answer:
@@ -276,18 +337,15 @@ def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     """
     signature = signature_of(theory)
     T = meet(*[normal_type(as_type(one), signature) for one in types])
-    open_cases = [
-        case
-        for case in cases_or_whole(T)
-        if not Prover.for_type(case, signature).is_impossible
-    ]
-    if not open_cases:
-        return Answer("no", lambda: f"nothing can be of {T}")
-    for case in open_cases:
+    left_open = False
+    for case in islice(_possible_cases(T, signature), TRIED):
         found = counterexample(Refutation(case, Negation(case), signature))
         if found is not None:
             return Answer("yes", f"some assignment has {found.sit} of {T}")
-    return Answer("unknown", lambda: f"no witness of {T} could be made up")
+        left_open = True
+    if left_open:
+        return Answer("unknown", lambda: f"no witness of {T} could be made up")
+    return Answer("no", lambda: f"nothing can be of {T}")
 
 
 is_subtype.provided_by(lambda S, T: subtype(S, T).yes)

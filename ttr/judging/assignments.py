@@ -193,6 +193,15 @@ class Assignment:
 
     def told_of(self, T: Atom, enough: Callable[[Degree], bool]) -> Iterator[Object]:
         """The objects with a fact for T whose degree is enough."""
+        for sit in self.told_in_order(T):
+            if enough(self.degree_of(sit, T)[0]):
+                yield sit
+
+    def told_in_order(self, T: Atom) -> list[Object]:
+        """The objects with a fact for T, or for a type below it, in the order of facts.
+
+        Their degree may be 0.
+        """
         kinds = [T]
         for _, lower in subtypes(T, self.theory.axioms):
             kinds += _instances(lower, self.told)
@@ -204,9 +213,7 @@ class Assignment:
             for kind in kinds
             for key, entry in self.told.get(kind, _EMPTY).items()
         }
-        for _, sit in sorted(told.values(), key=itemgetter(0)):
-            if enough(self.degree_of(sit, T)[0]):
-                yield sit
+        return [sit for _, sit in sorted(told.values(), key=itemgetter(0))]
 
     # --- new assignments -----------------------------------------------------------
 

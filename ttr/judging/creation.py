@@ -9,7 +9,8 @@ from itertools import count, cycle, islice, product
 from typing import assert_never
 
 from ttr.building.merging import merge
-from ttr.computing.case_analysis import cases_or_whole, has_cases
+from ttr.computing.case_analysis import cases, cases_or_whole, has_cases
+from ttr.computing.case_search import open_cases
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.strings.automata import automaton_above
@@ -386,7 +387,7 @@ class _WitnessMaker:
     def _make_case(self, facts: Assignment, T: TypeNode) -> Made:
         """A witness of the first case that has one."""
         refused = RefusedError(f"a witness of {T} cannot be made up, only be given")
-        for case in cases_or_whole(T):
+        for case in _each_case(T, facts):
             try:
                 sit, known = self._case(facts, case)
                 _check(known, sit, case)
@@ -432,11 +433,22 @@ class _WitnessMaker:
         raise refused
 
 
+def _each_case(T: TypeNode, facts: Assignment) -> Iterable[TypeNode]:
+    """The cases of a type; the first that a search finds where they are too many."""
+    found = cases(T)
+    if found is not None:
+        return found
+    return islice(open_cases(T, None, facts.theory, lambda case: False), CASES)
+
+
 _FORMLESS = (Basic, PType, Negation)
 """Types that do not determine the form of their witnesses."""
 
 _VAGUE = (ListOf,)
 """Types of collections that leave the number of elements open."""
+
+CASES = 16
+"""The number of cases that are tried of a type that has very many."""
 
 TRIED = 16
 """The number of strings that are tried for a meet, the shortest first."""

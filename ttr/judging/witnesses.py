@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence, Set
 from functools import reduce
 from itertools import product
 from typing import cast
@@ -13,6 +12,7 @@ from ttr.computing.strings.pieces import string_of
 from ttr.errors import RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import derivation, reduce_applications
+from ttr.judging.fact_index import FactIndex
 from ttr.probability import Degree
 from ttr.safety.budgets import spend
 from ttr.types.derived_types import order_fields
@@ -41,8 +41,8 @@ from ttr.types.syntax import (
     TypeNode,
 )
 
-EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
-"""The empty list, set and string, which are witnesses without any fact."""
+_TRIED_PER_INDEXED = 8
+"""How many facts are indexed in the time that one field takes to be tried."""
 
 
 def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
@@ -95,16 +95,17 @@ def can_be_listed(T: TypeNode) -> bool:
     return True
 
 
-@dataclass(frozen=True)
 class _Listing:
     """Lists what is of a type with a degree above 0 that is at least `least`.
 
     If it is partial, it lists some objects of types of which there is no end.
     """
 
-    facts: Assignment
-    least: float
-    is_partial: bool = False
+    def __init__(self, facts: Assignment, least: float) -> None:
+        self.facts, self.least = facts, least
+        self._index = FactIndex(facts)
+        self._extents: dict[Basic, _Extent] = {}
+        self._tried = 0
 
     def of(self, T: TypeNode) -> Iterator[Object]:
         spend()
@@ -184,9 +185,49 @@ class _Listing:
                 f"the records of {T} cannot be listed: {unresolved.message}",
                 hint="fields on a cycle can be judged, but not listed",
             ) from None
-        for sit in self.of(field):
+        for sit in self._fitting(field, self._values_that_fit(T, label, fields)):
             spend(4)
+            self._tried += 1
             yield {**fields, label: sit}
+
+    def _values_that_fit(
+        self, T: RecordType, label: str, fields: dict[str, Object]
+    ) -> Set[object] | None:
+        """The identities of what a label may have; None if that is not worth asking.
+
+        To index the facts takes as long as trying some of them.
+        """
+        if self._tried * _TRIED_PER_INDEXED < len(self.facts.told):
+            return None
+        return self._index.values_that_fit(T, label, fields)
+
+    def _fitting(self, T: TypeNode, fitting: Set[object] | None) -> Iterator[Object]:
+        """What is of T, if it is among what fits; in the order of the facts."""
+        if fitting is None:
+            yield from self.of(T)
+        elif isinstance(T, Basic):
+            if T not in self._extents:
+                self._extents[T] = _Extent(self.facts.told_in_order(T))
+            for sit in self._extents[T].only(fitting):
+                if self._enough(self.facts.degree_of(sit, T)[0]):
+                    yield sit
+        else:
+            yield from (sit for sit in self.of(T) if identity(sit) in fitting)
+
+
+class _Extent:
+    """The objects with a fact for a type, in the order of the facts."""
+
+    def __init__(self, objects: Sequence[Object]) -> None:
+        self._objects = objects
+        self._place = {identity(sit): number for number, sit in enumerate(objects)}
+
+    def only(self, wanted: Set[object]) -> Iterator[Object]:
+        """The wanted ones among them."""
+        spend(1 + len(wanted) // 8)
+        places = sorted(self._place[one] for one in wanted if one in self._place)
+        for place in places:
+            yield self._objects[place]
 
 
 _ANYTHING: tuple[Object, ...] = ((), FiniteSet(), EventString(), Rec)

@@ -165,6 +165,10 @@ def subterms(values: Iterable[Object]) -> Iterator[Object]:
             waiting += (T for arity in value.arities for T in arity)
 
 
+_KEEPING = (TypeNode, Function)
+"""What keeps the kinds and the paths that are in it; it may be large, and shared."""
+
+
 def mentions(value: Object, kind: type[TypeNode]) -> bool:
     """Does a type of this kind stand in the value, or is it one?
 
@@ -179,7 +183,7 @@ def _kinds(value: Object) -> frozenset[type]:
     """The kinds of the types in a value, its own included."""
     if type(value) is str:
         return _NO_KINDS
-    return _kinds_in(value) if isinstance(value, TypeNode) else _kinds_of(value)
+    return _kinds_in(value) if isinstance(value, _KEEPING) else _kinds_of(value)
 
 
 def _kinds_of(value: Object) -> frozenset[type]:
@@ -187,7 +191,7 @@ def _kinds_of(value: Object) -> frozenset[type]:
     return frozenset((type(value),)).union(*map(_kinds, same), *map(_kinds, inner))
 
 
-_kinds_in: Callable[[TypeNode], frozenset[type]] = cache_on_node(_kinds_of)
+_kinds_in: Callable[[TypeNode | Function], frozenset[type]] = cache_on_node(_kinds_of)
 
 _NO_KINDS: frozenset[type] = frozenset()
 
@@ -209,11 +213,9 @@ def free_paths(value: Object) -> frozenset[Path]:
     """
     if type(value) is str:
         return _NO_PATHS
-    if not isinstance(value, TypeNode):
-        return (
-            frozenset((value,)) if isinstance(value, Path) else _find_free_paths(value)
-        )
-    return _free_paths_of_type(value)
+    if isinstance(value, _KEEPING):
+        return _free_paths_of_type(value)
+    return frozenset((value,)) if isinstance(value, Path) else _find_free_paths(value)
 
 
 def _find_free_paths(value: Object) -> frozenset[Path]:
@@ -225,7 +227,7 @@ def _find_free_paths(value: Object) -> frozenset[Path]:
     return found
 
 
-_free_paths_of_type: Callable[[TypeNode], frozenset[Path]] = cache_on_node(
+_free_paths_of_type: Callable[[TypeNode | Function], frozenset[Path]] = cache_on_node(
     _find_free_paths
 )
 
@@ -277,7 +279,7 @@ def _replace(
     value: Object,
     at: Callable[[Path], Object],
     depth: int,
-    made: dict[tuple[TypeNode, int], Object],
+    made: dict[tuple[TypeNode | Function, int], Object],
 ) -> Object:
     if isinstance(value, Path):
         if depth == 0:
@@ -291,7 +293,7 @@ def _replace(
     def change(part: Object, deeper: int) -> Object:
         return _replace(part, at, depth + deeper, made)
 
-    if not isinstance(value, TypeNode):
+    if not isinstance(value, _KEEPING):
         return map_parts(value, change)
     if not _reaches_out(value, depth):
         return value
@@ -301,7 +303,7 @@ def _replace(
     return found
 
 
-def _reaches_out(T: TypeNode, depth: int) -> bool:
+def _reaches_out(T: TypeNode | Function, depth: int) -> bool:
     """Does a path in T lead at least so many scopes out?"""
     found = free_paths(T)
     return bool(found) and (depth == 0 or any(path.up >= depth for path in found))
