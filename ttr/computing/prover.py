@@ -330,6 +330,13 @@ class Prover:
     def _follows_in_each_case(
         self, term: Object, T: TypeNode, known: list[TypeNode]
     ) -> bool:
+        """Is the term of T in each case of what is known of it?"""
+        in_cases = self._follows_from_joins(term, T, known)
+        return in_cases or self._follows_from_denial(term, T, known)
+
+    def _follows_from_joins(
+        self, term: Object, T: TypeNode, known: list[TypeNode]
+    ) -> bool:
         """Is the term of a join, and of T whichever part of the join it is of?"""
         joins = [one for one in known if isinstance(one, Join)]
         joins = [one for one in joins if not any(part in known for part in one.parts)]
@@ -347,31 +354,29 @@ class Prover:
         wanted = self.witness.normalise(T)
         return is_every_case_ruled_out(whole, wanted, self.theory, is_ruled_out)
 
-    def _may_look_into(self, term: Object) -> bool:
-        """Is it worth while to ask in which field a record fails to be of a type?"""
-        return isinstance(term, Path) and len(self.assumed) < DENIALS
-
-    def _ways_to_be(
+    def _follows_from_denial(
         self, term: Object, T: TypeNode, known: list[TypeNode]
-    ) -> list[Assumption]:
-        """What may be assumed, one or the other, as the term is of T; else nothing.
+    ) -> bool:
+        """Is the term not of a record type, and of T in whichever field it fails?
 
-        A record that is not of a type, but has its labels, is not of it in some field.
+        Only one record type is taken apart; the others then are in each case.
         """
-        match T:
-            case Join():
-                return [(term, case) for case in cases_or_whole(T)]
-            case Negation(RecordType(fields)) if self._may_look_into(term):
-                assert isinstance(term, Path)
-                labels = {
-                    label for R in known if isinstance(R, RecordType) for label in R
-                }
-                if all(label in labels for label, _ in fields):
-                    return [
-                        (step(term, label), _denial(field_type(field, term)))
+        if not isinstance(term, Path) or len(self.assumed) >= DENIALS:
+            return False
+        labels = {label for R in known if isinstance(R, RecordType) for label in R}
+        for one in known:
+            match one:
+                case Negation(RecordType(fields)) if labels >= {k for k, _ in fields}:
+                    further = [
+                        self._assume_new([_denial(field, label, term)])
                         for label, field in fields
                     ]
-        return []
+                    if further and self not in further:
+                        return all(
+                            case.is_impossible or case.prove(term, T).yes
+                            for case in further
+                        )
+        return False
 
     # --- lists, sets and strings ---
 
@@ -708,8 +713,10 @@ _BELOW: dict[type[TypeNode], tuple[type[TypeNode], ...]] = {
 """The kinds of collection types that lie below one."""
 
 
-def _denial(T: TypeNode) -> TypeNode:
-    return push_negations_inwards(Negation(T))
+def _denial(field: TypeNode, label: str, term: Path) -> Assumption:
+    """That what a term has at a label is not of the type of this field."""
+    denied = push_negations_inwards(Negation(field_type(field, term)))
+    return step(term, label), denied
 
 
 def _all_but_last_denied(term: Object, parts: list[TypeNode]) -> list[Assumption]:

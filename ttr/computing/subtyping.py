@@ -8,7 +8,7 @@ some witness of S is not of T. `unknown`: neither was found.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING
@@ -197,8 +197,10 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     if S is T:
         return Answer("yes", lambda: f"{S} is below itself")
     if clauses(T) is None:
-        return _by_contradiction(S, T, theory)
-    return _in_each_case(S, T, theory) if has_cases(S) else _in_case(S, T, theory)
+        answer = _by_contradiction(S, T, theory)
+    else:
+        answer = (_in_each_case if has_cases(S) else _in_case)(S, T, theory)
+    return answer.about(asked)
 
 
 def _in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
@@ -257,7 +259,7 @@ def _possible_cases(T: TypeNode, theory: Signature) -> Iterator[TypeNode]:
     )
 
 
-def _in_case(S: TypeNode, T: TypeNode, theory: Signature, written: TypeNode) -> Answer:
+def _in_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
     """The answer for one case of a type."""
     prover = Prover.for_type(S, theory)
     if prover.is_impossible:
@@ -265,13 +267,13 @@ def _in_case(S: TypeNode, T: TypeNode, theory: Signature, written: TypeNode) -> 
     found = prover.prove(ITSELF, T)
     if found.yes:
         return Answer("yes", lambda: found.why or _why_by_form(S, T))
-    return _refute(prover, T, found, written)
+    return _refute(prover, T, found)
 
 
-def _refute(prover: Prover, T: TypeNode, found: Finding, written: TypeNode) -> Answer:
+def _refute(prover: Prover, T: TypeNode, found: Finding) -> Answer:
     """The answer no if there certainly is a counterexample, else unknown."""
     S = prover.S
-    refutation = Refutation(S, T, prover.theory, found.assumed, written)
+    refutation = Refutation(S, T, prover.theory, found.assumed)
     answer = Answer("no", lambda: found.why, refutation)
     if is_decided(prover, T) or answer.counter is not None:
         return answer

@@ -92,7 +92,7 @@ _ToLayout = Callable[[Object], Layout]
 
 def _layout_function(theory: Signature | None, unfold: int | None) -> _ToLayout:
     fold = abbreviator(theory, unfold)
-    text = () if theory is None else theory.spelling
+    text = signature_of(theory).spelling
     return lambda value: layout_of(fold(value), fold.spelling(text))
 
 

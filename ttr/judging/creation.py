@@ -476,7 +476,7 @@ def _another(labels: Collection[str]) -> str:
 def _one_function_type(types: list[FunType]) -> FunType:
     """A type of functions that are of all these types."""
     domain = join(*[T.domain for T in types])
-    return FunType(domain, meet(*[T.result for T in types]), types[0].hint)
+    return FunType(domain, meet(*[T.result for T in types]))
 
 
 def _with_certainty(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:

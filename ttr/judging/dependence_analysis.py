@@ -24,6 +24,7 @@ from ttr.probability import (
     Not,
     feasible,
 )
+from ttr.safety.budgets import spend
 from ttr.signature.axioms import find_exclusion, supertype_set
 from ttr.signature.signature import Signature, head
 from ttr.types.interning import identity

@@ -37,7 +37,7 @@ from ttr.judging.judgements import Judgement, Why
 from ttr.judging.perception import fill_fields
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.judging.truth_of_types import Range, probability_of_any, probability_of_some
-from ttr.judging.witnesses import some_witnesses, witnesses
+from ttr.judging.witnesses import can_be_listed, some_witnesses, witnesses
 from ttr.persistent_maps import Map
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
 from ttr.safety.budgets import (
@@ -47,6 +47,7 @@ from ttr.safety.budgets import (
     within_budget,
 )
 from ttr.signature.signature import Expected, Given, Signature
+from ttr.types.interning import identity
 from ttr.types.objects import Object, Record, freeze
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
@@ -409,15 +410,15 @@ class Model:
         _, T = _check_closed((), proposition)
         given = None if when is None else _check_closed((), when)[1]
         objects = None if among is None else _objects(among)
-        is_listed = objects is not None or can_be_listed(T)
-        if not is_listed and self._has_unlisted_witness(T):
-            return CERTAIN
+        if objects is None and not can_be_listed(T):
+            if self._has_unlisted_witness(T):
+                return CERTAIN
+            if consistent(T, theory=self.theory).no:
+                return REFUTED
         try:
             return probability_of_some(self._facts, T, given, objects)
         except UnsupportedError:
-            if self._has_unlisted_witness(T):
-                return CERTAIN
-            return REFUTED if consistent(T, theory=self.theory).no else UNKNOWN
+            return CERTAIN if self._has_unlisted_witness(T) else UNKNOWN
 
     @within_budget(otherwise=_range_unknown)
     def chance(

@@ -24,6 +24,7 @@ from ttr.types.objects import (
     Record,
     UnresolvedError,
 )
+from ttr.types.paths import labels_mentioned
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Application,
@@ -40,6 +41,9 @@ from ttr.types.syntax import (
     TypeAt,
     TypeNode,
 )
+
+_ANYTHING: tuple[Object, ...] = ((), FiniteSet(), EventString(), Rec)
+"""Objects that may be of a type without an end, whatever is known."""
 
 _TRIED_PER_INDEXED = 8
 """How many facts are indexed in the time that one field takes to be tried."""
@@ -62,14 +66,44 @@ def candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
 def some_witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
     """Some known objects that are certainly of T, also where they cannot be listed.
 
-    Of a type that cannot be listed they are what is empty, Rec, and the known objects.
+    Of a type of which there is no end they are what is empty, Rec, and the objects that
+    facts are about; of one of lists or strings, those with one element.
 
     >>> from ttr import Ind, Model, rectype
     >>> facts = Model().given("fido", Ind).facts
     >>> print(next(some_witnesses(facts, rectype(x=Ind, y=~(Ind @ "fido")))))
     {x = fido, y = []}
     """
-    yield from _Sampling(facts, 1.0).of(T)
+    yield from _Listing(facts, 1.0, is_partial=True).of(T)
+
+
+def some_candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
+    """The same, but those that are of T with a degree above 0."""
+    yield from _Listing(facts, 0.0, is_partial=True).of(T)
+
+
+def listed_type(T: TypeNode) -> TypeNode | None:
+    """A type that can be listed, and of which something is if something is of T.
+
+    >>> from ttr import Ind, ListOf, rectype
+    >>> print(listed_type(rectype(x=Ind, y=ListOf(Ind))))
+    [x : Ind]
+    """
+    match T:
+        case NonEmpty(item) | Plus(item) if can_be_listed(item):
+            return item
+        case Meet(parts):
+            return next(filter(None, map(listed_type, parts)), None)
+        case RecordType(fields):
+            kept: dict[str, TypeNode] = {}
+            needed = {label for _, field in fields for label in labels_mentioned(field)}
+            for label, field in fields:
+                found = listed_type(field)
+                whole = found is field or label not in needed
+                if found is not None and whole and labels_mentioned(field) <= set(kept):
+                    kept[label] = found
+            return RecordType(order_fields(kept))
+    return T if can_be_listed(T) else None
 
 
 def can_be_listed(T: TypeNode) -> bool:
@@ -101,8 +135,10 @@ class _Listing:
     If it is partial, it lists some objects of types of which there is no end.
     """
 
-    def __init__(self, facts: Assignment, least: float) -> None:
-        self.facts, self.least = facts, least
+    def __init__(
+        self, facts: Assignment, least: float, *, is_partial: bool = False
+    ) -> None:
+        self.facts, self.least, self.is_partial = facts, least, is_partial
         self._index = FactIndex(facts)
         self._extents: dict[Basic, _Extent] = {}
         self._tried = 0
@@ -135,10 +171,11 @@ class _Listing:
                 yield from self._of_application(T)
             case NonEmpty(item) if self.is_partial:
                 yield from ((sit,) for sit in self.of(item))
+            case Plus(item) if self.is_partial:
+                yield from (string_of((item,), (sit,)) for sit in self.of(item))
             case _ if self.is_partial:
-                for sit in (*self.facts.objects(), *EMPTY):
-                    if self._is_of(sit, T):
-                        yield sit
+                known = (*_ANYTHING, *self.facts.objects())
+                yield from (sit for sit in known if self._is_of(sit, T))
             case _:
                 raise UnsupportedError(
                     f"what is of {T} cannot be listed, as there may be no end of it",
@@ -228,26 +265,6 @@ class _Extent:
         places = sorted(self._place[one] for one in wanted if one in self._place)
         for place in places:
             yield self._objects[place]
-
-
-_ANYTHING: tuple[Object, ...] = ((), FiniteSet(), EventString(), Rec)
-"""Objects that may be of a type without an end, whatever is known."""
-
-
-class _Sampling(_Listing):
-    """Lists some of what is of a type, where there may be no end of it."""
-
-    def of(self, T: TypeNode) -> Iterator[Object]:
-        try:
-            yield from super().of(T)
-        except UnsupportedError:
-            match T:
-                case NonEmpty(item):
-                    yield from ((sit,) for sit in self.of(item))
-                case Plus(item):
-                    yield from (string_of((item,), (sit,)) for sit in self.of(item))
-            known = (*_ANYTHING, *self.facts.objects())
-            yield from (sit for sit in known if self._is_of(sit, T))
 
 
 def _listed_part(parts: tuple[TypeNode, ...]) -> TypeNode:

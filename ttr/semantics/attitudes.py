@@ -32,7 +32,8 @@ from ttr.judging.truth_of_types import IsTrue
 from ttr.probability import CERTAIN
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Axiom
-from ttr.types.objects import Object, freeze, this
+from ttr.types.objects import Object, freeze
+from ttr.types.path_notation import this
 from ttr.types.syntax import Ind, Pred, PType, RecType, TypeNode, as_type
 
 __all__ = [

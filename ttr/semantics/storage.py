@@ -179,8 +179,7 @@ def _bind(one: Stored, restrictor: TypeNode | None, scope: TypeNode) -> TypeNode
     """The quantifier of the restrictor and the scope, as properties of the variable."""
     parts = [scope] if restrictor is None else [restrictor, scope]
     properties = [
-        Function(one.domain, replace_name(part, one.variable, BOUND), one.variable)
-        for part in parts
+        Function(one.domain, replace_name(part, one.variable, BOUND)) for part in parts
     ]
     return as_type(one.quantifier(*properties))
 
