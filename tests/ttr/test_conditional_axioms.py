@@ -114,6 +114,32 @@ def test_a_view_that_is_uncertain_makes_a_content_uncertain():
     )
 
 
+def test_what_follows_is_not_independent_of_what_it_follows_from():
+    assert_holds(
+        THINK,
+        "given m : view(sam, [x : Ind]) = 0.8",
+        "check P(m : view(sam, [x : Ind]) \\/ think(sam, [y : Ind])) = [0.8, 1]",
+        "check P(m : view(sam, [x : Ind]) /\\ think(sam, [y : Ind])) = 0.8",
+        "check P(m : view(sam, [x : Ind]) /\\ ~think(sam, [y : Ind])) = 0",
+        "check P(m : think(sam, [y : Ind]) \\/ think(sam, [z : Ind])) = [0.8, 1]",
+    )
+
+
+def test_where_a_condition_is_uncertain_the_dependence_is_unknown():
+    assert_holds(
+        THINK,
+        KNOW,
+        "know(a, C) <: think(a, C)",
+        "given m : view(sam, [e : dog(fido)]) = 0.8",
+        "given s : dog(fido) = 0.6",
+        "check P(m : know(sam, [e : dog(fido)])) = [0.4, 1]",
+        "check P(m : view(sam, [e : dog(fido)]) \\/ know(sam, [e : dog(fido)])) "
+        "= [0.8, 1]",
+        "check P(m : view(sam, [e : dog(fido)]) /\\ know(sam, [e : dog(fido)])) "
+        "in [0.2, 0.8]",
+    )
+
+
 def test_what_is_open_below_is_open_above():
     assert_holds(
         "open view",

@@ -31,6 +31,7 @@ from ttr.signature.axioms import (
     supertypes,
 )
 from ttr.signature.conditional_axioms import (
+    Way,
     heads_below,
     ways_to_follow,
 )
@@ -105,6 +106,8 @@ class Assignment:
             return self._clip(sit, T, known, (least, lower), (most, upper)), lower
         if perceptual or self._is_open(T):
             return Degree(0.0, most), upper or "nothing is known of it"
+        if not self.theory.conditional_axioms:
+            return REFUTED, "nothing says so"
         failed = ""
         for p, way in self._degrees_by_conditions(facts, sit, T):
             if p.hi > 0.0:
@@ -361,25 +364,29 @@ class Assignment:
     def _degrees_by_conditions(
         self, facts: Facts, sit: Object, T: Atom
     ) -> Iterator[tuple[Degree, str]]:
-        """How probable T is by each way to follow under conditions, and by which.
-
-        The conditions may depend on one another and on the facts: what holds of all at
-        once has Fréchet's bounds.
-        """
+        """How probable T is by each way to follow under conditions, and by which."""
         if not self.theory.conditional_axioms:
             return
         for way in ways_to_follow(T, facts, self.theory):
-            degrees, reasons = [facts[way.source]], []
-            for condition in way.conditions:
-                p, reason = condition.degree(self)
-                degrees.append(p)
-                reasons.append(reason)
-                if p == REFUTED:
-                    break
-            axioms = " and ".join(f"{one}" for one in way.axioms)
-            shown = "; ".join(filter(None, reasons))
+            p, reason = self.degree_of_conditions(way)
+            axioms = " and ".join(map(str, way.axioms))
             said = f"by {axioms} and {notation(sit)} : {way.source}"
-            yield _degree_of_all(degrees), f"{said}: {shown}" if shown else said
+            said = f"{said}: {reason}" if reason else said
+            yield _degree_of_all([facts[way.source], p]), said
+
+    def degree_of_conditions(self, way: Way) -> tuple[Degree, str]:
+        """How certain it is that all conditions of a way hold, and why.
+
+        They may depend on one another, so that there are Fréchet's bounds.
+        """
+        degrees, reasons = [], []
+        for condition in way.conditions:
+            p, reason = condition.degree(self)
+            degrees.append(p)
+            reasons.append(reason)
+            if p == REFUTED:
+                return p, reason
+        return _degree_of_all(degrees), "; ".join(filter(None, reasons))
 
     def _bound_above(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is at most as probable as a : U, wherever T <: U; and by which."""

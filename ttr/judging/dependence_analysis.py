@@ -12,6 +12,7 @@ from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Key
 from ttr.probability import (
     CERTAIN,
     INDEPENDENT,
+    REFUTED,
     UNKNOWN,
     All,
     AnyOf,
@@ -26,7 +27,8 @@ from ttr.probability import (
 )
 from ttr.safety.budgets import spend
 from ttr.signature.axioms import find_exclusion, supertype_set
-from ttr.signature.signature import Signature, head
+from ttr.signature.conditional_axioms import ways_to_follow
+from ttr.signature.signature import head
 from ttr.types.interning import identity
 from ttr.types.objects import Object
 
@@ -45,14 +47,17 @@ def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
     theory = facts.theory
     if not (theory.axioms or theory.exclusions or facts.links):
         return INDEPENDENT
+    axioms = _Axioms(facts)
     linked = _follow_links(facts, asked)
-    more, whole = _relatives(facts, linked.claims)
+    more, whole = _relatives(axioms, linked.claims)
     while more:
         linked = _follow_links(facts, [*linked.claims, *more])
-        more, whole = _relatives(facts, linked.claims)
+        more, whole = _relatives(axioms, linked.claims)
+    unclear = tuple(_unclear_entailments(axioms, linked.claims))
+    linked = linked._replace(unknown=(*linked.unknown, *unclear))
     untold = _known_by_axioms(facts, linked)
     claims = [claim for claim in linked.claims if claim not in untold]
-    entailed = tuple(_entailments(facts, claims))
+    entailed = tuple(_entailments(axioms, claims))
     exclusive = tuple(_exclusions(facts, claims))
     conditionals = tuple([_by_keys(one) for one in linked.said])
     links: list[tuple[Hashable, ...]] = [*entailed, *exclusive, *linked.unknown]
@@ -61,7 +66,7 @@ def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
         claim.key: asked.get(claim) or facts.degree_of(claim.sit, claim.type)[0]
         for claim in claims
     }
-    defined = _definitions(facts, untold, claims, degrees)
+    defined = _definitions(axioms, untold, claims, degrees)
     if not (links or defined):
         return INDEPENDENT
     return Dependence(
@@ -93,7 +98,7 @@ def _known_by_axioms(facts: Assignment, linked: _LinkedClaims) -> dict[Claim, No
 
 
 def _definitions(
-    facts: Assignment,
+    axioms: _Axioms,
     untold: Iterable[Claim],
     claims: Iterable[Claim],
     degrees: Mapping[Hashable, Degree],
@@ -103,15 +108,15 @@ def _definitions(
     Such a claim holds if one does that entails it. It may hold, with unknown
     probability, if all those hold that it entails and none that excludes it.
     """
-    theory = facts.theory
+    theory = axioms.facts.theory
     known = [(claim, Atomic(claim.key, degrees[claim.key])) for claim in claims]
     said: list[tuple[Claim, Event]] = list(known)
     found: dict[Hashable, Event] = {}
     for claim in untold:
-        T, above_it = claim.type, supertype_set(claim.type, theory)
+        T = claim.type
         mine = [pair for pair in said if _of_same(pair[0], claim)]
-        enough = [event for one, event in mine if T in supertype_set(one.type, theory)]
-        needed = [event for one, event in mine if one.type in above_it]
+        enough = [event for one, event in mine if axioms.entail(one.type, T)]
+        needed = [event for one, event in mine if axioms.entail(T, one.type)]
         apart = [
             Not(event) for one, event in mine if find_exclusion(one.type, T, theory)
         ]
@@ -195,12 +200,52 @@ def _is_informative(facts: Assignment, claim: Claim) -> bool:
 # --- what axioms link ---
 
 
-def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim], bool]:
+class _Axioms:
+    """What the axioms say of two types of one object, in a model.
+
+    Axioms with conditions say it where the conditions hold there.
+    """
+
+    def __init__(self, facts: Assignment) -> None:
+        self.facts = facts
+        self._asked: dict[tuple[Atom, Atom], Degree] = {}
+
+    def entail(self, S: Atom, T: Atom) -> bool:
+        """Is whatever is of S also of T?"""
+        if T in supertype_set(S, self.facts.theory):
+            return True
+        return S is not T and self._degree(S, T) == CERTAIN
+
+    def leave_open(self, S: Atom, T: Atom) -> bool:
+        """Is it open whether what is of S is of T, as a condition is uncertain?"""
+        return S is not T and self._degree(S, T) not in (CERTAIN, REFUTED)
+
+    def _degree(self, S: Atom, T: Atom) -> Degree:
+        """How certain it is that axioms with conditions lead from S to T."""
+        if head(T) not in self.facts.theory.conditional_heads:
+            return REFUTED
+        if (S, T) not in self._asked:
+            ways = ways_to_follow(T, (S,), self.facts.theory)
+            degrees = [self.facts.degree_of_conditions(way)[0] for way in ways]
+            best = max((p.lo for p in degrees), default=0.0)
+            most = max((p.hi for p in degrees), default=0.0)
+            self._asked[S, T] = Degree(best, most)
+        return self._asked[S, T]
+
+    def relate(self, S: Atom, T: Atom) -> bool:
+        """Do they say anything of how S and T depend on one another?"""
+        for one, other in ((S, T), (T, S)):
+            if self.entail(one, other) or self.leave_open(one, other):
+                return True
+        return find_exclusion(S, T, self.facts.theory) is not None
+
+
+def _relatives(axioms: _Axioms, claims: Iterable[Claim]) -> tuple[list[Claim], bool]:
     """Other claims of the same objects that axioms relate to these; are they all?
 
     Certain claims are left out, as `Assignment.degree_of` draws what follows from them.
     """
-    heads = facts.theory.axiom_heads
+    facts, heads = axioms.facts, axioms.facts.theory.axiom_heads
     subject = [claim for claim in claims if head(claim.type) in heads]
     found: list[Claim] = []
     whole = True
@@ -210,7 +255,7 @@ def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim],
             other
             for other in dict.fromkeys(_others(facts, mine[0].sit))
             if head(other.type) in heads and other not in known
-            if any(_is_related(facts.theory, claim.type, other.type) for claim in mine)
+            if any(axioms.relate(claim.type, other.type) for claim in mine)
         ]
         room = max(0, RELATIVES - len(mine))
         whole = whole and len(related) <= room
@@ -227,21 +272,31 @@ def _others(facts: Assignment, sit: Object) -> Iterator[Claim]:
             yield Claim(sit, T)
 
 
-def _is_related(theory: Signature, S: Atom, T: Atom) -> bool:
-    if T in supertype_set(S, theory) or S in supertype_set(T, theory):
-        return True
-    return find_exclusion(S, T, theory) is not None
+def _entailments(axioms: _Axioms, claims: Iterable[Claim]) -> Iterator[tuple[Key, Key]]:
+    for one, other in _pairs_of_types(axioms, claims):
+        if axioms.entail(one.type, other.type):
+            yield one.key, other.key
 
 
-def _entailments(
-    facts: Assignment, claims: Iterable[Claim]
+def _unclear_entailments(
+    axioms: _Axioms, claims: Iterable[Claim]
 ) -> Iterator[tuple[Key, Key]]:
-    heads = facts.theory.axiom_heads
+    """The claims of which one may entail another: how they depend is unknown."""
+    if not axioms.facts.theory.conditional_axioms:
+        return
+    for one, other in _pairs_of_types(axioms, claims):
+        if axioms.leave_open(one.type, other.type):
+            yield one.key, other.key
+
+
+def _pairs_of_types(
+    axioms: _Axioms, claims: Iterable[Claim]
+) -> Iterator[tuple[Claim, Claim]]:
+    """Each two claims of one object that axioms are about, in both orders."""
+    heads = axioms.facts.theory.axiom_heads
     for mine in _by_object(claims).values():
         types = [claim for claim in mine if head(claim.type) in heads]
-        for one, other in permutations(types, 2):
-            if other.type in supertype_set(one.type, facts.theory):
-                yield one.key, other.key
+        yield from permutations(types, 2)
 
 
 def _exclusions(
