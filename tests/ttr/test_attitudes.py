@@ -14,7 +14,7 @@ from ttr import (
     subtype,
     this,
 )
-from ttr.errors import IllFormedError
+from ttr.errors import IllFormedError, RefusedError
 from ttr.semantics.attitudes import (
     AXIOMS,
     believe,
@@ -62,6 +62,21 @@ def test_knowing_is_believing_what_is_so():
     assert not M.judge("m1", know("ralph", rectype(x=Ind, c=man(this.x)))).holds
 
 
+def test_nobody_is_given_to_know_what_is_not_so():
+    M = model()
+    with pytest.raises(RefusedError, match=r"only if true\(C\): P\(.*\) = 0"):
+        M.given("k", know("ralph", SPY))
+    M = M.given("kim", Ind).given("s", spy("kim")).given("k", know("ralph", SPY))
+    assert M.judge("k", believe("ralph", SPY)).holds
+    assert M.true(SPY) == (1, 1)
+
+
+def test_who_is_made_up_to_know_knows_what_is_so():
+    sit, M = model().create(know("ralph", SPY))
+    assert M.judge(sit, know("ralph", rectype(y=Ind))).holds
+    assert M.true(SPY) == (1, 1)
+
+
 def test_what_is_known_is_believed_and_not_the_other_way_round():
     theory = with_attitudes(Model()).theory
     assert subtype(know("ralph", SPY), believe("ralph", SPY), theory).yes
@@ -77,7 +92,7 @@ def test_a_theory_can_declare_the_same():
         ltm(a, V) <: believe(a, C) if V <= C up to relabelling
         believe(a, V) <: believe(a, C) if V <= C up to relabelling
         know(a, V) <: know(a, C) if V <= C up to relabelling
-        know(a, C) <: believe(a, C)
+        know(a, C) <: believe(a, C) only if true(C)
         believe(a, C) <: know(a, C) if true(C)
     """)
     assert theory.axioms == AXIOMS

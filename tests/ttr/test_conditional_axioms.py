@@ -167,6 +167,38 @@ def test_what_follows_cannot_be_denied():
         M.given("m", theory.parse("think(sam, [x : Ind])"), 0.3)
 
 
+def test_what_was_denied_cannot_follow_from_what_is_given_later():
+    theory = theory_of(THINK, "given m : ~think(sam, [x : Ind])")
+    view = theory.parse("view(sam, [i : Ind])")
+    with pytest.raises(RefusedError, match=r"and m : think\(sam, \[x : Ind\]\) with 0"):
+        Model(theory).given("m", view)
+    M = Model(theory_of(THINK)).given("m", theory.parse("think(sam, [x : Ind])"), 0.3)
+    M = M.given("m", view, (0.1, 0.5))
+    assert M.judge("m", view).p == (0.1, 0.3)
+
+
+def test_an_axiom_may_say_on_which_condition_alone_something_is_so():
+    theory = theory_of("know(a, C) <: think(a, C) only if true(C)")
+    known = theory.parse("know(sam, [c : dog(fido)])")
+    with pytest.raises(RefusedError, match=r"only if true\(C\): P\(.*\) = 0"):
+        Model(theory).given("k", known)
+    M = Model(theory).given("s", theory.parse("dog(fido)"), 0.6).given("k", known, 0.5)
+    assert M.judge("k", theory.parse("think(sam, [c : dog(fido)])")).p == (0.5, 1)
+    M = Model(theory).given("s", theory.parse("dog(fido)")).given("k", known)
+    assert M.judge("k", theory.parse("think(sam, [c : dog(fido)])")).holds
+
+
+def test_a_witness_is_made_up_with_what_it_needs():
+    assert_holds(
+        "know(a, C) <: think(a, C) only if true(C)",
+        "see(a, C) <: know(a, C)",
+        "check create(see(sam, [c : dog(fido)]))",
+        "check know(sam, [x : Ind]) <= think(sam, [x : Ind])",
+        "check not think(sam, [x : Ind]) <= know(sam, [x : Ind])",
+        "check not know(sam, [x : Ind]) <= know(kim, [x : Ind])",
+    )
+
+
 def test_the_reason_shows_the_axiom_and_the_relabelling():
     theory = theory_of(THINK, KNOW, "given m : view(sam, [e : dog(fido)])")
     M = Model(theory)
@@ -261,11 +293,19 @@ def test_witnesses_are_listed():
 
 
 def test_an_axiom_prints_as_it_is_written():
-    theory = theory_of(THINK, KNOW, "see(a, V) <: hope(a, C) if V <= C, true(C)")
+    theory = theory_of(
+        THINK,
+        KNOW,
+        "see(a, V) <: hope(a, C) if V <= C, true(C)",
+        "know(a, C) <: think(a, C) only if true(C)",
+    )
     assert [str(axiom) for axiom in theory.conditional_axioms] == [
         "view(a, V) <: think(a, C) if V <= C up to relabelling",
         "think(a, C) <: know(a, C) if true(C)",
         "see(a, V) <: hope(a, C) if V <= C, true(C)",
+    ]
+    assert [str(axiom) for axiom in theory.restrictive_axioms] == [
+        "know(a, C) <: think(a, C) only if true(C)"
     ]
     again = theory_of(*map(str, theory.axioms))
     assert again.axioms == theory.axioms
@@ -280,8 +320,15 @@ def test_an_axiom_prints_as_it_is_written():
         ("view(a, V) <: think(a, C) if V <= C, true(W)", "W stands in a condition"),
         ("view(a, V) <: ~think(a, V) if true(V)", "an exclusion has no conditions"),
         ("view(a, V) <: think(a, C) if", "expected"),
+        ("view(a, V) <: think(a, C) only if V <= C", "the variable C stands on the"),
+        ("view(a, V) <: think(a, V) only if true(C)", "C stands in a condition only"),
+        ("view(a, V) <: think(a, V) only true(V)", "expected if, found true"),
+        ("view(a, V) <: ~think(a, V) only if true(V)", "an exclusion has no"),
         ("view(a, V) <: think(a, C) if create(V)", "this is no condition"),
-        ("view(a, V) <: think(a, C) when V <= C", "expected if or the end, found when"),
+        (
+            "view(a, V) <: think(a, C) when V <= C",
+            "expected only if, if or the end, found when",
+        ),
     ],
 )
 def test_what_is_no_condition_is_refused(line, message):

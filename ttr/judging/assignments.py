@@ -35,7 +35,7 @@ from ttr.signature.conditional_axioms import (
     heads_below,
     ways_to_follow,
 )
-from ttr.signature.signature import Signature, head
+from ttr.signature.signature import Axiom, Condition, Signature, head
 from ttr.types.interning import identity
 from ttr.types.objects import Object
 from ttr.types.paths import free_paths, subterms
@@ -399,8 +399,38 @@ class Assignment:
                 if facts[kind].hi < best:
                     best = facts[kind].hi
                     why = f"by {axiom} and {notation(sit)} : {kind} with {facts[kind]}"
+        for p, reason in self._limits_by_conditions(facts, sit, T):
+            if p < best:
+                best, why = p, reason
         apart, excluded = self._bound_by_exclusion(facts, sit, T)
         return (apart, excluded) if apart < best else (best, why)
+
+    def _limits_by_conditions(
+        self, facts: Facts, sit: Object, T: Atom
+    ) -> Iterator[Bound]:
+        """How probable T is at most by what it would entail, or has as a condition."""
+        for axiom, condition in self.requirements(T):
+            p, reason = condition.degree(self)
+            yield p.hi, f"by {axiom}: {reason}"
+        if not self.theory.conditional_axioms:
+            return
+        for kind, p in facts.items():
+            if p.hi == 1.0:
+                continue
+            for way in ways_to_follow(kind, (T,), self.theory):
+                if self.degree_of_conditions(way)[0] == CERTAIN:
+                    axioms = " and ".join(map(str, way.axioms))
+                    yield p.hi, f"by {axioms} and {notation(sit)} : {kind} with {p}"
+
+    def requirements(self, T: Atom) -> Iterator[tuple[Axiom, Condition]]:
+        """The conditions on which alone something is of T, each with its axiom."""
+        if not self.theory.restrictive_axioms:
+            return
+        for kind in (T, *(upper for _, upper in supertypes(T, self.theory.axioms))):
+            for axiom in self.theory.restrictive_axioms:
+                bound = match_schema(axiom.lower, kind)
+                for condition in axiom.only if bound is not None else ():
+                    yield axiom, condition.with_values(bound or {})
 
     def _bound_by_exclusion(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is as probable as what is left by a : S, wherever S <: ~T."""

@@ -30,7 +30,7 @@ from ttr.judging.evaluator import (
     make_witness,
     reduce_applications,
 )
-from ttr.judging.open_terms import TermFinder
+from ttr.judging.truth_of_types import IsTrue
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import spend
 from ttr.types.derived_types import order_fields
@@ -77,8 +77,7 @@ from ttr.types.syntax import (
     TypeAt,
     TypeNode,
     Universe,
-    join,
-    meet,
+    as_type,
 )
 
 
@@ -247,6 +246,7 @@ class _WitnessMaker:
                 sit, facts = facts.with_new("a")
                 return sit, with_judgement(facts, sit, T)
             case PType():
+                facts = self._with_requirements(facts, T)
                 sit, facts = facts.with_new("s")
                 return sit, with_judgement(facts, sit, T)
             case Meet() | Join() | Negation():
@@ -274,6 +274,14 @@ class _WitnessMaker:
             case TypeAt():
                 raise RefusedError(f"{T} is no type, so nothing is of it")
         raise assert_never(T)  # type: ignore[arg-type]
+
+    def _with_requirements(self, facts: Assignment, T: PType) -> Assignment:
+        """The facts with a witness of every type that is to be true for one of T."""
+        for _, condition in facts.requirements(T):
+            p, _ = condition.degree(facts)
+            if isinstance(condition, IsTrue) and p != CERTAIN:
+                _, facts = self.make(facts, as_type(condition.type))
+        return facts
 
     # --- lists, strings, records ---
 

@@ -64,7 +64,7 @@ class _Parser(TermParser):
     # --- statements ---
 
     def _statement(self) -> Statement:
-        """x := T, or T <: T ‹if condition, …›, or what begins with a keyword."""
+        """x := T, or T <: T ‹‹only› if query, …›, or what begins with a keyword."""
         start = self._at
         word = PATH.match(self._text, start)
         if word and self._is_keyword(word):
@@ -77,10 +77,14 @@ class _Parser(TermParser):
         lower = self._term()
         self._expect("<:")
         upper = self._term("a type")
-        if not self._accept_word("if", "if"):
-            return self._node(trees.AxiomClaim, start, lower, upper)
-        when = self._comma_separated(self._query)
-        return self._node(trees.ConditionalAxiomClaim, start, lower, upper, when)
+        if self._accept_word("only", "only if"):
+            self._expect_word("if")
+            only = self._comma_separated(self._query)
+            return self._node(trees.RestrictiveAxiomClaim, start, lower, upper, only)
+        if self._accept_word("if", "if"):
+            when = self._comma_separated(self._query)
+            return self._node(trees.ConditionalAxiomClaim, start, lower, upper, when)
+        return self._node(trees.AxiomClaim, start, lower, upper)
 
     def _is_keyword(self, word: re.Match[str]) -> bool:
         if word[0] in _BEFORE_NAMES:

@@ -329,6 +329,15 @@ class ConditionalAxiomClaim(Statement):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class RestrictiveAxiomClaim(Statement):
+    """S <: T only if C, …."""
+
+    lower: Term
+    upper: Term
+    only: tuple[Query, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Question(Statement):
     """check Q; `expected` is yes, no, unknown or error."""
 

@@ -2,9 +2,10 @@
 
 What an agent has in mind is a type, its view: `m : ltm(a, V)` says that m is a
 situation in which a's long-term memory is of V. Then m : believe(a, C) iff V ⊑ C up to
-relabelling, and m : know(a, C) iff moreover something is of C. So contents are types,
-not sets of worlds: two that are true in the same worlds may match different views.
-Source: Cooper 2023, on attitudes; there `know` is not defined.
+relabelling, and m : know(a, C) iff moreover something is of C; who is given to know
+what is not so is refused. So contents are types, not sets of worlds: two that are true
+in the same worlds may match different views.
+Source: Cooper 2023, on attitudes.
 
 >>> from ttr import Theory
 >>> theory = Theory.parse('''
@@ -66,7 +67,11 @@ AXIOMS: tuple[Axiom, ...] = (
     _closed_under_matching(ltm, believe),
     _closed_under_matching(believe, believe),
     _closed_under_matching(know, know),
-    Axiom(know(this.a, this.C), believe(this.a, this.C)),
+    Axiom(
+        know(this.a, this.C),
+        believe(this.a, this.C),
+        only=(IsTrue(freeze(this.C)),),
+    ),
     Axiom(believe(this.a, this.C), know(this.a, this.C), (IsTrue(freeze(this.C)),)),
 )
 """The witness conditions of `believe` and `know`, as a theory may state them."""

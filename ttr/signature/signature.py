@@ -70,13 +70,15 @@ class Axiom:
     """A declared subtyping S <: T; paths in it are schematic variables.
 
     `right(x, y) <: left(y, x)` says that every situation in which x is right of y is
-    one in which y is left of x, whatever x and y are. With conditions it says so only
-    of those values of the variables for which they hold.
+    one in which y is left of x, whatever x and y are. With conditions `when` it says so
+    only of those values of the variables for which they hold; with conditions `only`
+    there is such a situation only where these hold.
     """
 
     lower: Basic | PType
     upper: Basic | PType
     when: tuple[Condition, ...] = ()
+    only: tuple[Condition, ...] = ()
 
     @cached_property
     def variables(self) -> frozenset[Object]:
@@ -84,13 +86,16 @@ class Axiom:
         terms = [
             arg for T in (self.lower, self.upper) for arg in getattr(T, "args", ())
         ]
-        terms += [term for condition in self.when for term in condition.terms]
+        conditions = (*self.when, *self.only)
+        terms += [term for condition in conditions for term in condition.terms]
         return frozenset(term for term in terms if isinstance(term, Path))
 
     def __str__(self) -> str:
         pair = f"{_format_schema(self.lower)} <: {_format_schema(self.upper)}"
-        when = ", ".join(map(str, self.when))
-        return f"{pair} if {when}" if when else pair
+        for word, conditions in ((" if ", self.when), (" only if ", self.only)):
+            if conditions:
+                pair += word + ", ".join(map(str, conditions))
+        return pair
 
 
 @dataclass(frozen=True)
@@ -200,6 +205,11 @@ class Signature:
     def conditional_axioms(self) -> tuple[Axiom, ...]:
         """The axioms that hold under conditions."""
         return tuple([one for one in self.axioms if one.when])
+
+    @cached_property
+    def restrictive_axioms(self) -> tuple[Axiom, ...]:
+        """The axioms that say on which conditions alone there is a situation."""
+        return tuple([one for one in self.axioms if one.only])
 
     @cached_property
     def conditional_heads(self) -> frozenset[Basic | Pred]:

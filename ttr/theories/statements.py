@@ -87,9 +87,11 @@ class StatementReader:
             case trees.GameStatement():
                 self._game(tree)
             case trees.AxiomClaim(_, _, lower, upper):
-                self._axiom(tree, lower, upper, ())
+                self._axiom(tree, lower, upper)
             case trees.ConditionalAxiomClaim(_, _, lower, upper, when):
-                self._axiom(tree, lower, upper, when)
+                self._axiom(tree, lower, upper, when=when)
+            case trees.RestrictiveAxiomClaim(_, _, lower, upper, only):
+                self._axiom(tree, lower, upper, only=only)
             case trees.Question():
                 from ttr.theories.check_statements import CheckReader
 
@@ -237,25 +239,27 @@ class StatementReader:
         tree: Statement,
         left: Term,
         right: Term,
-        conditions: tuple[trees.Query, ...],
+        when: tuple[trees.Query, ...] = (),
+        only: tuple[trees.Query, ...] = (),
     ) -> None:
         lower = self._schema(left)
         if isinstance(right, trees.Denial):
             excluded = self._schema(right.body)
-            if conditions:
-                self.reader.refuse(conditions[0], "an exclusion has no conditions")
+            if when or only:
+                first, *_ = (*when, *only)
+                self.reader.refuse(first, "an exclusion has no conditions")
             self.draft.exclusions[Exclusion(lower, excluded)] = None
             return
         upper = self._schema(right)
-        when = tuple([self._condition(one) for one in conditions])
-        bound = {one.upper for one in when if isinstance(one, IsBelow)}
+        conditions = tuple([self._condition(one) for one in when])
+        bound = {one.upper for one in conditions if isinstance(one, IsBelow)}
         for path in sorted(free_paths(upper) - free_paths(lower) - bound, key=str):
             self.reader.refuse(
                 right,
                 f"the variable {path.labels[0]} stands on the right only",
                 f"quote it to name the object: '{path.labels[0]}'",
             )
-        axiom = Axiom(lower, upper, when)
+        axiom = Axiom(lower, upper, conditions, tuple(map(self._condition, only)))
         sides = free_paths(lower) | free_paths(upper)
         for path in sorted(axiom.variables - sides, key=str):
             self.reader.refuse(
