@@ -174,6 +174,24 @@ def test_many_fields_do_not_take_long():
     assert subtype_up_to_relabelling(S, rectype(**T, h=hug(this.b, this.a))).no
 
 
+def test_axioms_do_not_make_it_take_long():
+    theory = Theory.parse("""
+        basic Ind, Thing
+        pred  dog(Ind), cat(Ind), hug(Ind, Ind), animal(Ind), touch(Ind, Ind)
+        Ind <: Thing
+        dog(x) <: animal(x)
+        cat(x) <: animal(x)
+        hug(x, y) <: touch(y, x)
+    """)
+    dogs = {f"c{i}": dog(this[f"x{i}"]) for i in range(0, 200, 10)}
+    S = rectype(
+        {**{f"x{i}": Ind for i in range(200)}, **dogs, "h": hug(this.x190, this.x7)}
+    )
+    T = theory.parse("[a : Ind, b : Ind, d : animal(b), h : touch(a, b), t : Thing]")
+    found = below(S, T, theory)
+    assert (found["a"], found["b"]) == ("x7", "x190")
+
+
 def test_pigeons_are_counted_not_tried():
     S, T = rectype({f"x{i}": A for i in range(30)}), {f"y{i}": A for i in range(31)}
     assert subtype_up_to_relabelling(S, rectype(T)).no

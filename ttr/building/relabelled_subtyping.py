@@ -24,6 +24,7 @@ from ttr.computing.prover import Prover
 from ttr.computing.subtyping import Answer, is_decided, subtype
 from ttr.errors import IllFormedError, TooLargeError
 from ttr.safety.budgets import spend, within_budget
+from ttr.signature.axioms import supertype_set
 from ttr.signature.signature import Signature, head, signature_of
 from ttr.types.objects import Path
 from ttr.types.paths import free_paths, replace_paths, subterms
@@ -387,13 +388,14 @@ class _LabelIndex:
             known = self._prover.atoms_of(step(place, label))
             if known is None:
                 self._compound.append(label)
-            for T in known or ():
+            above = (supertype_set(T, self._prover.theory) for T in known or ())
+            for T in frozenset[TypeNode](known or ()).union(*above):
                 self._by_type.setdefault(T, []).append(label)
 
     def that_may_be(self, T: TypeNode) -> list[str]:
         """The labels whose fields may surely be of T, in order; no others are."""
-        related = self._prover.theory.axiom_heads
-        if not isinstance(T, Basic | PType) or head(T) in related:
+        conditional = self._prover.theory.conditional_heads
+        if not isinstance(T, Basic | PType) or head(T) in conditional:
             return self.labels
         exact = self._by_type.get(self._prover.witness.normalise(T), [])
         if not self._compound:

@@ -661,7 +661,8 @@ class Prover:
     def atoms_of(self, term: Object) -> list[Basic | PType] | None:
         """The types known of a place, if each is a basic type or a ptype; else None.
 
-        Then without axioms it is surely of these atoms, and of no other.
+        Then it is surely of these atoms and of what axioms put above them, and of no
+        other.
         """
         term = self.witness.normalise(term)
         known = self._types_of(term)
