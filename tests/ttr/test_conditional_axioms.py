@@ -234,6 +234,16 @@ def test_subtyping_goes_by_them():
     )
 
 
+def test_the_reason_of_subtyping_shows_the_relabelling():
+    theory = theory_of(THINK)
+    S, T = theory.parse("view(sam, [e : dog(fido)])"), "think(sam, [c : dog(fido)])"
+    found = subtype(S, theory.parse(T), theory)
+    assert str(found) == (
+        "yes: by the axiom view(a, V) <: think(a, C) if V <= C up to relabelling: "
+        "with c as e"
+    )
+
+
 def test_a_predicate_may_be_closed_under_subtyping():
     assert_holds(
         "think(a, V) <: think(a, C) if V <= C up to relabelling",

@@ -223,7 +223,7 @@ class Prover:
                 if upper is wanted:
                     return Finding(True, partial("by the axiom {}".format, axiom))
         for way in self._ways_to_follow(term, wanted):
-            return Finding(True, partial(_why_by_conditions, way))
+            return Finding(True, partial(_why_by_conditions, way, self.theory))
         if isinstance(term, Operation) and term.name == "fst":
             return self._prove_first(term, T, where)
         return self._not_below(term, wanted, where)
@@ -701,9 +701,11 @@ class Prover:
         return notation(named, (labels | names,))
 
 
-def _why_by_conditions(way: Way) -> str:
+def _why_by_conditions(way: Way, theory: Signature) -> str:
+    """The axioms, and why their conditions hold: by which relabelling, say."""
     axioms = " and ".join(map(str, way.axioms))
-    return f"by the axiom {axioms}"
+    reasons = "; ".join(one.compare(theory)[1] for one in way.conditions)
+    return f"by the axiom {axioms}: {reasons}" if reasons else f"by the axiom {axioms}"
 
 
 _BELOW: dict[type[TypeNode], tuple[type[TypeNode], ...]] = {
