@@ -2,7 +2,7 @@
 
 import pytest
 
-from ttr import Model, Theory, check, subtype
+from ttr import Model, Theory, budget, check, subtype
 from ttr.cli.session.replies import answer
 from ttr.cli.session.sessions import Session
 from ttr.errors import NotationError, RefusedError
@@ -88,6 +88,18 @@ def test_axioms_in_a_circle_come_to_an_end():
         "check m : hope(sam, [x : Ind, c : dog(x)])",
         "check not m : know(sam, [x : Ind, c : dog(x)])",
     )
+
+
+def test_a_content_that_is_true_only_if_it_is_is_left_open():
+    theory = theory_of(
+        "view(a, V) <: think(a, C) if V <= C up to relabelling, true(V)",
+        "given m : view(sam, [x : Ind, b : think(sam, [x : Ind])])",
+    )
+    M, T = Model(theory), theory.parse("think(sam, [x : Ind])")
+    with budget(steps=20_000):
+        j = M.judge("m", T)
+    assert j.p == (0, 1)
+    assert "too large" in j.why.because
 
 
 def test_a_type_in_a_condition_stands_for_itself():
