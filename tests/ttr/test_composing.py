@@ -16,7 +16,7 @@ from ttr import (
     this,
 )
 from ttr.computing import consistent, equal, normal_form, subtype
-from ttr.errors import IllFormedError
+from ttr.errors import IllFormedError, RefusedError
 from ttr.types import Application, Function, merge_terms
 
 LEXICON = r"""
@@ -32,6 +32,10 @@ Every := \P:(Ind -> RecType). \Q:(Ind -> RecType). [f : ((x : Ind) -> (P(x) -> Q
 John := \P:(Ind -> RecType). P(j)
 Chase := \q:((Ind -> RecType) -> RecType). \v:Ind. q(\w:Ind. [e : chase(v, w)])
 Red := \P:(Ind -> RecType). \v:Ind. merge(P(v), [a : red(v)])
+P := (Ind -> Type)
+Det := \Q:P. \R:P. [x : Ind, r : Q(x), s : R(x)]
+Dog1 := \v:Ind. dog(v)
+Cat1 := \v:Ind. cat(v)
 """
 
 SEEN = "[x : Ind, r : [e : dog(^.x)], s : [x : Ind, r : [e : cat(^.x)], s : %s]]"
@@ -57,6 +61,12 @@ SEEN = "[x : Ind, r : [e : dog(^.x)], s : [x : Ind, r : [e : cat(^.x)], s : %s]]
         "~Run(j) = ~[e : run(j)]",
         "(\\f:(Ind -> (Ind -> RecType)). \\x:Ind. \\y:Ind. f(y)(x)) : "
         "((Ind -> (Ind -> RecType)) -> (Ind -> (Ind -> RecType)))",
+        "Det(Dog1)(\\y:Ind. Det(Cat1)(\\z:Ind. chase(y, z))) = "
+        "[x : Ind, r : dog(x), s : [x : Ind, r : cat(x), s : chase(^.x, x)]]",
+        "Det(Dog1)(\\y:Ind. Det(Cat1)(\\z:Ind. chase(y, z))) : RecType",
+        "Det : (P -> (P -> RecType))",
+        "(\\Q:P. \\v:Ind. Det(Q)(\\y:Ind. Det(Q)(\\z:Ind. chase(y, v)))) : "
+        "(P -> (Ind -> RecType))",
         "not Man(j) = Run(j)",
         "not [x : Ind, c : man(x)] = [x : Ind, c : dog(x)]",
     ],
@@ -87,6 +97,14 @@ def test_both_scopes_are_two_meanings():
         ("A := Man([y : Ind])", "takes objects of Ind, and [y : Ind] cannot be one"),
         ("A := Man(Ind)", "takes objects of Ind, and Ind cannot be one"),
         ("A := [r : Some(Man)(Run(j))]", "cannot be one"),
+        (
+            r"A := [x : list(Ind), r : (\y:[z : Ind]. [e : man(y.z)])(x)]",
+            "takes objects of [z : Ind], and x cannot be one, as it is of list(Ind)",
+        ),
+        (
+            r"A := \w:list(Ind). (\y:[z : Ind]. [e : man(y.z)])(w)",
+            "takes objects of [z : Ind], and w cannot be one, as it is of list(Ind)",
+        ),
         ("A := dog(Ind)", "dog takes individuals, but Ind is a type"),
         ("A := [x = x : Ind]", "set to each other in a circle: x → x"),
         ("A := [x = y : Ind, y = x : Ind]", "set to each other in a circle"),
@@ -241,3 +259,84 @@ def test_what_is_denied_of_a_field_is_refuted_by_one_that_has_it(S, T):
     judgement = answer.counter
     assert judgement.model.judge(judgement.sit, S).holds
     assert not judgement.holds
+
+
+@pytest.mark.parametrize(
+    "S",
+    [
+        rectype(x=Ind, y=Ind @ this.x) & rectype(y=Ind @ "b"),
+        rectype(x=Ind, y=Ind, z=(Ind @ this.x) & (Ind @ this.y)),
+    ],
+)
+@pytest.mark.parametrize(
+    "T",
+    [
+        rectype(x=Ind, c=man(this.x)),
+        rectype(x=man("b")),
+        rectype(y=~(Ind @ "b")),
+        rectype(x=Ind, w=Ind),
+    ],
+)
+def test_what_fields_say_of_each_other_is_not_below_what_says_more(S, T):
+    answer = subtype(S, T)
+    assert answer.no
+    against = answer.counter
+    assert against.type is T
+    assert against.model.judge(against.sit, S).holds
+    assert not against.holds
+    assert "Ind /\\ Ind" not in answer.why
+    assert subtype(S, rectype(x=Ind)).yes
+
+
+# --- presuppositions -----------------------------------------------------------------
+
+
+def test_what_is_kept_is_unknown_and_says_what_it_presupposes():
+    B = Basic("B")
+    S = rectype(x=B, r=Application(Man, this.x))
+    for T in (rectype(x=B, r=rectype()), rectype(x=B, r=rectype(e=B))):
+        for ask in (equal, subtype):
+            answer = ask(S, T)
+            assert answer.unknown
+            assert "it is not known that x is of Ind, in (" in answer.why
+
+
+def test_a_failed_presupposition_names_the_argument_its_type_and_the_domain():
+    B = Basic("B")
+    M = Model().given("b1", B)
+    why = M.judge("s", Man("b1")).why.rule
+    assert "takes objects of Ind, which b1 is not" in why
+    assert why.endswith("b1 is of B")
+    with pytest.raises(RefusedError) as error:
+        M.reduce(Man("b1"))
+    assert error.value.message == why
+    assert "\n" not in why
+
+
+# --- no η ----------------------------------------------------------------------------
+
+
+def test_a_function_and_its_expansion_are_two():
+    """They do the same to whatever they are applied to; but equality is by form."""
+    theory = Theory.parse(LEXICON)
+    kind = theory.parse("((Ind -> RecType) -> (Ind -> RecType))")
+    expanded = theory.parse(r"\f:(Ind -> RecType). \v:Ind. f(v)")
+    itself = theory.parse(r"\f:(Ind -> RecType). f")
+    assert equal(expanded, itself, theory).no
+    assert equal(expanded, expanded, theory).yes
+    for function in (expanded, itself):
+        assert Model(theory).judge(function, kind).holds
+    one, other = (
+        rectype(f=Ind >> RecType, g=(Ind >> RecType) @ body)
+        for body in (this.f, fun(v=Ind)(outer.f(this.v)))
+    )
+    for S, T in ((one, other), (other, one)):
+        answer = subtype(S, T, theory)
+        assert not answer.yes
+        if answer.no:
+            against = answer.counter
+            assert against.model.judge(against.sit, S).holds
+            assert not against.holds
+    applied = theory.parse(r"(\f:(Ind -> RecType). \v:Ind. f(v))(Man)(j)")
+    assert equal(applied, theory.parse("Man(j)"), theory).yes
+    assert equal(theory.parse(r"\v:Ind. Man(v)"), theory.Man, theory).yes

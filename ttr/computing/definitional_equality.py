@@ -6,9 +6,9 @@ relation of a theory. Source: Martin-Löf 1984.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import partial
 
+from ttr.computing.kept_redexes import kept_redexes, open_presupposition
 from ttr.computing.normalisation import normal_form
 from ttr.computing.subtyping import Answer
 from ttr.errors import TooLargeError
@@ -16,9 +16,7 @@ from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.interning import identity
 from ttr.types.objects import Object, freeze
-from ttr.types.paths import subterms
 from ttr.types.printing import notation
-from ttr.types.syntax import Application, Function
 
 
 def _left_open(error: TooLargeError, *_: object, **__: object) -> Answer:
@@ -44,26 +42,6 @@ def equal(left: Object, right: Object, theory: Signature | None = None, /) -> An
     one, other = normal_form(left, theory), normal_form(right, theory)
     if identity(one) == identity(other):
         return Answer("yes", lambda: f"both compute to {notation(one)}")
-    for value in (one, other):
-        kept = next(kept_redexes(value), None)
-        if kept is not None:
-            return Answer("unknown", partial(_why_kept, kept, theory))
+    if any(next(kept_redexes(value), None) for value in (one, other)):
+        return Answer("unknown", partial(open_presupposition, one, other))
     return Answer("no", lambda: f"{notation(one)} is not {notation(other)}")
-
-
-def kept_redexes(value: Object) -> Iterator[Application]:
-    """The applications of written functions that are left in a normal form."""
-    for part in subterms([value]):
-        match part:
-            case Application(Function(), _):
-                yield part
-
-
-def _why_kept(kept: Application, theory: Signature | None) -> str:
-    assert isinstance(kept.function, Function)
-    text = signature_of(theory).spelling
-    argument, domain = kept.argument, kept.function.domain
-    return (
-        f"it is not known that {notation(argument, text)} is of "
-        f"{notation(domain, text)}, in {notation(kept, text)}"
-    )

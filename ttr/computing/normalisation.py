@@ -76,11 +76,13 @@ def normal_form(value: Object, theory: Signature | None = None, /) -> Object:
 class _Scope:
     """The types at the labels of a record type, or at a variable, as seen inside.
 
-    Fields that depend on each other in a circle are known, but lead nowhere.
+    Fields that depend on each other in a circle are known, but lead nowhere. Errors
+    call a variable by its `name`.
     """
 
     types: dict[str, TypeNode] = field(default_factory=dict)
     circular: set[str] = field(default_factory=set)
+    name: str = ""
 
 
 _Scopes = tuple[_Scope, ...]
@@ -201,8 +203,8 @@ class _Normaliser:
                 return self._record_type(value, around)
             case Function(domain, inside) | FunType(domain, inside):
                 kind = self._type(domain, around)
-                scope = _Scope({BOUND: _move_in(kind)})
-                return type(value)(kind, self.of(inside, (scope, *around)))
+                scope = _Scope({BOUND: _move_in(kind)}, name=hint)
+                return type(value)(kind, self.of(inside, (scope, *around)), hint)
             case Application(function, argument):
                 return self._application(
                     self.of(function, around), self.of(argument, around), around
@@ -285,12 +287,12 @@ class _Normaliser:
                 return value
             return self.of(value, around)
         if self._is_strict and derived.is_impossible:
-            text = self._theory.spelling
+            names = tuple([one.name or frozenset(one.types) for one in around])
+            domain, of = notation(function.domain, names), derived.type
             raise IllFormedError(
-                f"{notation(function, text)} takes objects of "
-                f"{notation(function.domain, text)}, and {notation(argument, text)} "
-                "cannot be one"
-                + (f", as it is of {derived.type}" if derived.type else "")
+                f"{notation(function, names)} takes objects of {domain}, "
+                f"and {notation(argument, names)} cannot be one"
+                + (f", as it is of {notation(of, names)}" if of else "")
             )
         return whole
 

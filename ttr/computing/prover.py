@@ -180,6 +180,8 @@ class Prover:
             return found
         if self._follows_in_each_case(term, T, known):
             return YES
+        if self._follows_from_denial(term, T, known):
+            return YES
         if isinstance(term, Application) and self._follows_from_function(term, T):
             return YES
         return found
@@ -330,52 +332,41 @@ class Prover:
     def _follows_in_each_case(
         self, term: Object, T: TypeNode, known: list[TypeNode]
     ) -> bool:
-        """Is the term of T in each case of what is known of it?"""
-        in_cases = self._follows_from_joins(term, T, known)
-        return in_cases or self._follows_from_denial(term, T, known)
-
-    def _follows_from_joins(
-        self, term: Object, T: TypeNode, known: list[TypeNode]
-    ) -> bool:
         """Is the term of a join, and of T whichever part of the join it is of?"""
-        joins = [one for one in known if isinstance(one, Join)]
-        joins = [one for one in joins if not any(part in known for part in one.parts)]
-        if not joins:
-            return False
-
-        def is_ruled_out(case: TypeNode) -> bool:
-            further = self._assume_new([(term, case)])
-            if further is self:
-                return False
-            return further.is_impossible or further.prove(term, T).yes
-
-        atoms = [one for one in known if isinstance(one, Basic | PType | Negation)]
-        whole = meet(*joins, *atoms)
-        wanted = self.witness.normalise(T)
-        return is_every_case_ruled_out(whole, wanted, self.theory, is_ruled_out)
+        for one in known:
+            if not isinstance(one, Join):
+                continue
+            further = [self._assume_new([(term, case)]) for case in cases_or_whole(one)]
+            if self in further:
+                continue
+            if all(case.is_impossible or case.prove(term, T).yes for case in further):
+                return True
+        return False
 
     def _follows_from_denial(
         self, term: Object, T: TypeNode, known: list[TypeNode]
     ) -> bool:
-        """Is the term not of a record type, and of T in whichever field it fails?
+        """Is the term of T in whichever field it fails to be of a denied record type?
 
-        Only one record type is taken apart; the others then are in each case.
+        A record that is not of a type, but has its labels, is not of it in some field.
+        One denial is taken apart, and the others then are in each case.
         """
         if not isinstance(term, Path) or len(self.assumed) >= DENIALS:
             return False
         labels = {label for R in known if isinstance(R, RecordType) for label in R}
         for one in known:
-            match one:
-                case Negation(RecordType(fields)) if labels >= {k for k, _ in fields}:
-                    further = [
-                        self._assume_new([_denial(field, label, term)])
-                        for label, field in fields
-                    ]
-                    if further and self not in further:
-                        return all(
-                            case.is_impossible or case.prove(term, T).yes
-                            for case in further
-                        )
+            if not (isinstance(one, Negation) and isinstance(one.body, RecordType)):
+                continue
+            fields = one.body.fields
+            further = [
+                self._assume_new([(step(term, label), _denial(field, term))])
+                for label, field in fields
+                if label in labels
+            ]
+            if len(further) == len(fields) and further and self not in further:
+                return all(
+                    case.is_impossible or case.prove(term, T).yes for case in further
+                )
         return False
 
     # --- lists, sets and strings ---
@@ -691,7 +682,8 @@ class Prover:
     def _format_types(self, term: Object) -> str:
         """The types known of a term, written as a meet."""
         known = self._types_of(term)
-        return " /\\ ".join(map(self._format, known)) or self._format(term)
+        written = dict.fromkeys(map(self._format, known))
+        return " /\\ ".join(written) or self._format(term)
 
     def _format(self, value: Object) -> str:
         """The notation of a value, with places as paths or under names of their own."""
@@ -716,10 +708,9 @@ _BELOW: dict[type[TypeNode], tuple[type[TypeNode], ...]] = {
 """The kinds of collection types that lie below one."""
 
 
-def _denial(field: TypeNode, label: str, term: Path) -> Assumption:
-    """That what a term has at a label is not of the type of this field."""
-    denied = push_negations_inwards(Negation(field_type(field, term)))
-    return step(term, label), denied
+def _denial(field: TypeNode, term: Object) -> TypeNode:
+    """That what is in a field of a term is not of its type."""
+    return push_negations_inwards(Negation(field_type(field, term)))
 
 
 def _all_but_last_denied(term: Object, parts: list[TypeNode]) -> list[Assumption]:

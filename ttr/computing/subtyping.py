@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import islice
 from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases, clauses, has_cases
 from ttr.computing.case_search import open_cases
 from ttr.computing.findings import YES, Finding
 from ttr.computing.generic_witness import ITSELF, Assumption
+from ttr.computing.kept_redexes import open_presupposition
 from ttr.computing.normalisation import normal_type
 from ttr.computing.path_cycles import has_fields_in_order
 from ttr.computing.prover import Prover
@@ -125,13 +125,6 @@ class Answer:
             return None
         return counterexample(self._refutation)
 
-    def about(self, asked: TypeNode) -> Answer:
-        """The same answer, whose counterexample is to a type as it was written."""
-        if self._refutation is None or self._refutation.T is asked:
-            return self
-        refutation = replace(self._refutation, asked=asked)
-        return Answer(self.verdict, self._reason, refutation)
-
     def __bool__(self) -> bool:
         raise TypeError("an answer is yes, no or unknown: ask for .yes or .no")
 
@@ -191,9 +184,9 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     no: [x : Ind] has no field c
     """
     S, T, theory = as_type(S), as_type(T), signature_of(theory)
-    asked = T
-    if S is not T:
-        S, T = normal_type(S, theory), normal_type(T, theory)
+    computed = (S, T) if S is T else (normal_type(S, theory), normal_type(T, theory))
+    if computed != (S, T):
+        return _about(subtype(*computed, theory), T, *computed)
     if S is T:
         return Answer("yes", lambda: f"{S} is below itself")
     if clauses(T) is None:
@@ -233,30 +226,24 @@ def _in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
 
 def _why_in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> str:
     found = cases(S)
-    if found and len(found) == 1:
-        return _in_case(found[0], T, theory).why
-    return f"each case of {S} is below {T}"
+    answers = [_in_case(case, T, theory) for case in found or (S,)]
+    refuted = next((answer for answer in answers if answer.no), None)
+    if refuted is not None:
+        return refuted
+    if len(answers) > 1 and all(answer.yes for answer in answers):
+        return Answer("yes", lambda: f"each case of {S} is below {T}")
+    return next((answer for answer in answers if answer.unknown), answers[0])
 
 
-def _by_contradiction(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
-    """The answer for a T of very many clauses: can something be of S and not of T?"""
-    left_open = False
-    for case in islice(_possible_cases(meet(S, Negation(T)), theory), TRIED):
-        against = Refutation(case, T, theory)
-        answer = Answer("no", partial("{} is not below {}".format, S, T), against)
-        if answer.counter is not None:
-            return answer
-        left_open = True
-    if left_open:
-        return Answer("unknown", partial("{} may not be below {}".format, S, T))
-    return Answer("yes", partial("each case of {} is below {}".format, S, T))
+def _about(answer: Answer, asked: TypeNode, *computed: TypeNode) -> Answer:
+    """The answer for types as they were written, from that for what they compute to.
 
-
-def _possible_cases(T: TypeNode, theory: Signature) -> Iterator[TypeNode]:
-    """The cases of a type of which it is not derivable that nothing is of them."""
-    return open_cases(
-        T, None, theory, lambda case: Prover.for_type(case, theory).is_impossible
-    )
+    A counterexample is to the type that was asked for.
+    """
+    refutation = answer._refutation
+    if refutation is not None:
+        refutation = replace(refutation, asked=asked)
+    return Answer(answer.verdict, answer._reason, refutation)
 
 
 def _in_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
@@ -277,9 +264,18 @@ def _refute(prover: Prover, T: TypeNode, found: Finding) -> Answer:
     answer = Answer("no", lambda: found.why, refutation)
     if is_decided(prover, T) or answer.counter is not None:
         return answer
-    if prover.witness.is_certain:
-        return Answer("unknown", lambda: found.why)
-    return Answer("unknown", lambda: f"{found.why}, but nothing may be of {S}")
+    if answer.counter is not None:
+        return answer
+    open_ = partial(_why_open, found, S, T)
+    if certain:
+        return Answer("unknown", open_)
+    return Answer("unknown", lambda: f"{open_()}, but nothing may be of {S}")
+
+
+def _why_open(found: Finding, *types: TypeNode) -> str:
+    """Why an answer is open: what is not derived, and what is presupposed."""
+    kept = open_presupposition(*types)
+    return f"{found.why}; {kept}" if kept else found.why
 
 
 def is_decided(prover: Prover, T: TypeNode) -> bool:

@@ -551,9 +551,15 @@ def _apply(facts: Assignment, function: Object, argument: Object) -> Object:
         raise RefusedError(
             f"{notation(function)} takes objects of {function.domain}, which "
             f"{notation(argument)} is not{_where(inside)}: "
-            f"{(inside.failure() or inside).rule}"
+            f"{(inside.failure() or inside).rule}{_known_types(facts, argument)}"
         )
     return instantiate_body(function, argument)
+
+
+def _known_types(facts: Assignment, sit: Object) -> str:
+    """What an object is of by the facts, as far as that is told."""
+    known = sorted(map(str, facts.types_of(sit)))
+    return f"; {notation(sit)} is of {', '.join(known)}" if known else ""
 
 
 def _where(why: Why) -> str:
