@@ -5,9 +5,11 @@ import pytest
 from ttr import (
     Basic,
     Ind,
+    ListOf,
     Model,
     Pred,
     RecType,
+    SetOf,
     Theory,
     check,
     fun,
@@ -251,6 +253,22 @@ def test_a_witness_is_created_of_what_fields_say_of_each_other(T):
         (rectype(x=Ind), rectype(x=~(Ind @ "b"))),
         (rectype(x=Ind, c=man(this.x)), rectype(x=Ind, c=~run(this.x))),
         (rectype(r=rectype(x=Ind)), rectype(r=rectype(x=~(Ind @ "b")))),
+        (rectype(x=Ind, y=Ind), rectype(x=Ind, y=~(Ind @ this.x))),
+        (ListOf(Ind), ListOf(~(Ind @ "b"))),
+        (rectype(l=SetOf(Ind)), rectype(l=SetOf(~(Ind @ "b")))),
+        (
+            rectype(x=Ind, l=ListOf(man(this.x))),
+            rectype(x=Ind, l=ListOf(~run(this.x))),
+        ),
+        (
+            rectype(l=ListOf(rectype(x=Ind, l=ListOf(man(this.x))))),
+            rectype(l=ListOf(rectype(x=Ind, l=ListOf(~run(this.x))))),
+        ),
+        (Ind >> Ind, Ind >> ~(Ind @ "b")),
+        (
+            rectype(x=Ind, f=Ind >> man(this.x)),
+            rectype(x=Ind, f=Ind >> ~run(this.x)),
+        ),
     ],
 )
 def test_what_is_denied_of_a_field_is_refuted_by_one_that_has_it(S, T):

@@ -62,6 +62,11 @@ def element(place: Path) -> Path:
     return step(place, _EACH)
 
 
+def is_element(label: str) -> bool:
+    """Is a step on the way to a place one to an element of a list or set?"""
+    return label == _EACH
+
+
 def event(place: Path, number: int) -> Path:
     """The place of an event of the string at a place; they are counted from 0."""
     return step(place, str(number))

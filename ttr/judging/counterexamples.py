@@ -7,7 +7,12 @@ from dataclasses import replace
 from functools import partial
 from itertools import count, product
 
-from ttr.computing.generic_witness import ITSELF, Assumption, elements
+from ttr.computing.generic_witness import (
+    ITSELF,
+    Assumption,
+    elements,
+    is_element,
+)
 from ttr.computing.path_cycles import break_cycles
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.computing.subtyping import Refutation, counterexample
@@ -21,15 +26,15 @@ from ttr.safety.budgets import spend
 from ttr.signature.signature import Signature
 from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object, Path, UnresolvedError
-from ttr.types.paths import mentions, paths_to_types, replace_paths, subterms
+from ttr.types.paths import free_paths, map_parts, mentions, replace_paths
 from ttr.types.substitution import follow_path
 from ttr.types.syntax import (
-    Basic,
+    ListOf,
+    Negation,
+    NonEmpty,
     RecordType,
-    Singleton,
-    TypeAt,
+    SetOf,
     TypeNode,
-    Universe,
     meet,
 )
 
@@ -41,7 +46,8 @@ SIZES = (1, 0, 2)
 def find_counterexample(refutation: Refutation) -> Judgement | None:
     """A judgement of a witness of S that is not of T; None if none was found."""
     T, theory = refutation.T, refutation.theory
-    for size, (S, assumed) in product(SIZES, _starts(refutation)):
+    starts = [*_starts(refutation), *_with_what_is_denied(refutation)]
+    for size, (S, assumed) in product(SIZES, starts):
         found = _find_witness(S, theory, assumed, size)
         if found is None or _degree(found, refutation.S) != CERTAIN:
             continue
@@ -70,20 +76,20 @@ def _starts(refutation: Refutation) -> list[Start]:
     return [*((one, ()) for one in narrower), (meet(S, *of_it), others), (S, ())]
 
 
-def _tell_types_apart(S: TypeNode) -> TypeNode:
-    """S where each field that others have as their type is a basic type of its own."""
-    if not isinstance(S, RecordType) or not mentions(S, TypeAt):
-        return S
-    used = {path.labels for _, field in S.fields for path in paths_to_types(field)}
-    taken = {part.name for part in subterms([S]) if isinstance(part, Basic)}
-    new = (name for n in count(1) if (name := f"A{n}") not in taken)
-    fields = {
-        label: Singleton(field, Basic(next(new)))
-        if (label,) in used and isinstance(field, Universe)
-        else field
-        for label, field in S.fields
-    }
-    return RecordType(order_fields(fields))
+def _with_what_is_denied(refutation: Refutation) -> list[Start]:
+    """S where also is the case what T denies inside, of values of functions, say."""
+    S, T = refutation.S, refutation.T
+    if not mentions(T, Negation) or isinstance(T, Negation):
+        return []
+    return [(meet(S, _affirm(T)), ())]
+
+
+def _affirm(value: Object) -> TypeNode:
+    """The type without the negations in it: what they deny is so."""
+    while isinstance(value, Negation):
+        value = value.body
+    found: TypeNode = map_parts(value, lambda part, _: _affirm(part))
+    return found
 
 
 def _with_part(S: TypeNode, term: Object, T: TypeNode) -> TypeNode | None:
@@ -93,8 +99,8 @@ def _with_part(S: TypeNode, term: Object, T: TypeNode) -> TypeNode | None:
     first, *labels = term.labels
     if first != ITSELF.labels[0] or not labels:
         return None
-    inner = replace_paths(T, partial(_seen_from, len(labels) - 1))
-    return _with_field(S, labels, inner)
+    inner = replace_paths(T, partial(_seen_from, labels))
+    return None if _leads_outside(inner) else _with_field(S, labels, inner)
 
 
 def _with_field(S: TypeNode, labels: list[str], T: TypeNode) -> TypeNode | None:
@@ -105,6 +111,9 @@ def _with_field(S: TypeNode, labels: list[str], T: TypeNode) -> TypeNode | None:
     if not labels:
         return T if is_of_strings(T) else meet(S, T)
     first, *rest = labels
+    if isinstance(S, ListOf | NonEmpty | SetOf) and is_element(first):
+        item = _with_field(S.item, rest, T)
+        return None if item is None else type(S)(item)
     if not isinstance(S, RecordType) or first not in S:
         return None
     inner = _with_field(S[first], rest, T)
@@ -114,10 +123,28 @@ def _with_field(S: TypeNode, labels: list[str], T: TypeNode) -> TypeNode | None:
     return RecordType(tuple(fields))
 
 
-def _seen_from(depth: int, place: Path) -> Path:
-    """A place as a path from so many records inside the witness."""
-    inside = place.up == 0 and place.labels[0] == ITSELF.labels[0]
-    return Path(depth, place.labels[1:]) if inside else place
+def _leads_outside(T: TypeNode) -> bool:
+    """Does a type mention places that no path from a field leads to?"""
+    return any(
+        path.up == 0 and path.labels[0].startswith(ITSELF.labels[0])
+        for path in free_paths(T)
+    )
+
+
+def _seen_from(at: list[str], place: Path) -> Path:
+    """A place in the witness as a path from what is at the end of these labels.
+
+    It starts at the innermost record around both. The place itself if there is none.
+    """
+    first, *labels = place.labels
+    if place.up > 0 or first != ITSELF.labels[0]:
+        return place
+    for shared in range(min(len(at), len(labels) - 1), -1, -1):
+        depth = len([label for label in at[shared:] if not is_element(label)]) - 1
+        rest = labels[shared:]
+        if at[:shared] == labels[:shared] and depth >= 0 and rest:
+            return place if any(map(is_element, rest)) else Path(depth, tuple(rest))
+    return place
 
 
 def _degree(found: Judgement, T: TypeNode) -> Degree | None:
