@@ -16,7 +16,8 @@ ATOMS = [Basic(name) for name in "ABC"]
 THINGS = range(2)
 SETS = [frozenset(x for x in THINGS if bits >> x & 1) for bits in range(4)]
 ASSIGNMENTS = [dict(zip(ATOMS, sets, strict=True)) for sets in product(SETS, repeat=3)]
-FUNCTIONS = list(product((None, *THINGS), repeat=len(THINGS)))
+NO_FUNCTION = "no function"
+FUNCTIONS = [NO_FUNCTION, *product((None, *THINGS), repeat=len(THINGS))]
 AT_ONE = [(y,) for y in (None, *THINGS)]
 """What functions do with the first thing, the others apart."""
 
@@ -33,6 +34,7 @@ arrows = st.builds(FunType, plain, plain)
 compounds = st.recursive(
     arrows,
     lambda inner: st.one_of(
+        inner.map(lambda T: ~T),
         st.lists(inner, min_size=2, max_size=2).map(lambda parts: meet(*parts)),
         st.lists(inner, min_size=2, max_size=2).map(lambda parts: join(*parts)),
     ),
@@ -52,6 +54,8 @@ def is_of(x, T, sets):
         case Negation(body):
             return not is_of(x, body, sets)
         case FunType(domain, result):
+            if x is NO_FUNCTION:
+                return False
             taken = [y for one, y in enumerate(x) if is_of(one, domain, sets)]
             return all(y is not None and is_of(y, result, sets) for y in taken)
 

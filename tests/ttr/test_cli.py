@@ -361,3 +361,28 @@ def test_a_file_of_another_encoding_or_a_folder_is_told(
     assert capsys.readouterr().err == (
         "ttr: latin.ttr is no text: it must be UTF-8\nttr: . is a folder, not a file\n"
     )
+
+
+MAN = r"""basic Ind
+pred man(Ind)
+Man := \v:Ind. [e : man(v)]
+R := [x : Ind, r : Man(x)]
+"""
+
+
+@pytest.mark.parametrize(
+    ("options", "drawn"),
+    [
+        ((), "⎡x : Ind                      ⎤\n⎣r : (λv:Ind. [e : man(v)])(x)⎦"),
+        (("--normal",), "⎡x : Ind         ⎤\n⎣r : [e : man(x)]⎦"),
+    ],
+)
+def test_a_box_shows_what_is_written_or_what_it_computes_to(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    options: tuple[str, ...],
+    drawn: str,
+) -> None:
+    (folder / "man.ttr").write_text(MAN, "utf-8")
+    assert main(["show", "--as", "box", *options, "man.ttr", "R"]) == 0
+    assert capsys.readouterr().out.strip() == drawn

@@ -716,3 +716,11 @@ def test_a_fact_is_said_again_and_a_name_changed_back():
         reply = respond(session, line)
         assert "error" not in reply.text
         session = reply.session
+
+
+def test_normal_prints_what_a_type_computes_to() -> None:
+    session = after("basic Ind\npred man(Ind)\nMan := \\v:Ind. [e : man(v)]")
+    written = "[x : Ind, r : Man(x)]"
+    assert respond(session, f":normal {written}").text == "[x : Ind, r : [e : man(x)]]"
+    claim = f"{written} = [x : Ind, r : [e : man(^.x)]]"
+    assert respond(session, claim).text.startswith("yes")

@@ -87,6 +87,14 @@ YES = {
         Pi(x=A)(p(this.x)) & Pi(x=A)(B),
         Pi(x=A)(p(this.x) & B),
     ),
+    "a denied function type": (
+        (A >> B) & ~(A >> C),
+        ~(A >> (B & C)),
+    ),
+    "a denied function type in a field": (
+        rectype(f=A >> B) & ~rectype(f=A >> C),
+        rectype(f=~(A >> (B & C))),
+    ),
     "functions of functions": (
         (A >> (B >> C)) & (A >> (B >> A)),
         A >> (B >> (A & C)),

@@ -124,6 +124,15 @@ class Prover:
         negations = self.witness.negations(given)
         return any(inside.prove(term, T).yes for term, T in negations)
 
+    def _is_denied(self, place: Path) -> bool:
+        """Is something at a place surely of a type that is denied of it?"""
+        return any(
+            isinstance(term, Path)
+            and term.labels[0] == place.labels[0]
+            and self.prove(term, T).yes
+            for term, T in self.witness.negations(self.given)
+        )
+
     @property
     def _has_no_string(self) -> bool:
         """Is no string of all the types that are claimed of a term?
@@ -552,7 +561,9 @@ class Prover:
             rest = [other for other in known if other is not one]
             if self not in (outside, inside):
                 return every(
-                    YES if case.is_impossible else case._prove_value(x, others, wanted)
+                    YES
+                    if case._has_misfit or case._is_denied(x)
+                    else case._prove_value(x, others, wanted)
                     for case, others in ((outside, rest), (inside, known))
                 )
         return Finding(False)
@@ -569,7 +580,7 @@ class Prover:
             return Finding(False, lambda: "this nests too deep to be followed")
         further = [self.assume((place, case)) for case in cases_or_whole(S)]
         return every(
-            prove_case(q) for q in further if not (q._has_misfit or q._is_contradictory)
+            prove_case(q) for q in further if not (q._has_misfit or q._is_denied(place))
         )
 
     def _follows_from_function(self, term: Application, T: TypeNode) -> bool:
