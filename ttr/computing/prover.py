@@ -85,7 +85,8 @@ class Prover:
 
     `given` are the elements of lists and sets that are taken to be there. `is_judged`
     asks a model, where there is one, whether an object is certainly of a type.
-    `inside_strings` are the strings that are being compared event by event.
+    `inside_strings` are the strings that are being compared event by event, and
+    `examined` the function types of which it is being asked whether they are denied.
     """
 
     S: TypeNode
@@ -95,6 +96,7 @@ class Prover:
     given: frozenset[Path] = frozenset()
     is_judged: Callable[[Object, TypeNode], bool] | None = None
     inside_strings: frozenset[object] = frozenset()
+    examined: frozenset[TypeNode] = frozenset()
 
     @classmethod
     def for_type(cls, S: TypeNode, theory: Signature) -> Prover:
@@ -121,8 +123,17 @@ class Prover:
         """Is something surely of a type that is denied of it?"""
         given = self.given | self.witness.first_elements(self.given)
         inside = self if given == self.given else replace(self, given=given)
-        negations = self.witness.negations(given)
-        return any(inside.prove(term, T).yes for term, T in negations)
+        negations = [
+            (term, T)
+            for term, T in self.witness.negations(given)
+            if T not in self.examined
+        ]
+        functions = {T for _, T in negations if isinstance(T, FunType)}
+        apart = replace(inside, examined=self.examined | functions)
+        return any(
+            (apart if isinstance(T, FunType) else inside).prove(term, T).yes
+            for term, T in negations
+        )
 
     def _is_denied(self, place: Path) -> bool:
         """Is something at a place surely of a type that is denied of it?"""
