@@ -46,6 +46,12 @@ YES = {
     "other forms": (Rec, ~ListOf(A)),
     "a disjunctive syllogism": ((A | B) & ~A, B),
     "a negation in a field": (rectype(x=A & ~B), rectype(x=~B)),
+    "a list that is not of a type has elements": (
+        ListOf(A) & ~ListOf(B),
+        NonEmpty(A),
+    ),
+    "a list without elements": (ListOf(A) & ~NonEmpty(A), ListOf(B)),
+    "a list has elements or none": (ListOf(A), NonEmpty(A) | ListOf(B)),
     "a denied record type": (rectype(x=A, y=B) & ~rectype(x=A), C),
     "one of two fields is not": (
         rectype(x=A, y=A) & ~rectype(x=B, y=C),
@@ -313,6 +319,19 @@ def test_what_has_an_element_is_not():
     assert consistent(NonEmpty(A), ListOf(~B)).yes
     assert consistent(NonEmpty(ListOf(A)), ListOf(ListOf(~A))).yes
     assert consistent(Plus(A), Plus(~A)).no
+
+
+@pytest.mark.parametrize(
+    ("S", "T"),
+    [
+        (ListOf(A) & ~ListOf(B), NonEmpty(B)),
+        (ListOf(A) & ~NonEmpty(B), ListOf(B)),
+        (ListOf(A), NonEmpty(B) | ListOf(B)),
+        (~ListOf(B), NonEmpty(A)),
+    ],
+)
+def test_what_is_denied_of_lists_says_no_more(S, T):
+    assert not subtype(S, T).yes
 
 
 def test_functions_of_several_types_are_consistent():

@@ -403,9 +403,9 @@ class Prover:
         written = _written_elements(term, T)
         if written is not None:
             return every(self.prove(one, item, where) for one in written)
-        if not any(
-            isinstance(known, _BELOW[type(T)]) for known in self._types_of(term)
-        ):
+        known = self._types_of(term)
+        below = any(isinstance(one, _BELOW[type(T)]) for one in known)
+        if not (below or _has_some(known, T)):
             return self._not_below(term, T, where)
         if not isinstance(term, Path):
             return self._prove_elementwise(term, T, where)
@@ -413,7 +413,15 @@ class Prover:
         inside = replace(self, given=self.given | {place})
         if inside._has_misfit or (place not in self.given and inside.is_impossible):
             return YES
-        return inside.prove(place, item, where)
+        found = inside.prove(place, item, where)
+        if not found.yes and isinstance(T, ListOf):
+            none = [one.body for one in known if isinstance(one, Negation)]
+            if any(
+                isinstance(U, NonEmpty) and inside.prove(place, U.item).yes
+                for U in none
+            ):
+                return YES
+        return found
 
     def _prove_elementwise(
         self, term: Object, T: ListOf | NonEmpty | SetOf, where: Where
@@ -735,11 +743,23 @@ def _denial(field: TypeNode, term: Object) -> TypeNode:
     return push_negations_inwards(Negation(field_type(field, term)))
 
 
+def _has_some(known: list[TypeNode], T: TypeNode) -> bool:
+    """Is it a list that has elements, as it is denied to be of a type of lists?"""
+    denied = [one.body for one in known if isinstance(one, Negation)]
+    is_list = any(isinstance(one, ListOf) for one in known)
+    no_list = any(isinstance(one, ListOf) for one in denied)
+    return isinstance(T, NonEmpty) and is_list and no_list
+
+
 def _all_but_last_denied(term: Object, parts: list[TypeNode]) -> list[Assumption]:
     """That a term is of no record type but the last of several, if these are few.
 
     If it is of one of them or of the last, then it is of the last where it is of none.
+    So it is with lists that have elements beside other lists.
     """
+    lists = [part for part in parts if isinstance(part, NonEmpty)]
+    if lists and any(isinstance(part, ListOf) for part in parts):
+        return [(term, Negation(T)) for T in lists]
     records = [part for part in parts if isinstance(part, RecordType)]
     if prod(len(T.fields) for T in records) > RECORDS:
         return []
