@@ -110,6 +110,16 @@ def test_both_scopes_are_two_meanings():
         ("A := dog(Ind)", "dog takes individuals, but Ind is a type"),
         ("A := [x = x : Ind]", "set to each other in a circle: x → x"),
         ("A := [x = y : Ind, y = x : Ind]", "set to each other in a circle"),
+        ("A := [s : [x = ^.s.x : Ind]]", "in a circle: s.x → s.x"),
+        (
+            "A := [r : [x = ^.s.x : Ind], s : [x = ^.r.x : Ind]]",
+            "set to each other in a circle: ",
+        ),
+        ("A := \\v:Ind. [x = x : Ind]", "set to each other in a circle: x → x"),
+        (
+            r"A := dog(\x:Ind. x)",
+            r"dog takes individuals, but \x:Ind. x is a function",
+        ),
     ],
 )
 def test_what_cannot_be_computed_is_ill_formed(definition, why):

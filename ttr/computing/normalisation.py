@@ -15,10 +15,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from graphlib import CycleError, TopologicalSorter
 from weakref import WeakKeyDictionary
 
 from ttr.computing.generic_witness import Assumption, GenericWitness
+from ttr.computing.path_cycles import find_cycle_of_values
 from ttr.computing.prover import Prover
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import open_purse, spend, within_budget
@@ -467,26 +467,20 @@ def _check_individuals(pred: Pred, args: tuple[Object, ...]) -> None:
     Other basic types, such as one of moves, may well have types as their objects.
     """
     for number, arg in enumerate(args):
-        if not isinstance(arg, TypeNode) or isinstance(arg, Application):
+        if not isinstance(arg, TypeNode | Function) or isinstance(arg, Application):
             continue
         wanted = [arity[number] for arity in pred.arities if len(arity) == len(args)]
         if all(T is Ind for T in wanted):
-            raise IllFormedError(f"{pred.name} takes individuals, but {arg} is a type")
+            kind = "a function" if isinstance(arg, Function) else "a type"
+            raise IllFormedError(f"{pred.name} takes individuals, but {arg} is {kind}")
 
 
 def _check_values(T: RecordType) -> None:
-    values = {k: field for k, field in T.fields if isinstance(field, Singleton)}
-    needs = {
-        label: labels_mentioned(field.value) & values.keys()
-        for label, field in values.items()
-    }
-    try:
-        TopologicalSorter(needs).prepare()
-    except CycleError as error:
-        circle = " → ".join(reversed(error.args[1]))
+    circle = " → ".join(find_cycle_of_values(T))
+    if circle:
         raise IllFormedError(
             f"the fields of {notation(T)} are set to each other in a circle: {circle}"
-        ) from None
+        )
 
 
 def normal_value(value: Object, theory: Signature) -> Object:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from graphlib import CycleError, TopologicalSorter
 
 from ttr.safety.budgets import spend
@@ -39,6 +39,26 @@ def find_cycle(T: TypeNode) -> tuple[str, ...]:
     (('x', 'x'), ())
     """
     leaves = dict(_leaves(T, ()))
+    return _cycle_of(leaves, leaves)
+
+
+def find_cycle_of_values(T: TypeNode) -> tuple[str, ...]:
+    """The paths of the manifest fields that are set to each other in a circle, or none.
+
+    >>> from ttr import Ind, outer, rectype
+    >>> r, s = rectype(x=Ind @ outer.s.x), rectype(x=Ind @ outer.r.x)
+    >>> find_cycle_of_values(rectype(r=r, s=s))
+    ('r.x', 's.x', 'r.x')
+    """
+    leaves = dict(_leaves(T, ()))
+    manifest = {k: T.value for k, T in leaves.items() if isinstance(T, Singleton)}
+    return _cycle_of(leaves, manifest)
+
+
+def _cycle_of(
+    leaves: Iterable[Address], mentioning: Mapping[Address, Object]
+) -> tuple[str, ...]:
+    """The paths on a cycle among the fields that mention others in these values."""
     inner: dict[Address, list[Address]] = {}
     for leaf in leaves:
         for length in range(1, len(leaf) + 1):
@@ -46,10 +66,11 @@ def find_cycle(T: TypeNode) -> tuple[str, ...]:
     needs = {
         leaf: [
             near
-            for target in _target_addresses(leaf, field)
+            for target in _target_addresses(leaf, value)
             for near in _leaves_near(target, inner)
+            if near in mentioning
         ]
-        for leaf, field in leaves.items()
+        for leaf, value in mentioning.items()
     }
     try:
         TopologicalSorter(needs).prepare()
@@ -117,7 +138,7 @@ def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:
             yield address, field
 
 
-def _target_addresses(leaf: Address, field: TypeNode) -> list[Address]:
+def _target_addresses(leaf: Address, field: Object) -> list[Address]:
     """Where the paths of a field lead; those that leave the whole type lead nowhere."""
     inside = [path for path in free_paths(field) if path.up < len(leaf)]
     return sorted(leaf[: len(leaf) - 1 - path.up] + path.labels for path in inside)
