@@ -74,7 +74,7 @@ def test_a_line_for_each_problem_and_the_totals(
         "002  right: no",
         "003  right: unknown",
         "004  without a plain answer: unknown",
-        "005  outside the fragment: the lexicon has no word 'wug'; did you mean hug?",
+        "005  outside the fragment: the lexicon has no word 'wug'",
         "006  outside the fragment: the problem has no hypothesis",
         "6 problems: 3 right, 0 wrong, 2 outside the fragment, "
         "1 without a plain answer",
