@@ -8,7 +8,7 @@ _LETTERS_PER_SLIP = 4
 """For so many letters of a name one slip is taken for a misspelling; one for fewer."""
 
 _SHORT = 3
-"""The most letters of a name none of which is mistaken for another."""
+"""The most letters of a name in which only vowels are mistaken for one another."""
 
 _LONGEST = 100
 """The most letters of a name that is looked at."""
@@ -20,8 +20,8 @@ def nearest_names(name: str, known: Iterable[str], most: int = 1) -> list[str]:
     A slip is a letter too many, one too few, another one, or two changed about; large
     letters are like small ones. A name has at most one for each four letters, or one if
     it is shorter, and its first letter is right or changed about. In a name of three
-    letters none is another one: "cat" is no misspelling of "car". A name may also be
-    the beginning of what was meant.
+    letters only a vowel is another one: "cap" may be "cup", but "cat" is not "car". A
+    name may also be the beginning of what was meant.
 
     >>> nearest_names("hgu", ["dog", "hug"]), nearest_names("pupy", ["puppy"])
     (['hug'], ['puppy'])
@@ -52,10 +52,15 @@ def _slips(name: str, known: str) -> int | None:
         return None
     if name[:1] != known[:1] and name[1::-1] != known[:2]:
         return None
-    if len(name) == len(known) <= _SHORT and sorted(name) != sorted(known):
+    if len(name) == len(known) <= _SHORT and _consonants(name) != _consonants(known):
         return None
     slips = _edit_distance(name, known)
     return slips if slips <= most else None
+
+
+def _consonants(name: str) -> list[str]:
+    """The letters that a short name cannot have mistaken, in alphabetical order."""
+    return sorted(letter for letter in name if letter not in "aeiouy")
 
 
 def _edit_distance(one: str, other: str) -> int:

@@ -68,6 +68,7 @@ def test_one_slip_is_mended(pair):
         ("kichten", ["kitchen"], []),
         ("kichtens", ["kitchens"], ["kitchens"]),
         ("w2", ["w1"], []),
+        ("cap", ["cup", "cat"], ["cup"]),
         ("cat", ["car", "bat"], []),
         ("outside", ["house"], []),
         ("", ["a", "b"], []),
