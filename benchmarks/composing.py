@@ -217,6 +217,7 @@ def joins_below(number: int, what: str) -> Callable[[], Task]:
         above = {
             "themselves": meet(*[B | A | C for A, B in zip(As, Bs, strict=True)]),
             "a union": As[0] | join(*denied),
+            "negations": join(*denied),
             "all cases": _in_all_cases(As, Bs),
             "another": meet(*[A | C for A in As]),
         }[what]
@@ -366,7 +367,8 @@ QUESTIONS: dict[str, Question] = {
     "print doubled records": Question(printed_doubled, "refused", 50),
     "a sentence of ten words": Question(ten_words, True, 5),
     "nine joins <= wider ones": Question(joins_below(9, "themselves"), "yes", 50),
-    "nine joins <= a union": Question(joins_below(9, "a union"), "no", 50),
+    "nine joins <= a union": Question(joins_below(9, "a union"), "yes", 50),
+    "nine joins <= negations": Question(joins_below(9, "negations"), "no", 50),
     "nine joins <= their cases": Question(joins_below(9, "all cases"), "yes", 50),
     "nine joins <= others": Question(joins_below(9, "another"), "no", 50),
     "eight against eight": Question(against(8, True), "yes", 50),

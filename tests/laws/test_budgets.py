@@ -7,8 +7,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ttr
-from ttr import merge, subtype
+from ttr import Theory, merge, subtype
+from ttr.computing import normal_form
 from ttr.errors import TooLargeError
+from ttr.safety.budgets import open_purse, within_budget
+
+WORDS = ["Red", "Big", "Twice"]
+LEXICON = r"""
+basic Ind
+pred dog(Ind), red(Ind), big(Ind)
+Dog   := \v:Ind. [e : dog(v)]
+Red   := \P:(Ind -> RecType). \v:Ind. merge(P(v), [r : red(v)])
+Big   := \P:(Ind -> RecType). \v:Ind. merge(P(v), [b : big(v)])
+Twice := \P:(Ind -> RecType). \v:Ind. [l : P(v), r : P(v)]
+Every := \P:(Ind -> RecType). \Q:(Ind -> RecType). [f : ((x : Ind) -> (P(x) -> Q(x)))]
+"""
 
 
 @given(types(), types(), st.integers(1, 400))
@@ -28,3 +41,30 @@ def test_a_merge_is_the_whole_one_or_none(S, T, steps):
             assert merge(S, T) is whole
     except TooLargeError:
         assert merge(S, T) is whole
+
+
+@given(st.lists(st.sampled_from(WORDS), min_size=1, max_size=5))
+def test_a_normal_form_costs_the_same_whatever_was_asked_before(words):
+    """Also where others were computed on the way, or parts of it by themselves."""
+
+    def steps(theory: Theory, T: str) -> int:
+        parsed = theory.parse(T)
+
+        @within_budget
+        def ask() -> int:
+            before = open_purse().left  # type: ignore[union-attr]
+            normal_form(parsed, theory)
+            return before - open_purse().left  # type: ignore[union-attr]
+
+        return ask()
+
+    phrase = "Dog"
+    parts = [phrase := f"{word}({phrase})" for word in words]
+    whole = f"Every({phrase})(Dog)"
+    fresh = steps(Theory.parse(LEXICON), whole)
+    theory = Theory.parse(LEXICON)
+    for part in parts:
+        steps(theory, part)
+    # Which paths lead out of a type is kept with it.
+    assert fresh * 0.9 <= steps(theory, whole) <= fresh * 1.1
+    assert steps(theory, whole) == steps(theory, whole)

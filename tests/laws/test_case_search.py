@@ -5,11 +5,14 @@ from __future__ import annotations
 from itertools import product
 
 import pytest
+from generators import types
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import Basic, Model, consistent, join, meet, rectype, subtype
+from ttr import Basic, Model, Str, consistent, join, meet, rectype, subtype
+from ttr.computing.case_analysis import cases
 from ttr.computing.case_search import open_cases
+from ttr.computing.prover import Prover
 from ttr.computing.satisfiability import Search
 from ttr.errors import RefusedError
 from ttr.signature.axioms import find_exclusion, supertype_set
@@ -153,17 +156,40 @@ def test_so_are_fields_of_them(S, T, S2, T2, theory):
 @given(BOOLEAN, theories)
 def test_the_open_cases_are_the_type(S, theory):
     """Whatever is of S is of one of them, and whatever is of one of them is of S."""
-    cases = list(open_cases(S, None, theory, lambda case: False))
+    found = list(open_cases(S, None, theory, lambda case: False))
     for world in worlds(theory):
-        assert is_of(world, S) == any(is_of(world, case) for case in cases)
+        assert is_of(world, S) == any(is_of(world, case) for case in found)
 
 
 @given(BOOLEAN, BOOLEAN, theories)
 def test_the_cases_that_are_left_out_are_below(S, T, theory):
-    cases = list(open_cases(S, T, theory, lambda case: False))
+    found = list(open_cases(S, T, theory, lambda case: False))
     for world in worlds(theory):
         if is_of(world, S) and not is_of(world, T):
-            assert any(is_of(world, case) for case in cases)
+            assert any(is_of(world, case) for case in found)
+
+
+@given(types(), types(), types())
+def test_for_all_types_it_finds_a_possible_case_iff_there_is_one(S, T, U):
+    for whole in (meet(S, join(T, U)), meet(join(S, T), join(T, U), join(~S, U))):
+        every = cases(whole)
+        if every is None:
+            continue
+        possible = [one for one in every if not is_impossible(one)]
+        found = list(open_cases(whole, None, THEORIES[0], is_impossible))
+        assert bool(found) == bool(possible)
+        assert not any(map(is_impossible, found))
+
+
+def is_impossible(case: TypeNode) -> bool:
+    return Prover.for_type(case, THEORIES[0]).is_impossible
+
+
+def test_what_matters_of_a_record_is_also_that_it_is_one():
+    record = rectype(x=A @ "a" | B, y=A | B @ "b")
+    other = ((C >> D) & ~C) | Str(A @ "a" | B @ "b")
+    assert consistent(record | Str(D), other).yes
+    assert consistent(record | Str(D), C >> D).no
 
 
 @pytest.mark.slow

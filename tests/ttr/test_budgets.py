@@ -333,8 +333,8 @@ def test_a_statement_that_is_too_large_is_a_mistake_where_it_stands(tmp_path, ca
 def test_the_command_takes_the_number_of_steps(tmp_path, capsys):
     file = tmp_path / "small.ttr"
     file.write_text(
-        "basic A\nT := [l : A, r : A]\nU := [l : T, r : T]\n"
-        "check [l : U, r : U] <= [l : U]\n"
+        "basic A, B\nA <: B\nT := [l : A, r : A]\nU := [l : T, r : T]\n"
+        "V := [l : B, r : B]\ncheck [l : U, r : U] <= [l : [l : V, r : V]]\n"
     )
     assert main(["check", str(file)]) == 0
     assert main(["check", str(file), "--steps", "40", "--json"]) == 1

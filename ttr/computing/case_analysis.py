@@ -17,6 +17,7 @@ from ttr.computing.strings.pieces import is_of_strings
 from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
 from ttr.types.derived_types import order_fields
+from ttr.types.interning import cache_on_node
 from ttr.types.syntax import (
     Join,
     Meet,
@@ -34,22 +35,19 @@ _CASES = 256
 Clause = tuple[TypeNode, ...]
 
 
+@cache_on_node
 def has_cases(T: TypeNode) -> bool:
     """Has T a join or a negation that can be split into cases?"""
     match T:
         case Join() | Negation():
             return True
         case Meet(parts):
-            spend(len(parts))
             return any(map(has_cases, parts))
         case Str(parts):
-            spend(len(parts))
             return any(has_cases(part) for part in parts if not is_of_strings(part))
         case RecordType(fields):
-            spend(len(fields))
             return any(has_cases(field) for _, field in fields)
         case Singleton(base, _):
-            spend()
             return has_cases(base)
     return False
 

@@ -203,15 +203,17 @@ class _CaseSearch:
                 return _Some(tuple([self._formula(U, place) for U in parts]))
         if not has_cases(T):
             return self._literal(place, T)
+        inner: list[_Formula] = []
         match T:
             case RecordType(fields):
-                return _All(tuple([self._formula(U, (*place, k)) for k, U in fields]))
+                inner = [self._formula(U, (*place, k)) for k, U in fields]
             case Singleton(base, _):
-                return _All((self._literal(place, T), self._formula(base, place)))
+                inner = [self._formula(base, place)]
             case Str(items):
                 inner = [self._formula(U, at) for U, at in _pieces(T, items, place)]
-                return _All(tuple(inner))
-        return self._literal(place, T)
+        # That it has this form is claimed, too, whatever of its parts turns out to
+        # matter.
+        return _All((self._literal(place, T), *inner))
 
     def _denial(self, T: TypeNode, place: _Place) -> _Formula:
         """What is at a place is not of T."""

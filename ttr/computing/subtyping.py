@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases, clauses, has_cases
 from ttr.computing.case_search import open_cases
+from ttr.computing.comparison_by_form import is_below_by_form
 from ttr.computing.findings import YES, Finding
 from ttr.computing.generic_witness import ITSELF, Assumption
 from ttr.computing.kept_redexes import open_presupposition
@@ -189,6 +190,8 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
         return _about(subtype(*computed, theory), T, *computed)
     if S is T:
         return Answer("yes", lambda: f"{S} is below itself")
+    if is_below_by_form(S, T):
+        return Answer("yes", partial(_why_in_each_case, S, T, theory))
     if clauses(T) is None:
         answer = _by_contradiction(S, T, theory)
     else:
@@ -225,6 +228,8 @@ def _in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
 
 
 def _why_in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> str:
+    if not has_cases(S):
+        return _why_by_form(S, T)
     found = cases(S)
     answers = [_in_case(case, T, theory) for case in found or (S,)]
     refuted = next((answer for answer in answers if answer.no), None)

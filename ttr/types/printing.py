@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from itertools import count
 
 from ttr.escapes import json_text
-from ttr.safety.budgets import spend
-from ttr.types.interning import Node, as_notation, as_python
+from ttr.safety.budgets import open_purse, spend
+from ttr.types.interning import as_notation, as_python, cache_on_node
 from ttr.types.objects import (
     BOUND,
     EventString,
@@ -566,5 +566,37 @@ def _python_path(up: int, labels: tuple[str, ...]) -> str:
     return ".".join([start, *labels])
 
 
-as_notation.provided_by(notation)
-as_python.provided_by(python)
+# --- what is too large to be printed ---
+
+
+def _refuse_if_too_large(value: object) -> None:
+    """Refuse at once what would not be printed within the budget."""
+    purse = open_purse()
+    if purse is not None and isinstance(value, TypeNode | Function):
+        least = _least_steps(value)
+        if least > purse.left:
+            spend(least)
+
+
+@as_notation.provided_by
+def _print_notation(value: object) -> str:
+    _refuse_if_too_large(value)
+    return notation(value)
+
+
+@as_python.provided_by
+def _print_python(value: object) -> str:
+    _refuse_if_too_large(value)
+    return python(value)
+
+
+@cache_on_node
+def _least_steps(value: TypeNode | Function) -> int:
+    """No more than the steps that printing a value takes: one for each field in it.
+
+    A type that stands in several places is printed in each of them, and counted once.
+    """
+    inside = (part for inner in contents(value) for part in inner)
+    kept = [part for part in inside if isinstance(part, TypeNode | Function)]
+    own = len(value.fields) if isinstance(value, RecordType) else 0
+    return own + sum(map(_least_steps, kept))
