@@ -145,14 +145,11 @@ class _Normaliser:
     def _of_node(self, value: Node, around: _Scopes) -> Object:
         """The normal form of a type or function, once where it stands several times."""
         outward = max((path.up + 1 for path in free_paths(value)), default=0)
-        if outward == 0:
-            return self._of_closed(value)
-        key = (value, *around[:outward])
-        if key not in self._made:
-            self._made[key] = self._compute(value, around)
-        return self._made[key]
-
-    def _of_closed(self, value: Node) -> Object:
+        if outward:
+            key = (value, *around[:outward])
+            if key not in self._made:
+                self._made[key] = self._compute(value, around)
+            return self._made[key]
         known = self._known.get(value)
         if known is None:
             known = self._find(value)
@@ -206,11 +203,7 @@ class _Normaliser:
                 scope = _Scope({BOUND: _move_in(kind)}, name=hint)
                 return type(value)(kind, self.of(inside, (scope, *around)), hint)
             case Application(function, argument):
-                return self._application(
-                    self.of(function, around), self.of(argument, around), around
-                )
-            case TypeAt(term):
-                return self._type_at(self.of(term, around))
+                return self._application(function, self.of(argument, around), around)
             case Merge():
                 merged = map_parts(value, lambda part, _: self.of(part, around))
                 again = isinstance(merged, TypeNode) and not isinstance(merged, Merge)
@@ -226,7 +219,7 @@ class _Normaliser:
         scope = _Scope()
         within = (scope, *around)
         for label, kind in T.fields:
-            found = self._type(kind, within)
+            found: TypeNode = self.of(kind, within)
             if not labels_mentioned(found) <= scope.types.keys():
                 scope.circular.add(label)
             scope.types[label] = found
@@ -277,24 +270,41 @@ class _Normaliser:
     def _application(
         self, function: Object, argument: Object, around: _Scopes
     ) -> Object:
-        whole = Application(function, argument)
+        """The value of a function for a normal argument, or the application itself.
+
+        The body of a function that is written out is not computed before it has its
+        argument: so one that doubles another costs no more than that.
+        """
+        is_normal = not isinstance(function, Function) or _is_plain(function)
+        if is_normal:
+            function = self.of(function, around)
         if not isinstance(function, Function):
-            return whole
-        derived = _Derivation(self._theory, around, argument, function.domain)
+            return Application(function, argument)
+        domain = function.domain if is_normal else self._type(function.domain, around)
+        derived = _Derivation(self._theory, around, argument, domain)
         if derived.is_derivable:
             value = substitute_variable(function.body, argument)
-            if _stays_normal(function.body, argument):
+            if is_normal and _stays_normal(function.body, argument):
                 return value
             return self.of(value, around)
         if self._is_strict and derived.is_impossible:
             names = tuple([one.name or frozenset(one.types) for one in around])
             domain, of = notation(function.domain, names), derived.type
             raise IllFormedError(
-                f"{notation(function, names)} takes objects of {domain}, "
-                f"and {notation(argument, names)} cannot be one"
-                + (f", as it is of {notation(of, names)}" if of else "")
+                f"{notation(function)} takes objects of {notation(domain)}, "
+                f"and {notation(argument)} cannot be one"
+                + (f", as it is of {derived.type}" if derived.type else "")
             )
-        return whole
+        return Application(self.of(function, around), argument)
+
+
+def _is_plain(function: Function) -> bool:
+    """Is it plain from the form of a function that it is normal?"""
+    return not (free_paths(function) or any(mentions(function, it) for it in _COMPUTED))
+
+
+_COMPUTED = (Application, Merge, Singleton)
+"""What has a value, or gives one to a path."""
 
 
 def _stays_normal(body: Object, argument: Object) -> bool:
