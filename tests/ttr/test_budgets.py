@@ -208,6 +208,20 @@ def _negated(times: int) -> TypeNode:
     return T
 
 
+ENDED = {"create": "`create`", "merge": "`subtype`", "print": "printing"}
+"""What was being asked when the budget ended."""
+
+
+@pytest.mark.parametrize("name", ENDED)
+def test_the_error_says_what_was_asked_when_it_ended(name):
+    with ttr.budget(steps=FEW), pytest.raises(TooLargeError) as raised:
+        RAISED[name]()
+    assert raised.value.hint == (
+        f"it ended in {ENDED[name]}: ask for less, or allow more steps (ttr.budget, "
+        "or --steps)"
+    )
+
+
 @pytest.mark.parametrize("name", RAISED)
 def test_what_has_no_unknown_raises(name):
     with ttr.budget(steps=FEW), pytest.raises(TooLargeError, match="too large: it"):

@@ -33,7 +33,12 @@ EACH = 1_000
 
 
 class BudgetSpentError(BaseException):
-    """The budget is used up; only the question that opened it catches this."""
+    """The budget is used up; only the question that opened it catches this.
+
+    `asked` is the question that was being asked when it ended.
+    """
+
+    asked: str = ""
 
 
 class Purse:
@@ -58,11 +63,21 @@ class SharedPurse(Purse):
         self.left += EACH * questions
 
 
-def _too_large(reason: str) -> TooLargeError:
+def _too_large(reason: str, asked: str) -> TooLargeError:
+    where = f"it ended in {asked}: " if asked else ""
     return TooLargeError(
         f"too large: {reason}",
-        hint="ask for less, or allow more steps (ttr.budget, or --steps)",
+        hint=f"{where}ask for less, or allow more steps (ttr.budget, or --steps)",
     )
+
+
+_IN_WORDS = {"__str__": "printing", "__repr__": "printing"}
+
+
+def _name_of(function: Callable[..., object]) -> str:
+    """The name of a question; empty for what users do not know."""
+    name = getattr(function, "__name__", "")
+    return _IN_WORDS.get(name, "" if name.startswith("_") else f"`{name}`")
 
 
 _purse: ContextVar[Purse | None] = ContextVar("purse", default=None)
@@ -131,12 +146,11 @@ def one_of_several(purse: SharedPurse) -> Iterator[None]:
     token = _purse.set(own)
     try:
         yield
-    except BudgetSpentError:
-        if mine == allowed:
-            raise _too_large(f"it takes more than {mine:,} steps") from None
-        raise _too_large(
-            f"with what comes before, it takes more than {purse.steps:,} steps"
-        ) from None
+    except BudgetSpentError as end:
+        reason = f"it takes more than {mine:,} steps"
+        if mine != allowed:
+            reason = f"with what comes before, it takes more than {purse.steps:,} steps"
+        raise _too_large(reason, end.asked) from None
     finally:
         _purse.reset(token)
         spent = mine - own.left
@@ -188,6 +202,9 @@ def _within_budget(
                 return function(*args, **kwargs)
             except RecursionError:
                 raise _nests_too_deep() from None
+            except BudgetSpentError as end:
+                end.asked = end.asked or _name_of(function)
+                raise
         purse = Purse()
         purse.left = steps = allowed()
         token = _purse.set(purse)
@@ -195,8 +212,9 @@ def _within_budget(
             return function(*args, **kwargs)
         except RecursionError:
             raise _nests_too_deep() from None
-        except BudgetSpentError:
-            error = _too_large(f"it takes more than {steps:,} steps")
+        except BudgetSpentError as end:
+            asked_last = end.asked or _name_of(function)
+            error = _too_large(f"it takes more than {steps:,} steps", asked_last)
         finally:
             _purse.reset(token)
         if otherwise is None:
