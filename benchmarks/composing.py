@@ -319,14 +319,14 @@ def uncertain(linked: bool) -> tuple[Model, list[Basic]]:
     M = Model()
     for i in range(INDIVIDUALS):
         for number, T in enumerate(types):
-            if linked and number > 1:
-                at_least = [(f"o{i}", types[number - 2])]
-                M = M.given(f"o{i}", T, (0.3, 0.8), when=at_least)
-            elif linked and number:
-                M = M.given(f"o{i}", T, 0.5, when=[(f"o{i}", types[0])])
+            sit = f"o{i}"
+            p = (0.3, 0.8) if number % 2 else 0.5
+            if linked and number:
+                before = types[number - 1]
+                M = M.given(sit, T, p, when=[(sit, before)])
+                M = M.given(sit, T, 0.1, when=[(sit, ~before)])
             else:
-                p = (0.3, 0.8) if number % 2 else 0.5
-                M = M.given(f"o{i}", T, p)
+                M = M.given(sit, T, p)
     return M, types
 
 
@@ -334,6 +334,8 @@ def chance_of(linked: bool) -> Callable[[], Task]:
     def make() -> Task:
         M, types = uncertain(linked)
         T = meet(*[one | ~other for one, other in zip(types[1:], types, strict=False)])
+        if linked:
+            T = meet(*types[1:7], ~types[8], types[9])
         return lambda: M.chance(T, when=types[0]).p.hi < 1.0
 
     return make
@@ -385,7 +387,7 @@ QUESTIONS: dict[str, Question] = {
     "a 4-cycle that is there": Question(cycle(4, True), "1", 100),
     "a 4-cycle that is not": Question(cycle(4, False), "0", 100),
     "chance of 3 × 10 atoms": Question(chance_of(False), True, 1000),
-    "the same, linked": Question(chance_of(True), True, 1000),
+    "chance, linked": Question(chance_of(True), True, 1000),
     "some of 3 × 10 atoms": Question(some_of(False), True, 1000),
     "some, linked": Question(some_of(True), True, 1000),
 }

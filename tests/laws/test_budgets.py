@@ -68,3 +68,22 @@ def test_a_normal_form_costs_the_same_whatever_was_asked_before(words):
     # Which paths lead out of a type is kept with it.
     assert fresh * 0.9 <= steps(theory, whole) <= fresh * 1.1
     assert steps(theory, whole) == steps(theory, whole)
+
+
+@given(st.lists(st.sampled_from(WORDS), max_size=3), st.integers(1, 900))
+def test_a_normal_form_is_the_whole_one_or_none(words, steps):
+    """A budget that ends in a presupposition leaves no application that is kept."""
+    phrase = "Dog"
+    for word in words:
+        phrase = f"{word}({phrase})"
+    theory = Theory.parse(LEXICON)
+    sentence = theory.parse(f"Every({phrase})(Dog)")
+    try:
+        with ttr.budget(steps=steps):
+            short = normal_form(sentence, theory)
+    except TooLargeError:
+        short = None
+    whole = normal_form(sentence, theory)  # nothing half done was kept
+    other = Theory.parse(LEXICON)
+    assert whole is normal_form(other.parse(f"Every({phrase})(Dog)"), other)
+    assert short is None or short is whole

@@ -361,7 +361,14 @@ _CLAUSES: Mapping[type[TypeNode], str] = {
 
 
 class _Derivation(Evaluator[Why]):
-    """Gives the degree and the derivation of a claim."""
+    """Gives the degree and the derivation of a claim.
+
+    What other judgements leave of an uncertain one is worked out once for each.
+    """
+
+    def __init__(self, facts: Assignment) -> None:
+        self.facts = facts
+        self._adjusted: dict[object, Why] = {}
 
     def conclude(
         self, sit: Object, T: TypeNode, p: Degree, rule: str, where: str
@@ -393,7 +400,12 @@ class _Derivation(Evaluator[Why]):
         p, rule = self.facts.degree_of(sit, T)
         asked = self.facts if p == REFUTED else None
         why = Why(sit, T, p, rule, where=where, facts=asked)
-        return why if p in (CERTAIN, REFUTED) else self._adjust_for_dependence(why)
+        if p in (CERTAIN, REFUTED):
+            return why
+        key = identity(sit), T, where
+        if key not in self._adjusted:
+            self._adjusted[key] = self._adjust_for_dependence(why)
+        return self._adjusted[key]
 
     def _adjust_for_dependence(self, why: Why) -> Why:
         """An uncertain judgement with the degree that others it depends on leave it."""

@@ -129,14 +129,28 @@ def conjunction(component: Component, truth: Truth, given: Truth) -> Degree | No
     found = []
     for tables in corners or ():
         mine = _joint([_fix_values(table, both) for table in tables], ())
-        whole = _joint([_fix_values(table, given) for table in tables], ())
+        whole = _weight_of(tables, given)
         if mine is None or whole is None:
             return None
-        if whole[()] > 0:
-            found.append(Fraction(mine[()], whole[()]))
+        if whole > 0:
+            found.append(Fraction(mine[()], whole))
     if corners is not None and not found:
         raise ImpossibleError
     return order_ends(float(min(found)), float(max(found))) if found else None
+
+
+def _weight_of(tables: list[Table], given: Truth) -> int | None:
+    """The weight of all cases in which something is so; None for too wide tables."""
+    if not given:
+        return prod([_unit(weights) for _, weights in tables])
+    joint = _joint([_fix_values(table, given) for table in tables], ())
+    return None if joint is None else joint[()]
+
+
+def _unit(weights: Mapping[Case, int]) -> int:
+    """What the weights of an atom come to, whatever its parents are."""
+    (_, *on), weight = next(iter(weights.items()))
+    return weight + weights[False, *on]
 
 
 def _product(component: Component, parents: Parents, truth: Truth) -> Degree:
