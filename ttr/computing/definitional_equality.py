@@ -43,5 +43,6 @@ def equal(left: Object, right: Object, theory: Signature | None = None, /) -> An
     if identity(one) == identity(other):
         return Answer("yes", lambda: f"both compute to {notation(one)}")
     if any(next(kept_redexes(value), None) for value in (one, other)):
-        return Answer("unknown", partial(open_presupposition, one, other))
+        text = signature_of(theory).spelling
+        return Answer("unknown", partial(open_presupposition, one, other, text=text))
     return Answer("no", lambda: f"{notation(one)} is not {notation(other)}")

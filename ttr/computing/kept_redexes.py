@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from ttr.safety.budgets import spend
 from ttr.types.objects import Object
 from ttr.types.paths import map_parts, mentions, subterms
-from ttr.types.printing import Scope, notation
+from ttr.types.printing import Scope, labels_of, notation, variable
 from ttr.types.syntax import Application, Function, FunType, RecordType
 
 
@@ -23,8 +23,10 @@ def kept_redexes(value: Object) -> Iterator[Application]:
                 yield part
 
 
-def open_presupposition(*values: Object) -> str:
+def open_presupposition(*values: Object, text: Scope = ()) -> str:
     """What is not known, so that a redex is kept in one of the normal forms; or "".
+
+    It is written as in the text, if there is one.
 
     >>> from ttr import Ind, Pred, Rec, fun, outer, rectype, this
     >>> Man = fun(y=Ind)(rectype(e=Pred("man", Ind)(outer.y)))
@@ -33,7 +35,7 @@ def open_presupposition(*values: Object) -> str:
     """
     for value in values:
         if next(kept_redexes(value), None) is not None:
-            for kept, scope in _with_scopes(value, ()):
+            for kept, scope in _with_scopes(value, text):
                 return _format_presupposition(kept, scope)
     return ""
 
@@ -62,10 +64,10 @@ def _with_scopes(value: Object, scope: Scope) -> Iterator[tuple[Application, Sco
         case Application(Function(), _):
             yield value, scope
         case RecordType(fields):
-            inner = (frozenset(value.labels), *scope)
+            inner = (labels_of(value), *scope)
             parts = [(field, inner) for _, field in fields]
-        case Function(domain, inside, hint) | FunType(domain, inside, hint):
-            parts = [(domain, scope), (inside, (hint, *scope))]
+        case Function(domain, inside) | FunType(domain, inside):
+            parts = [(domain, scope), (inside, (variable(value, scope), *scope))]
         case _:
             map_parts(value, collect)
     for part, within in parts:

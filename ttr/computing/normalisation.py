@@ -35,7 +35,7 @@ from ttr.types.paths import (
     shift_paths,
     subterms,
 )
-from ttr.types.printing import notation
+from ttr.types.printing import Scope, notation, variable
 from ttr.types.substitution import field_type, follow_labels, substitute_variable
 from ttr.types.syntax import (
     Application,
@@ -76,13 +76,13 @@ def normal_form(value: Object, theory: Signature | None = None, /) -> Object:
 class _Scope:
     """The types at the labels of a record type, or at a variable, as seen inside.
 
-    Fields that depend on each other in a circle are known, but lead nowhere. Errors
-    call a variable by its `name`.
+    Fields that depend on each other in a circle are known, but lead nowhere. `binder`
+    is what binds the variable.
     """
 
     types: dict[str, TypeNode] = field(default_factory=dict)
     circular: set[str] = field(default_factory=set)
-    name: str = ""
+    binder: Function | FunType | None = None
 
 
 _Scopes = tuple[_Scope, ...]
@@ -200,10 +200,12 @@ class _Normaliser:
                 return self._record_type(value, around)
             case Function(domain, inside) | FunType(domain, inside):
                 kind = self._type(domain, around)
-                scope = _Scope({BOUND: _move_in(kind)}, name=hint)
-                return type(value)(kind, self.of(inside, (scope, *around)), hint)
+                scope = _Scope({BOUND: _move_in(kind)}, binder=value)
+                return type(value)(kind, self.of(inside, (scope, *around)))
             case Application(function, argument):
                 return self._application(function, self.of(argument, around), around)
+            case TypeAt(term):
+                return self._type_at(self.of(term, around))
             case Merge():
                 merged = map_parts(value, lambda part, _: self.of(part, around))
                 again = isinstance(merged, TypeNode) and not isinstance(merged, Merge)
@@ -288,12 +290,12 @@ class _Normaliser:
                 return value
             return self.of(value, around)
         if self._is_strict and derived.is_impossible:
-            names = tuple([one.name or frozenset(one.types) for one in around])
-            domain, of = notation(function.domain, names), derived.type
+            names = _names(around, self._theory)
+            of = notation(derived.type, names) if derived.type else ""
             raise IllFormedError(
-                f"{notation(function)} takes objects of {notation(domain)}, "
-                f"and {notation(argument)} cannot be one"
-                + (f", as it is of {derived.type}" if derived.type else "")
+                f"{notation(function, names)} takes objects of "
+                f"{notation(domain, names)}, and {notation(argument, names)} cannot be "
+                "one" + (f", as it is of {of}" if of else "")
             )
         return Application(self.of(function, around), argument)
 
@@ -318,6 +320,16 @@ def _stays_normal(body: Object, argument: Object) -> bool:
     if mentions(body, Application) or mentions(body, Merge):
         return False
     return all(path.up > 0 or path.labels == (BOUND,) for path in free_paths(body))
+
+
+def _names(around: _Scopes, theory: Signature) -> Scope:
+    """The names of what stands around, as the text of the theory has them."""
+    scope = theory.spelling
+    for one in reversed(around):
+        binder = one.binder
+        name = variable(binder, scope) if binder else frozenset(one.types)
+        scope = (name, *scope)
+    return scope
 
 
 def _move_in(T: TypeNode) -> TypeNode:

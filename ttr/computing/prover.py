@@ -353,15 +353,21 @@ class Prover:
         self, term: Object, T: TypeNode, known: list[TypeNode]
     ) -> bool:
         """Is the term of a join, and of T whichever part of the join it is of?"""
-        for one in known:
-            if not isinstance(one, Join):
-                continue
-            further = [self._assume_new([(term, case)]) for case in cases_or_whole(one)]
-            if self in further:
-                continue
-            if all(case.is_impossible or case.prove(term, T).yes for case in further):
-                return True
-        return False
+        joins = [one for one in known if isinstance(one, Join)]
+        joins = [one for one in joins if not any(part in known for part in one.parts)]
+        if not joins:
+            return False
+
+        def is_ruled_out(case: TypeNode) -> bool:
+            further = self._assume_new([(term, case)])
+            if further is self:
+                return False
+            return further.is_impossible or further.prove(term, T).yes
+
+        atoms = [one for one in known if isinstance(one, Basic | PType | Negation)]
+        whole = meet(*joins, *atoms)
+        wanted = self.witness.normalise(T)
+        return is_every_case_ruled_out(whole, wanted, self.theory, is_ruled_out)
 
     def _follows_from_denial(
         self, term: Object, T: TypeNode, known: list[TypeNode]

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases, clauses, has_cases
@@ -196,7 +197,7 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
         answer = _by_contradiction(S, T, theory)
     else:
         answer = (_in_each_case if has_cases(S) else _in_case)(S, T, theory)
-    return answer.about(asked)
+    return answer
 
 
 def _in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
@@ -231,13 +232,30 @@ def _why_in_each_case(S: TypeNode, T: TypeNode, theory: Signature) -> str:
     if not has_cases(S):
         return _why_by_form(S, T)
     found = cases(S)
-    answers = [_in_case(case, T, theory) for case in found or (S,)]
-    refuted = next((answer for answer in answers if answer.no), None)
-    if refuted is not None:
-        return refuted
-    if len(answers) > 1 and all(answer.yes for answer in answers):
-        return Answer("yes", lambda: f"each case of {S} is below {T}")
-    return next((answer for answer in answers if answer.unknown), answers[0])
+    if found and len(found) == 1:
+        return _in_case(found[0], T, theory).why
+    return f"each case of {S} is below {T}"
+
+
+def _by_contradiction(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
+    """The answer for a T of very many clauses: can something be of S and not of T?"""
+    left_open = False
+    for case in islice(_possible_cases(meet(S, Negation(T)), theory), TRIED):
+        against = Refutation(case, T, theory)
+        answer = Answer("no", partial("{} is not below {}".format, S, T), against)
+        if answer.counter is not None:
+            return answer
+        left_open = True
+    if left_open:
+        return Answer("unknown", partial("{} may not be below {}".format, S, T))
+    return Answer("yes", partial("each case of {} is below {}".format, S, T))
+
+
+def _possible_cases(T: TypeNode, theory: Signature) -> Iterator[TypeNode]:
+    """The cases of a type of which it is not derivable that nothing is of them."""
+    return open_cases(
+        T, None, theory, lambda case: Prover.for_type(case, theory).is_impossible
+    )
 
 
 def _about(answer: Answer, asked: TypeNode, *computed: TypeNode) -> Answer:
@@ -269,10 +287,8 @@ def _refute(prover: Prover, T: TypeNode, found: Finding) -> Answer:
     answer = Answer("no", lambda: found.why, refutation)
     if is_decided(prover, T) or answer.counter is not None:
         return answer
-    if answer.counter is not None:
-        return answer
     open_ = partial(_why_open, found, S, T)
-    if certain:
+    if prover.witness.is_certain:
         return Answer("unknown", open_)
     return Answer("unknown", lambda: f"{open_()}, but nothing may be of {S}")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import BuiltinFunctionType, FunctionType, ModuleType, NoneType
-from typing import TYPE_CHECKING
 
 from ttr.display.abbreviations import abbreviator
 from ttr.display.html import derivation_as_html, layout_as_html
@@ -14,12 +13,10 @@ from ttr.display.text import derivation_as_text, layout_as_text
 from ttr.errors import IllFormedError
 from ttr.judging.judgements import Judgement, Why, mark
 from ttr.safety.budgets import within_budget
+from ttr.signature.signature import Signature, signature_of
 from ttr.types.interning import Node
 from ttr.types.notebook_display import NotebookValue, as_html, as_latex
 from ttr.types.objects import Object, Record, freeze
-
-if TYPE_CHECKING:
-    from ttr.signature.signature import Signature
 
 
 @within_budget

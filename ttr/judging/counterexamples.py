@@ -26,15 +26,26 @@ from ttr.safety.budgets import spend
 from ttr.signature.signature import Signature
 from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object, Path, UnresolvedError
-from ttr.types.paths import free_paths, map_parts, mentions, replace_paths
+from ttr.types.paths import (
+    free_paths,
+    map_parts,
+    mentions,
+    paths_to_types,
+    replace_paths,
+    subterms,
+)
 from ttr.types.substitution import follow_path
 from ttr.types.syntax import (
+    Basic,
     ListOf,
     Negation,
     NonEmpty,
     RecordType,
     SetOf,
+    Singleton,
+    TypeAt,
     TypeNode,
+    Universe,
     meet,
 )
 
@@ -74,6 +85,22 @@ def _starts(refutation: Refutation) -> list[Start]:
     others = tuple([pair for pair in assumed if pair[0] is not ITSELF])
     narrower = [one for pair in others if (one := _with_part(S, *pair)) is not None]
     return [*((one, ()) for one in narrower), (meet(S, *of_it), others), (S, ())]
+
+
+def _tell_types_apart(S: TypeNode) -> TypeNode:
+    """S where each field that others have as their type is a basic type of its own."""
+    if not isinstance(S, RecordType) or not mentions(S, TypeAt):
+        return S
+    used = {path.labels for _, field in S.fields for path in paths_to_types(field)}
+    taken = {part.name for part in subterms([S]) if isinstance(part, Basic)}
+    new = (name for n in count(1) if (name := f"A{n}") not in taken)
+    fields = {
+        label: Singleton(field, Basic(next(new)))
+        if (label,) in used and isinstance(field, Universe)
+        else field
+        for label, field in S.fields
+    }
+    return RecordType(order_fields(fields))
 
 
 def _with_what_is_denied(refutation: Refutation) -> list[Start]:

@@ -30,6 +30,7 @@ from ttr.judging.evaluator import (
     make_witness,
     reduce_applications,
 )
+from ttr.judging.open_terms import TermFinder
 from ttr.judging.truth_of_types import IsTrue
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import spend
@@ -78,6 +79,8 @@ from ttr.types.syntax import (
     TypeNode,
     Universe,
     as_type,
+    join,
+    meet,
 )
 
 
