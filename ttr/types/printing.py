@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from itertools import count
 
 from ttr.escapes import json_text
-from ttr.safety.budgets import open_purse, spend
+from ttr.safety.budgets import spend
 from ttr.types.interning import Node, as_notation, as_python, cache_on_node
 from ttr.types.objects import (
     BOUND,
@@ -127,6 +127,7 @@ class TypeVariable(str):
         return frozenset((self,))
 
 
+@cache_on_node
 def labels_of(T: RecordType) -> frozenset[str]:
     """The labels of a record type, as a scope.
 
@@ -176,11 +177,12 @@ def may_hold_types(T: TypeNode) -> bool:
 
 def hides_type(scope: Scope, name: str) -> bool:
     """Does a label or variable around hide the declared type of its name?"""
-    hiding = [names for names in scope if isinstance(names, _HIDING)]
-    return any(name in names.of_types for names in hiding)
-
-
-_HIDING = (Labels, TypeVariable)
+    for names in scope:
+        if type(names) is frozenset or type(names) is str:
+            continue
+        if isinstance(names, Labels | TypeVariable) and name in names.of_types:
+            return True
+    return False
 
 
 def notation(value: Object, scope: Scope = ()) -> str:
