@@ -55,6 +55,7 @@ from ttr.types.paths import (
     subterms,
 )
 from ttr.types.printing import notation
+from ttr.types.records import field_at
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Application,
@@ -207,16 +208,32 @@ def _settle_fields(T: RecordType) -> RecordType:
 
 def _choose_types(T: RecordType) -> Iterator[RecordType]:
     """The type with each field that other fields have as their type made manifest."""
-    used = {path.labels for _, field in T.fields for path in paths_to_types(field)}
-    open_ = [k for k, field in T.fields if (k,) in used and type(field) is Universe]
+    used = {path for _, field in T.fields for path in paths_to_types(field)}
+    places = sorted({path.labels for path in used if path.up == 0})
+    open_ = [
+        (place, field)
+        for place in places
+        if isinstance(field := field_at(T, place), Universe)
+    ]
     basics = [part for part in subterms([T]) if isinstance(part, Basic)]
     known = tuple(dict.fromkeys((Ind, Rec, *sort_canonically(basics))))
-    choices = [(*known, _type(T[label], 1)) for label in open_]  # type: ignore[arg-type]
+    choices = [(*known, _type(field, 1)) for _, field in open_]
     for chosen in islice(product(*choices), TRIED) if open_ else ():
-        fields = dict(T.fields)
-        for label, one in zip(open_, chosen, strict=True):
-            fields[label] = Singleton(fields[label], one)
-        yield RecordType(order_fields(fields))
+        found = T
+        for (place, field), one in zip(open_, chosen, strict=True):
+            found = _with_field_at(found, place, Singleton(field, one))
+        yield found
+
+
+def _with_field_at(
+    T: RecordType, place: tuple[str, ...], field: TypeNode
+) -> RecordType:
+    """The record type with another field at a place in it."""
+    first, *rest = place
+    inner = T[first]
+    if isinstance(inner, RecordType) and rest:
+        field = _with_field_at(inner, tuple(rest), field)
+    return RecordType(order_fields({**dict(T.fields), first: field}))
 
 
 def _from_witness(place: Path) -> Path:
