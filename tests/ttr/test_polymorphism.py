@@ -122,6 +122,11 @@ POLYMORPHIC = {
         "\\f:((x : Ind) -> (P(x) -> Q(x))). \\x:Ind. \\e:P(x). f(x)(e)) : "
         "((P : (Ind -> Type)) -> ((Q : (Ind -> Type)) -> "
         "(((x : Ind) -> (P(x) -> Q(x))) -> ((x : Ind) -> (P(x) -> Q(x))))))",
+        # merges wait for what is merged
+        "(\\R:RecType. merge(R, [x : Ind])) : (RecType -> RecType)",
+        "(\\R:RecType. merge(R, [x : Ind]))([y : Ind]) = [x : Ind, y : Ind]",
+        "not (\\R:Type. merge(R, [x : Ind])) : (Type -> RecType)",
+        "(\\R:Type. R /\\ list(R)) : (Type -> Type)",
         # levels
         "((A : Type) -> (A -> A)) : Type^1",
         "not ((A : Type) -> (A -> A)) : Type",

@@ -41,7 +41,15 @@ from ttr.signature.axioms import find_exclusion, supertypes
 from ttr.signature.conditional_axioms import Way, ways_to_follow
 from ttr.signature.signature import Signature
 from ttr.types.interning import identity
-from ttr.types.objects import EventString, FiniteSet, Object, Operation, Path, Record
+from ttr.types.objects import (
+    EventString,
+    FiniteSet,
+    Object,
+    Operation,
+    Path,
+    Record,
+    freeze,
+)
 from ttr.types.paths import free_paths, paths_to_types, replace_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import field_type, substitute_variable
@@ -280,7 +288,7 @@ class Prover:
 
     def _prove_universe(self, term: Object, T: Universe, where: Where) -> Finding:
         if isinstance(term, Merge):
-            return every(self.prove(part, T, where) for part in term.parts)
+            return every(self.prove(freeze(part), T, where) for part in term.parts)
         if isinstance(term, TypeNode) and not isinstance(term, Application):
             outside = why_outside(term, T)
             if not outside:
