@@ -30,7 +30,7 @@ from ttr.types.paths import (
     free_paths,
     labels_mentioned,
     map_parts,
-    mentions,
+    mentions_any,
     replace_paths,
     shift_paths,
     subterms,
@@ -479,7 +479,7 @@ def check_computable(value: Object, theory: Signature) -> None:
                 _check_values(part)
             case PType(pred, args):
                 _check_individuals(pred, args)
-    if mentions(value, Application) or mentions(value, TypeAt):
+    if mentions_any(value, _REFUSED):
         normal_form(value, theory)
 
 
@@ -505,12 +505,19 @@ def _check_values(T: RecordType) -> None:
         )
 
 
+_REFUSED = frozenset((Application, TypeAt))
+"""The kinds of types of which some are ill-formed for what they compute to."""
+
+_COMPUTED = frozenset((*_REFUSED, Merge))
+"""The kinds of types that may compute to others."""
+
+
 def normal_value(value: Object, theory: Signature) -> Object:
     """What a type or object computes to; what is ill-formed in it is kept.
 
     Nothing is of a type that is ill-formed.
     """
-    if not any(mentions(value, kind) for kind in (Application, Merge, TypeAt)):
+    if not mentions_any(value, _COMPUTED):
         return value
     return _compute_normal_value(value, theory)
 

@@ -45,17 +45,17 @@ def freeze(value: object) -> Object:
     (1, record(x='fido'))
     """
     kind = type(value)
-    if kind is str or kind is Record:
+    if kind not in _TAKEN_FOR_NOTATION:
         return value
     if kind is list or kind is tuple:
         return _freeze_each(tuple(value))  # type: ignore[arg-type]
     if kind is dict:
         return Record(value)  # type: ignore[arg-type]
-    if kind is set or kind is frozenset:
-        return FiniteSet(*value)  # type: ignore[misc]
+    if isinstance(value, set | frozenset):
+        return FiniteSet(*value)
     if isinstance(value, TermAsType):
         return value.term
-    return value._path() if isinstance(value, WrittenPath) else value
+    return value._path()  # type: ignore[attr-defined]
 
 
 def _freeze_each(values: tuple[object, ...]) -> tuple[Object, ...]:

@@ -179,6 +179,16 @@ def mentions(value: Object, kind: type[TypeNode]) -> bool:
     return kind in _kinds(value)
 
 
+def mentions_any(value: Object, kinds: frozenset[type]) -> bool:
+    """Does a type of one of these kinds stand in the value, or is it one?
+
+    >>> from ttr import Ind
+    >>> mentions_any(ListOf(~Ind), frozenset((Negation, Meet)))
+    True
+    """
+    return not kinds.isdisjoint(_kinds(value))
+
+
 def _kinds(value: Object) -> frozenset[type]:
     """The kinds of the types in a value, its own included."""
     if type(value) is str:
