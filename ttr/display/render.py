@@ -13,7 +13,7 @@ from ttr.display.text import derivation_as_text, layout_as_text
 from ttr.errors import IllFormedError
 from ttr.judging.judgements import Judgement, Why, mark
 from ttr.safety.budgets import within_budget
-from ttr.signature.signature import Signature, signature_of
+from ttr.signature.signature import Signature
 from ttr.types.interning import Node
 from ttr.types.notebook_display import NotebookValue, as_html, as_latex
 from ttr.types.objects import Object, Record, freeze
@@ -89,7 +89,7 @@ _ToLayout = Callable[[Object], Layout]
 
 def _layout_function(theory: Signature | None, unfold: int | None) -> _ToLayout:
     fold = abbreviator(theory, unfold)
-    text = signature_of(theory).spelling
+    text = theory.spelling if isinstance(theory, Signature) else ()
     return lambda value: layout_of(fold(value), fold.spelling(text))
 
 
