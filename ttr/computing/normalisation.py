@@ -475,7 +475,7 @@ def check_computable(value: Object, theory: Signature) -> None:
     """
     for part in subterms([value]):
         match part:
-            case RecordType():
+            case RecordType() if mentions(part, Singleton):
                 _check_values(part)
             case PType(pred, args):
                 _check_individuals(pred, args)
