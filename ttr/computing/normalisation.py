@@ -72,6 +72,19 @@ def normal_form(value: Object, theory: Signature | None = None, /) -> Object:
     return _Normaliser(signature_of(theory)).of(freeze(value), ())
 
 
+_REFUSED = frozenset((Application, TypeAt))
+"""The kinds of types of which some are ill-formed for what they compute to."""
+
+_COMPUTED = frozenset((*_REFUSED, Merge))
+"""The kinds of types that may compute to others."""
+
+_SET = frozenset((Singleton,))
+"""The kinds of types that say which object something is."""
+
+_VALUED = _COMPUTED | _SET
+"""The kinds of types that compute to others, or by which a path has a value."""
+
+
 @dataclass(eq=False)
 class _Scope:
     """The types at the labels of a record type, or at a variable, as seen inside.
@@ -302,11 +315,7 @@ class _Normaliser:
 
 def _is_plain(function: Function) -> bool:
     """Is it plain from the form of a function that it is normal?"""
-    return not (free_paths(function) or any(mentions(function, it) for it in _COMPUTED))
-
-
-_COMPUTED = (Application, Merge, Singleton)
-"""What has a value, or gives one to a path."""
+    return not (free_paths(function) or mentions_any(function, _VALUED))
 
 
 def _stays_normal(body: Object, argument: Object) -> bool:
@@ -317,7 +326,7 @@ def _stays_normal(body: Object, argument: Object) -> bool:
     """
     if not (type(argument) is str or isinstance(argument, Path)):
         return False
-    if mentions(body, Application) or mentions(body, Merge):
+    if mentions_any(body, _COMPUTED):
         return False
     return all(path.up > 0 or path.labels == (BOUND,) for path in free_paths(body))
 
@@ -475,7 +484,7 @@ def check_computable(value: Object, theory: Signature) -> None:
     """
     for part in subterms([value]):
         match part:
-            case RecordType() if mentions(part, Singleton):
+            case RecordType() if mentions_any(part, _SET):
                 _check_values(part)
             case PType(pred, args):
                 _check_individuals(pred, args)
@@ -503,13 +512,6 @@ def _check_values(T: RecordType) -> None:
         raise IllFormedError(
             f"the fields of {notation(T)} are set to each other in a circle: {circle}"
         )
-
-
-_REFUSED = frozenset((Application, TypeAt))
-"""The kinds of types of which some are ill-formed for what they compute to."""
-
-_COMPUTED = frozenset((*_REFUSED, Merge))
-"""The kinds of types that may compute to others."""
 
 
 def normal_value(value: Object, theory: Signature) -> Object:

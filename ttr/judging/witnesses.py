@@ -218,6 +218,8 @@ class _Listing:
         try:
             field = resolve_paths(T[label], (fields,))
         except UnresolvedError as unresolved:
+            if self.is_partial:
+                return
             raise UnsupportedError(
                 f"the records of {T} cannot be listed: {unresolved.message}",
                 hint="fields on a cycle can be judged, but not listed",

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from itertools import count
 
 from ttr.escapes import json_text
-from ttr.safety.budgets import spend
+from ttr.safety.budgets import open_purse, spend
 from ttr.types.interning import Node, as_notation, as_python, cache_on_node
 from ttr.types.objects import (
     BOUND,
