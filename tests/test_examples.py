@@ -175,6 +175,21 @@ KEY_LINES = {
         "box: This is a lale. OK, I learned a lale.",
         "A and B have the same words: True ['bubi', 'geka', 'lale']",
     ],
+    "16_composing_meanings.py": [
+        "⎡x     : Ind         ⎤",
+        "⎣scope : [f : ((y : Ind) → ([e : dog(y)] → [e : chase(y, x)]))]⎦",
+        "equal:     no",
+        "from store: 2 readings, the same: True",
+        "red dog:   yes: each field of "
+        "[x : Ind, restr : [e : dog(x)], scope : [e : run(x)]] is there, and below",
+        "fake gun:  no",
+        "a cat:     0",
+        "refused:   \\P:(Ind -> RecType). "
+        "[x : Ind, restr : [e : man(x)], scope : P(x)] takes objects "
+        "of (Ind -> RecType), and j cannot be one, as it is of Ind",
+        "open:      unknown: it is not known that zoe is of Ind, "
+        "in (\\x:Ind. [e : man(x)])(zoe)",
+    ],
 }
 
 

@@ -27,7 +27,7 @@ from ttr.types.objects import (
     Record,
 )
 from ttr.types.paths import parts as contents
-from ttr.types.paths import replace_paths, shift_paths, subterms
+from ttr.types.paths import free_paths, replace_paths, shift_paths, subterms
 from ttr.types.precedence import (
     begins_with_bracket,
     binds,
@@ -325,8 +325,8 @@ def _binder(value: FunType | Function, scope: Scope) -> str:
 def variable(value: FunType | Function, scope: Scope) -> str:
     """The name to write for the variable: the first that is free of those for its type.
 
-    Taken are the names of the variables around, and of the labels, predicates and basic
-    types in the body. Types are called T, U, …, properties P, Q, …, other functions f,
+    Taken are the names of the variables around, of the labels, predicates and basic
+    types in the body, and of the labels further out that it is about. Types are called T, U, …, properties P, Q, …, other functions f,
     g, …, records r, s, … and anything else x, y, z. Where the scope has the spelling of
     a text, the variable is called as it is there.
 
@@ -336,6 +336,7 @@ def variable(value: FunType | Function, scope: Scope) -> str:
     """
     inside = value.body if isinstance(value, Function) else value.result
     taken = {name for name in scope if isinstance(name, str)} | RESERVED
+    taken.update(path.labels[0] for path in free_paths(inside) if path.up > 0)
     for part in subterms([inside]):
         match part:
             case RecordType():
