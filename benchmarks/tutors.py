@@ -1,0 +1,271 @@
+"""What the robot makes of what tutors really say, and what it learns of it.
+
+    python benchmarks/tutors.py [--language en|sv] [--idioms] [--unjudged] [--all]
+
+Each utterance of `tests/kille/dialogue/tutors/utterances_*.tsv` is said in its scene:
+the things that the scene names lie from left to right, those that it calls known were
+taught, and the robot has said what the scene has it say. What the robot answers, and
+which lessons are new, gives the class:
+
+    wrong      it learned a word, or denied one, that `lessons_*.tsv` does not allow
+    helpful    it did not understand, and says what could be said instead
+    refused    it did not understand, and says no more than that
+    understood it was understood, and `judged_*.tsv` calls the answer sensible
+    odd        it was understood, and `judged_*.tsv` calls the answer none that helps
+    unjudged   nobody has judged this answer yet
+
+`judged_*.tsv` is about answers, word for word: another answer has to be judged anew.
+With `--idioms`, how many of the idioms teach anything, in front of one thing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple
+
+from kille.agent.agent import Agent
+from kille.dialogue.language import LANGUAGES
+from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import is_denial
+from kille.dialogue.reference import thing_at
+from kille.scene import Look
+from kille.sensors.sensor import SensorError
+from ttr import Record
+
+DATA = Path(__file__).resolve().parent.parent / "tests/kille/dialogue/tutors"
+CLASSES = ("understood", "helpful", "refused", "odd", "wrong", "unjudged")
+TOYS = ("cup", "book", "banana", "car", "apple", "can of paint", "teddy bear", "cap")
+LOOKS_LIKE = {
+    "box": "shoe-box", "mug": "cup", "teddy": "teddy bear", "glass": "cup",
+    "kopp": "cup", "mugg": "cup", "bok": "book", "äpple": "apple", "bil": "car",
+    "leksaksbil": "car", "nalle": "teddy bear", "låda": "shoe-box", "banan": "banana",
+    "böcker": "book", "pärm": "book", "glas": "cup",
+}  # fmt: skip
+COUNTS = {
+    "two": 2, "three": 3, "four": 4, "five": 5, "både": 2, "två": 2, "tre": 3,
+    "fem": 5, "x2": 2,
+}  # fmt: skip
+NO_THING = re.compile(
+    r"^(empty|no scene|robot|tutor|visitor|session|mistake|relation|several|unknown"
+    r"|tomt|inget|ingenting|besökare|slut|ny session|roboten|läraren|kollega"
+    r"|oklart|avbruten|okänt|flera|kopp lärd fel)\b"
+)
+ALONE = re.compile(r"\b(alone|known|ensam\w*|känd\w*|both|båda|gap|held|lärd)\b.*")
+BETWEEN = re.compile(
+    r",| and | och | on | in | under | beside | behind | left of | right of | near "
+    r"| by | with | round | between | across | in front of | far from | på | i | bakom "
+    r"| bredvid | under | vänster om | till höger om | runt | långt från "
+)
+POINTED = re.compile(r"(?:points at|pekar på|utpekad)\s*(?:the )?(\w+)?")
+CLAIMED = re.compile(
+    r"(?:robot|roboten) (?:asked|said|frågade|sade): (?:Is (?:this|it)|This is|That is"
+    r"|Är (?:det|den)(?: här| där)?|Är detta|Det är)(?: an?| en| ett| ingen)? "
+    r"([\w ]+?)(?: too)?\??$"
+)
+ASKED = re.compile(r"(?:robot|roboten) (?:asked|frågade): (?:What is this|Vad är det)")
+NAMING = {
+    "en": ("This is a {}.", "What is this?"),
+    "sv": ("Det här är en {}.", "Vad är det här?"),
+}
+
+
+class Line(NamedTuple):
+    """An utterance, its scene, and what a competent listener would do."""
+
+    number: str
+    scene: str
+    utterance: str
+    act: str
+    ideal: str
+
+
+class Outcome(NamedTuple):
+    """What came of an utterance."""
+
+    line: Line
+    answer: str
+    learned: tuple[str, ...]
+    kind: str
+
+
+def rows(name: str) -> Iterator[list[str]]:
+    """The rows of a file of data; none if there is no such file."""
+    with suppress(FileNotFoundError):
+        for row in (DATA / name).read_text("utf-8").splitlines():
+            if row and not row.startswith("#"):
+                yield row.split("\t")
+
+
+def things_in(scene: str) -> list[str]:
+    """What lies on the table in a scene, from left to right, by the names in it."""
+    head = scene.split(";")[0].strip()
+    if NO_THING.match(head):
+        return [] if re.match(r"empty|tomt", head) else ["cup"]
+    found: list[str] = []
+    for part in BETWEEN.split(ALONE.sub("", head)):
+        words = part.split()
+        if not words:
+            continue
+        times = next((n for word, n in COUNTS.items() if word in words), 1)
+        names = [it for it in words if it not in COUNTS]
+        plural = times == 1 and names and re.search(r"(?<!s)s$|[oa]r$", names[-1])
+        known = names and names[-1] in ("scissors", "glasses", "glasögon")
+        found += names[-1:] * (3 if plural and not known else times)
+    return found[:5] or ["cup"]
+
+
+def toy_names(things: Sequence[str]) -> list[str]:
+    """A toy for each thing, the same for the same word."""
+    given: dict[str, str] = {}
+    for thing in things:
+        name = re.sub(r"s$", "", thing)
+        toy = LOOKS_LIKE.get(name, name)
+        free = [it for it in TOYS if it not in given.values()]
+        given.setdefault(thing, toy if toy in (*TOYS, "shoe-box") else free[0])
+    return [given[thing] for thing in things]
+
+
+def set_up(robot: Agent, line: Line, language: str) -> None:
+    """Lay out the scene, and say what was said before."""
+    things = things_in(line.scene)
+    naming, asking = NAMING[language]
+    toys = toy_names(things)
+    claim = CLAIMED.search(line.scene)
+    if claim:
+        robot.do(f"show {toys[0]}")
+        robot.hear(naming.format(claim[1]))
+        robot.do("restart")
+    for place, toy in enumerate(toys):
+        across = 0.18 * (place - (len(toys) - 1) / 2)
+        with suppress(SensorError):
+            robot.do(f"place {toy} at {across:.2f} 0.0")
+    known = re.search(r"known|känd|lärd|robot pointed|robot said: left", line.scene)
+    taught = line.act.startswith(("learn attr", "learn rel", "learn kind")) or (
+        line.act in ("answer", "count", "explain", "forget", "svara") or known
+    )
+    if taught and not claim and not re.search("unknown|okän", line.scene):
+        for place, thing in enumerate(things):
+            robot.hear(f"#{number_at(robot, place)} {naming.format(thing)}")
+    pointed = POINTED.search(line.scene)
+    if pointed and pointed[1]:
+        stem = pointed[1][:4]
+        places = [i for i, it in enumerate(things) if it.startswith(stem)]
+        robot.do(f"point {number_at(robot, places[0] if places else 0)}")
+    if claim or ASKED.search(line.scene):
+        robot.hear(asking)
+
+
+def number_at(robot: Agent, place: int) -> int:
+    """The number of the thing at this place from the left."""
+    view = robot.gaze.look()
+    return 1 + ranks(view.look).index(place) if place in ranks(view.look) else 1
+
+
+def ranks(look: Look) -> list[int]:
+    """The place of each thing from the left, in the order of their numbers."""
+    across = [it.region.box.left for it in look.percepts]
+    return [sorted(across).index(left) for left in across]
+
+
+def lessons(robot: Agent) -> Counter[str]:
+    """The lessons of this robot, as `cup@1`: a word, and its place from the left."""
+    view = robot.view
+    places = [] if view is None else ranks(view.look)
+
+    def told(it: Record) -> str:
+        x = thing_at(it.content, "target") or "o1"
+        at = int(x[1:]) - 1
+        place = places[at] + 1 if at < len(places) else 1
+        sign = "-" if is_denial(it.content) else ""
+        return f"{sign}{it.sign.form}@{place}"
+
+    return Counter(told(it) for it in robot.state.private.lessons)
+
+
+def play(line: Line, language: str) -> tuple[str, tuple[str, ...], bool]:
+    """Say a line in its scene: the answer, what changed, and if it was understood."""
+    with Agent("synthetic:empty?seed=5", language=language, scans=2) as robot:
+        set_up(robot, line, language)
+        before = lessons(robot)
+        answer = robot.hear(line.utterance)
+        new, gone = lessons(robot) - before, before - lessons(robot)
+        said = robot.exchanges[-1].said
+        understood = not said or any(it.judgement is not None for it in said)
+        changes = (*sorted(new.elements()), *(f"forgot {it}" for it in sorted(gone)))
+        return answer.replace("\n", " / "), changes, understood
+
+
+def allowed(line: Line, extra: Mapping[str, Sequence[str]]) -> frozenset[str]:
+    """The lessons that are right for a line, by `lessons_*.tsv`."""
+    return frozenset(extra.get(line.number, ()))
+
+
+def is_right(lesson: str, right: Iterable[str]) -> bool:
+    """Whether a lesson is one of those allowed; `cup` allows any place."""
+    return any(lesson == it or lesson.split("@")[0] == it for it in right)
+
+
+def outcomes(language: str, only: str = "") -> Iterator[Outcome]:
+    """What comes of every utterance of a language."""
+    right = {it[0]: it[1].split(", ") for it in rows(f"lessons_{language}.tsv")}
+    judged = {(it[0], it[1]): it[2] for it in rows(f"judged_{language}.tsv")}
+    helps = lexicon(language).not_understood[0].split("{nearest}")[0][-12:]
+    for row in rows(f"utterances_{language}.tsv"):
+        line = Line(*row)
+        if only and line.number not in only.split(","):
+            continue
+        answer, changes, understood = play(line, language)
+        new = [it for it in changes if not it.startswith("forgot ")]
+        if not all(is_right(it, allowed(line, right)) for it in new):
+            kind = "wrong"
+        elif not understood:
+            kind = "helpful" if helps in answer else "refused"
+        else:
+            kind = judged.get((line.number, answer), "unjudged")
+        yield Outcome(line, answer, changes, kind)
+
+
+def taught_by(texts: Iterable[str], language: str) -> Iterator[tuple[str, list[str]]]:
+    """The texts that teach something in front of one thing, and what."""
+    for text in texts:
+        with Agent("synthetic:empty?seed=5", language=language, scans=2) as robot:
+            robot.do("show cup")
+            robot.hear(text)
+            if new := sorted(lessons(robot).elements()):
+                yield text, new
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--language", choices=LANGUAGES)
+    parser.add_argument("--idioms", action="store_true")
+    parser.add_argument("--unjudged", action="store_true", help="only those to judge")
+    parser.add_argument("--all", action="store_true", help="every line")
+    parser.add_argument("--only", default="", metavar="NUMBERS")
+    options = parser.parse_args()
+    for language in [options.language] if options.language else LANGUAGES:
+        if options.idioms:
+            texts = (DATA / f"idioms_{language}.txt").read_text("utf-8").splitlines()
+            found = list(taught_by(texts, language))
+            for text, new in found:
+                print(f"  {text}  {new}")
+            print(f"{language}: {len(found)} of {len(texts)} idioms teach something")
+            continue
+        counts = Counter[str]()
+        for it in outcomes(language, options.only):
+            counts[it.kind] += 1
+            if options.all or (it.kind == "unjudged" and options.unjudged):
+                learned = ", ".join(it.learned)
+                print(
+                    "\t".join((it.line.number, it.answer, it.kind, learned, *it.line))
+                )
+        print(language, *(f"{kind} {counts[kind]}" for kind in CLASSES), sep=", ")
+
+
+if __name__ == "__main__":
+    main()
