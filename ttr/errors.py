@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ttr.aliases import former_names
 from ttr.escapes import columns, terminal_line, terminal_text
-from ttr.spelling import nearest_names
+from ttr.misspellings import nearest_names
 
 __all__ = [
     "EndlessError",

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ttr.spelling import nearest_names
+from ttr.misspellings import nearest_names
 
 Key = tuple[str | int, ...]
 """The names that lead to a value, and the numbers of the tables in a list."""

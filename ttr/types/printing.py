@@ -26,8 +26,8 @@ from ttr.types.objects import (
     Path,
     Record,
 )
-from ttr.types.paths import parts as contents
 from ttr.types.paths import free_paths, replace_paths, shift_paths, subterms
+from ttr.types.paths import parts as contents
 from ttr.types.precedence import (
     begins_with_bracket,
     binds,
@@ -326,9 +326,10 @@ def variable(value: FunType | Function, scope: Scope) -> str:
     """The name to write for the variable: the first that is free of those for its type.
 
     Taken are the names of the variables around, of the labels, predicates and basic
-    types in the body, and of the labels further out that it is about. Types are called T, U, …, properties P, Q, …, other functions f,
-    g, …, records r, s, … and anything else x, y, z. Where the scope has the spelling of
-    a text, the variable is called as it is there.
+    types in the body, and of the labels further out that it is about. Types are called
+    T, U, …, properties P, Q, …, other functions f, g, …, records r, s, … and anything
+    else x, y, z. Where the scope has the spelling of a text, the variable is called as
+    it is there.
 
     >>> from ttr import Ind, Pi, Type, fun, this
     >>> print(fun(v=Ind)(fun(w=Ind)(this.w)), Pi(v=Ind >> Type)(this.v("a")))

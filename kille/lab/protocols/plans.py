@@ -10,7 +10,7 @@ from typing import Protocol as Shape
 
 from kille.lab.results import ExperimentError, Progress, Result
 from kille.lab.theories.candidates import Make, MethodFailedError, Methods
-from ttr.spelling import nearest_names
+from ttr.misspellings import nearest_names
 
 
 class RunProtocol(Shape):

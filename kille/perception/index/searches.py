@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from kille.perception.index.inverted_file import inverted_file
 from kille.perception.index.kd_trees import Trees
 from kille.perception.index.views import Descriptors, Rows
-from ttr.spelling import nearest_names
+from ttr.misspellings import nearest_names
 
 
 class Search(Protocol):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ttr.spelling import nearest_names
+from ttr.misspellings import nearest_names
 
 
 def natural_order(name: str) -> list[tuple[int, str]]:

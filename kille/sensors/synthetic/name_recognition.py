@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from kille.sensors.sensor import SensorError
-from ttr.spelling import nearest_names
+from ttr.misspellings import nearest_names
 
 
 def simplify_name(name: str) -> str:

@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr.errors import suggestion
+from ttr.misspellings import nearest_names
 from ttr.semantics.fragment import english
-from ttr.spelling import nearest_names
 
 FORMS = sorted({part for form in english().forms for part in form.split()})
 LONG = [form for form in FORMS if len(form) > 3]
