@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from generators import models, record_types, samples, types
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ttr import Ind, ListOf, Model, Pred, Rec, RecType, Theory, fun, rectype, this
@@ -28,6 +28,9 @@ from ttr.types import Application, Function, RecordType, Universe
 from ttr.types.derived_types import order_fields
 from ttr.types.objects import BOUND, Path
 from ttr.types.syntax import as_type
+
+WELL_TESTED = settings(max_examples=max(300, settings.default.max_examples))
+"""What equality rests on is tried often, also where other laws are not."""
 
 p, q = Pred("p", Ind), Pred("q", Ind, Ind)
 THEORY = Theory.parse("basic Ind\nobject j, k : Ind")
@@ -189,12 +192,14 @@ def in_python(term, around=()):
     return term
 
 
+@WELL_TESTED
 @given(terms())
 def test_nothing_is_captured_in_python(term):
     assert in_python(term) is as_node(term)
     assert normal_form(in_python(term), THEORY) is as_node(evaluate(term))
 
 
+@WELL_TESTED
 @given(terms())
 def test_nothing_is_captured_in_notation(term):
     assert THEORY_OF_TERMS.parse(str(as_node(term))) is as_node(term)
@@ -220,6 +225,7 @@ def applied(function, *args):
     return function
 
 
+@WELL_TESTED
 @given(st.data(), *[st.sampled_from(KINDS)] * 3)
 def test_functions_over_types_compute_at_every_type(data, a, b, c):
     """Their values have the codomain at the argument, before and after computing."""
@@ -240,6 +246,7 @@ def test_functions_over_types_compute_at_every_type(data, a, b, c):
         assert Model(THEORY).judge(written, of).holds
 
 
+@WELL_TESTED
 @given(types(), types())
 def test_what_a_field_stands_for_is_what_it_computes_to(T, U):
     assume(well_formed(T) and well_formed(U))
@@ -250,11 +257,13 @@ def test_what_a_field_stands_for_is_what_it_computes_to(T, U):
     assert subtype(of_T, rectype(T=high, x=this.T, f=this.T >> U)).yes
 
 
+@WELL_TESTED
 @given(terms())
 def test_normal_forms_are_those_of_another_evaluator(term):
     assert normal_form(as_node(term), THEORY) is as_node(evaluate(term))
 
 
+@WELL_TESTED
 @given(st.data(), st.sampled_from(KINDS))
 def test_a_normal_form_has_the_types_that_the_term_has(data, kind):
     """It has them by the way it was drawn; the prover is not given it, as it was."""
@@ -264,6 +273,7 @@ def test_a_normal_form_has_the_types_that_the_term_has(data, kind):
     assert Model(THEORY).judge(node, kind_of(kind)).holds
 
 
+@WELL_TESTED
 @given(terms(depth=3), st.randoms())
 def test_any_order_of_contraction_has_one_normal_form(term, chance):
     node = as_node(term)
@@ -323,12 +333,14 @@ def well_formed(T):
     return False
 
 
+@WELL_TESTED
 @given(types())
 def test_a_normal_form_is_its_own(T):
     found = normal_type(T, NONE)
     assert normal_type(found, NONE) is found
 
 
+@WELL_TESTED
 @given(types(), models(), samples())
 def test_judging_is_the_same_of_a_normal_form(T, M, sample):
     """As the evaluator has it, which computes what it meets in the model."""
@@ -337,6 +349,7 @@ def test_judging_is_the_same_of_a_normal_form(T, M, sample):
         assert found.p == derivation(M.facts, a, T).p
 
 
+@WELL_TESTED
 @given(st.lists(terms(depth=3), min_size=2, max_size=2))
 def test_subtyping_is_the_same_of_normal_forms(both):
     """As the prover has it, which contracts what it meets."""
@@ -346,6 +359,7 @@ def test_subtyping_is_the_same_of_normal_forms(both):
     assert Prover.for_type(one, THEORY).prove(ITSELF, other).yes or not written.yes
 
 
+@WELL_TESTED
 @given(record_types())
 def test_a_record_type_is_below_its_normal_form_and_above(T):
     assume(not describe_cycle(T))
@@ -353,6 +367,7 @@ def test_a_record_type_is_below_its_normal_form_and_above(T):
     assert subtype(normal_form(T), T).yes
 
 
+@WELL_TESTED
 @given(terms(), types())
 def test_equality_is_a_congruence(term, other):
     assume(well_formed(other))
@@ -370,6 +385,7 @@ def test_equality_is_a_congruence(term, other):
         assert equal(context(T), context(U), THEORY).yes
 
 
+@WELL_TESTED
 @given(terms(depth=2), terms(depth=2))
 def test_what_computes_to_something_else_is_not_equal(one, other):
     same = as_node(evaluate(one)) is as_node(evaluate(other))
@@ -377,6 +393,7 @@ def test_what_computes_to_something_else_is_not_equal(one, other):
     assert answer.verdict == ("yes" if same else "no")
 
 
+@WELL_TESTED
 @given(types())
 def test_what_is_kept_is_why_equality_is_unknown(T):
     """Unless that is what both compute to."""
