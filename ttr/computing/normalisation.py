@@ -78,6 +78,15 @@ _REFUSED = frozenset((Application, TypeAt))
 _COMPUTED = frozenset((*_REFUSED, Merge))
 """The kinds of types that may compute to others."""
 
+_WRITTEN = (TypeNode, Function, Pred)
+"""What is no individual, as its form tells."""
+
+_OPEN = (Application, TypeAt)
+"""Types of which some stand for objects of any kind."""
+
+_KINDS: dict[type, str] = {Function: "a function", Pred: "a predicate"}
+"""What an argument is that is no type."""
+
 _SET = frozenset((Singleton,))
 """The kinds of types that say which object something is."""
 
@@ -414,8 +423,11 @@ class _Derivation:
     @property
     def is_impossible(self) -> bool:
         """Can nothing be of the domain and of the argument's type?"""
-        is_type = isinstance(self._a, TypeNode) and not isinstance(self._a, Application)
-        if is_type and self._S is Ind:
+        if (
+            isinstance(self._a, _WRITTEN)
+            and not isinstance(self._a, _OPEN)
+            and self._S is Ind
+        ):
             return True
         prover, a, S = self._prover()
         return prover.assume((a, S)).is_impossible
@@ -498,11 +510,11 @@ def _check_individuals(pred: Pred, args: tuple[Object, ...]) -> None:
     Other basic types, such as one of moves, may well have types as their objects.
     """
     for number, arg in enumerate(args):
-        if not isinstance(arg, TypeNode | Function) or isinstance(arg, Application):
+        if not isinstance(arg, _WRITTEN) or isinstance(arg, _OPEN):
             continue
         wanted = [arity[number] for arity in pred.arities if len(arity) == len(args)]
         if all(T is Ind for T in wanted):
-            kind = "a function" if isinstance(arg, Function) else "a type"
+            kind = _KINDS.get(type(arg), "a type")
             raise IllFormedError(f"{pred.name} takes individuals, but {arg} is {kind}")
 
 

@@ -12,8 +12,8 @@ scope. Variables are objects by name.
 >>> store = stored("a", every, poet("a")), stored("b", exist, poem("b"))
 >>> for reading in readings(Underspecified(recite("a", "b"), store)):
 ...     print(reading)
-every(\\a:Ind. poet(a), \\a:Ind. exist(\\b:Ind. poem(b), \\b:Ind. recite(a, b)))
-exist(\\b:Ind. poem(b), \\b:Ind. every(\\a:Ind. poet(a), \\a:Ind. recite(a, b)))
+every(\\x:Ind. poet(x), \\y:Ind. exist(\\x:Ind. poem(x), \\x:Ind. recite(y, x)))
+exist(\\x:Ind. poem(x), \\y:Ind. every(\\x:Ind. poet(x), \\x:Ind. recite(x, y)))
 
 Sources: Cooper 2023, on underspecification; Keller 1988 for stores inside others.
 """

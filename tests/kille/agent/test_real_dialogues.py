@@ -14,8 +14,8 @@ SCRIPT = Path(__file__).parents[3] / "benchmarks" / "real_dialogues.py"
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_a_dialogue_about_real_scenes(data: Path, seed: int) -> None:
     # Every turn is checked as it is played: see the script.
-    played = runpy.run_path(str(SCRIPT))["played"]
-    counts = played(seed, 12, data / "ycbv_scenes")
+    play_dialogue = runpy.run_path(str(SCRIPT))["play_dialogue"]
+    counts = play_dialogue(seed, 12, data / "ycbv_scenes")
     assert counts["turns"] >= 12
 
 

@@ -154,7 +154,7 @@ def test_registered_depth_and_colour_are_preferred(tmp_path: Path) -> None:
 def test_a_topic_that_is_not_there(tmp_path: Path) -> None:
     path = bag(tmp_path / "a.bag", usual())
     text = complaint(f"{path}?colour=/cam/rgb/imag")
-    assert "there is no topic /cam/rgb/imag (did you mean /cam/rgb/image or" in text
+    assert "there is no topic /cam/rgb/imag (did you mean /cam/rgb/image?)" in text
     assert "it has /cam/depth/camera_info, /cam/depth/image, /cam/rgb/image" in text
 
 
