@@ -26,7 +26,7 @@ from kille.lab.protocols.spatial import Methods
 from kille.lab.protocols.word_maps import map_figure
 from kille.lab.results import Cell, Figure, Progress, Result, Table, interval_series
 from kille.lab.scenes.published_judgements import JudgementStudy
-from kille.perception.relations.angle import AngleRule
+from kille.perception.relations.one_number_rule import AngleRule
 from kille.scene import Configuration
 
 SIZES = (1, 2, 4, 8, 16, 24, 48)
