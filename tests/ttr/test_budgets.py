@@ -159,7 +159,9 @@ def test_what_is_too_large_is_unknown(name):
     with ttr.budget(steps=FEW):
         answer = UNKNOWN[name]()
     assert answer.unknown
-    assert answer.why == f"too large: it takes more than {FEW:,} steps"
+    assert answer.why.startswith(
+        f"too large: it takes more than {FEW:,} steps, and ended in "
+    )
 
 
 def test_degrees_are_unknown_where_the_budget_ends():
@@ -216,9 +218,11 @@ ENDED = {"create": "`create`", "merge": "`subtype`", "print": "printing"}
 def test_the_error_says_what_was_asked_when_it_ended(name):
     with ttr.budget(steps=FEW), pytest.raises(TooLargeError) as raised:
         RAISED[name]()
+    assert raised.value.message == (
+        f"too large: it takes more than {FEW:,} steps, and ended in {ENDED[name]}"
+    )
     assert raised.value.hint == (
-        f"it ended in {ENDED[name]}: ask for less, or allow more steps (ttr.budget, "
-        "or --steps)"
+        "ask for less, or allow more steps (ttr.budget, or --steps)"
     )
 
 
@@ -321,7 +325,7 @@ def test_checks_are_unknown_each_by_itself():
         report = check(theory)
     (failure,) = report.failures
     assert (failure.found, failure.check.span.line) == ("unknown", 29)
-    assert failure.why == f"too large: it takes more than {FEW:,} steps"
+    assert failure.why.startswith(f"too large: it takes more than {FEW:,} steps")
 
 
 def test_many_checks_share_what_the_file_may_take():

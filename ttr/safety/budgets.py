@@ -64,10 +64,10 @@ class SharedPurse(Purse):
 
 
 def _too_large(reason: str, asked: str) -> TooLargeError:
-    where = f"it ended in {asked}: " if asked else ""
+    where = f", and ended in {asked}" if asked else ""
     return TooLargeError(
-        f"too large: {reason}",
-        hint=f"{where}ask for less, or allow more steps (ttr.budget, or --steps)",
+        f"too large: {reason}{where}",
+        hint="ask for less, or allow more steps (ttr.budget, or --steps)",
     )
 
 
@@ -112,7 +112,7 @@ def budget(*, steps: int) -> Iterator[None]:
     >>> A = ListOf(Basic("A"))
     >>> with budget(steps=2):
     ...     print(subtype(A, ListOf(A)))
-    unknown: too large: it takes more than 2 steps
+    unknown: too large: it takes more than 2 steps, and ended in `subtype`
     >>> subtype(A, ListOf(A)).no
     True
     """
