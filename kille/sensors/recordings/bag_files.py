@@ -160,13 +160,28 @@ def open_bag_file(name: str, path: Path) -> Bag:
                 raise
             reader = _open_cut_bag(suited, usual)
             remark = "cut short: its end is missing; what is whole of it is played"
+    try:
+        topics = _topics_of(name, reader)
+    except SensorError:
+        reader.close()
+        raise
+    store = usual if reader.is2 else get_typestore(Stores.ROS1_NOETIC)
+    return Bag(name, reader, store, topics, remark)
+
+
+def _topics_of(name: str, reader: AnyReader) -> dict[str, list[Connection]]:
+    """The connections of each topic, those of the first one's type.
+
+    SensorError where the file is damaged, so that a topic has lost its name.
+    """
+    if not all(isinstance(it.topic, str) for it in reader.connections):
+        raise SensorError(f"{name}: this bag is damaged: a topic in it has no name")
     topics: dict[str, list[Connection]] = {}
     for it in sorted(reader.connections, key=lambda it: (it.topic, it.id)):
         alike = topics.setdefault(it.topic, [])
         if not alike or alike[0].msgtype == it.msgtype:
             alike.append(it)
-    store = usual if reader.is2 else get_typestore(Stores.ROS1_NOETIC)
-    return Bag(name, reader, store, topics, remark)
+    return topics
 
 
 _CUT_SHORT = (

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import sqlite3
 import sys
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -12,6 +13,7 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
+from rosbags import rosbag2
 from rosbags.rosbag1 import Writer
 from rosbags.typesys import Stores, get_typestore
 
@@ -284,6 +286,24 @@ def test_a_damaged_bag_plays_or_is_told_of(tmp_path: Path) -> None:
         path.write_bytes(damaged)
         with suppress(SensorError):
             opened(path).close()
+
+
+def test_a_database_whose_topics_have_lost_their_names_is_told_of(
+    tmp_path: Path,
+) -> None:
+    kinds = get_typestore(Stores.ROS2_HUMBLE)
+    plugin = rosbag2.StoragePlugin.SQLITE3
+    with rosbag2.Writer(tmp_path / "a", version=9, storage_plugin=plugin) as writer:
+        writer.add_connection("/rgb", IMAGE, typestore=kinds)
+    [path] = (tmp_path / "a").glob("*.db3")
+    with closing(sqlite3.connect(path)) as database:
+        database.execute("PRAGMA writable_schema = ON")
+        database.execute("UPDATE sqlite_master SET sql = replace(sql, 'NOT NULL', '')")
+        database.commit()
+    with closing(sqlite3.connect(path)) as database:
+        database.execute("INSERT INTO topics (id) VALUES (7)")
+        database.commit()
+    assert "this bag is damaged: a topic in it has no name" in complaint(path)
 
 
 # --- images --------------------------------------------------------------------------
