@@ -123,6 +123,8 @@ def clauses(T: TypeNode) -> tuple[Clause, ...] | None:
     >>> [" or ".join(map(str, clause)) for clause in clauses((A & B) | ~(A & C))]
     ['A or ~A or ~C', 'B or ~A or ~C']
     """
+    if not isinstance(T, Meet | Join | Negation):
+        return ((T,),)
     try:
         T = meet_normal_form(T, _CASES)
     except UnsupportedError:

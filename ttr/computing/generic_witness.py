@@ -134,6 +134,7 @@ class GenericWitness:
         self._around_bound: set[tuple[str, ...]] = set()
         self._absent: set[Path | None] = set()
         self._is_complete = True
+        self.has_negations = False
         self._classes: dict[object, _EqualityClass] = {}
         self._claims: list[tuple[Path, TypeNode]] = []
         self.strings: list[Object] = []
@@ -241,6 +242,7 @@ class GenericWitness:
         known = self._classes.setdefault(identity(term), _EqualityClass(term))
         claimed = T if isinstance(T, RecordType) else self.normalise(T)
         known.claims.append((claimed, condition))
+        self.has_negations |= isinstance(claimed, Negation)
         if isinstance(T, TypeAt) and not isinstance(claimed, TypeAt):
             # What it says of other places is not followed up.
             self._is_complete = False

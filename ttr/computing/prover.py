@@ -129,6 +129,8 @@ class Prover:
     @property
     def _is_contradictory(self) -> bool:
         """Is something surely of a type that is denied of it?"""
+        if not self.witness.has_negations:
+            return False
         given = self.given | self.witness.first_elements(self.given)
         inside = self if given == self.given else replace(self, given=given)
         negations = [

@@ -178,8 +178,6 @@ def may_hold_types(T: TypeNode) -> bool:
 def hides_type(scope: Scope, name: str) -> bool:
     """Does a label or variable around hide the declared type of its name?"""
     for names in scope:
-        if type(names) is frozenset or type(names) is str:
-            continue
         if isinstance(names, Labels | TypeVariable) and name in names.of_types:
             return True
     return False
@@ -203,6 +201,8 @@ def notation(value: Object, scope: Scope = ()) -> str:
             return f"{name}^{level}"
         case PType(pred, args):
             return f"{pred.name}({_objects(args, scope)})"
+        case Path():
+            return _path(value, scope)
         case RecordType(()):
             return "Rec"
         case RecordType():
@@ -232,8 +232,6 @@ def notation(value: Object, scope: Scope = ()) -> str:
             return _path_to_type(path, scope)
         case TypeAt(term):
             return notation(term, scope)
-        case Path():
-            return _path(value, scope)
     if type(value) in WORDS:
         types, _ = contents(value)
         spend(len(types))
@@ -600,7 +598,18 @@ def _least_steps(value: TypeNode | Function) -> int:
 
     A type that stands in several places is printed in each of them, and counted once.
     """
-    inside = (part for inner in contents(value) for part in inner)
-    kept = [part for part in inside if isinstance(part, TypeNode | Function)]
-    own = len(value.fields) if isinstance(value, RecordType) else 0
-    return own + sum(map(_least_steps, kept))
+    if isinstance(value, RecordType):
+        inside = [T for _, T in value.fields if not _is_simple(T)]
+        return len(value.fields) + sum(map(_least_steps, inside))
+    each = (part for inner in contents(value) for part in inner)
+    return sum(_least_steps(it) for it in each if isinstance(it, TypeNode | Function))
+
+
+def _is_simple(T: TypeNode) -> bool:
+    """Is a type a name, or a ptype of names and paths? Then it has no fields."""
+    if isinstance(T, PType):
+        return _NAMES.issuperset(map(type, T.args))
+    return isinstance(T, Basic | Universe)
+
+
+_NAMES = frozenset((str, Path))
