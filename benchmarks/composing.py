@@ -74,7 +74,7 @@ def read_doubled_records() -> Task:
     return lambda: normal_form(Theory.parse(text).definitions[f"T{TIMES}"]) is not None
 
 
-def doubling(name: str) -> Theory:
+def doubling_theory(name: str) -> Theory:
     """A theory with a predicate of that name, and what doubles a type made of it."""
     functions = [
         f"F{i + 1} := \\v:Ind. [a : F{i}(v), b : F{i}(v)]" for i in range(TIMES)
@@ -92,7 +92,7 @@ def doubling(name: str) -> Theory:
     )
 
 
-def doubled(name: str) -> TypeNode:
+def doubled_type(name: str) -> TypeNode:
     """What the doubled functions come to at j."""
     T: TypeNode = rectype(e=Pred(name, Ind)("j"))
     for _ in range(TIMES):
@@ -100,19 +100,19 @@ def doubled(name: str) -> TypeNode:
     return T
 
 
-def wrapped(outer: str, inner: str) -> str:
+def repeat_application(outer: str, inner: str) -> str:
     for _ in range(TIMES):
         inner = f"{outer}({inner})"
     return inner
 
 
-def computed(written: Callable[[str], str]) -> Callable[[], Task]:
+def normal_form_task(written: Callable[[str], str]) -> Callable[[], Task]:
     """The normal form of what is written over a predicate, against the type it is."""
 
     def make() -> Task:
         name = f"p{next(_numbers)}"
-        theory = doubling(name)
-        T, wanted = theory.parse(written(name)), doubled(name)
+        theory = doubling_theory(name)
+        T, wanted = theory.parse(written(name)), doubled_type(name)
         return lambda: normal_form(T, theory) is wanted
 
     return make
@@ -121,14 +121,14 @@ def computed(written: Callable[[str], str]) -> Callable[[], Task]:
 def asked_of_doubled(ask: Callable[[TypeNode, TypeNode, Theory], str]) -> Task:
     """A question about one doubled type written in two ways."""
     name = f"p{next(_numbers)}"
-    theory = doubling(name)
+    theory = doubling_theory(name)
     one = theory.parse(f"F{TIMES}(j)")
-    other = theory.parse(wrapped("D", "Man") + "(j)")
+    other = theory.parse(repeat_application("D", "Man") + "(j)")
     return lambda: ask(one, other, theory)
 
 
 def printed_doubled() -> Task:
-    T = doubled(f"p{next(_numbers)}")
+    T = doubled_type(f"p{next(_numbers)}")
 
     def ask() -> str:
         try:
@@ -231,7 +231,7 @@ def _in_all_cases(As: list[Basic], Bs: list[Basic]) -> TypeNode:
     return join(meet(*As), *[A & B for A, B in zip(As, Bs, strict=True)], *Bs)
 
 
-def against(number: int, possible: bool) -> Callable[[], Task]:
+def joins_against_negations(number: int, possible: bool) -> Callable[[], Task]:
     """Joins against as many negations: one of each pair, and not both."""
 
     def make() -> Task:
@@ -313,7 +313,7 @@ def cycle(length: int, there: bool) -> Callable[[], Task]:
 INDIVIDUALS, UNCERTAIN = 3, 10
 
 
-def uncertain(linked: bool) -> tuple[Model, list[Basic]]:
+def uncertain_individuals(linked: bool) -> tuple[Model, list[Basic]]:
     """Individuals of which each of some types is uncertain."""
     types = atoms("U", UNCERTAIN)
     M = Model()
@@ -332,7 +332,7 @@ def uncertain(linked: bool) -> tuple[Model, list[Basic]]:
 
 def chance_of(linked: bool) -> Callable[[], Task]:
     def make() -> Task:
-        M, types = uncertain(linked)
+        M, types = uncertain_individuals(linked)
         T = meet(*[one | ~other for one, other in zip(types[1:], types, strict=False)])
         if linked:
             T = meet(*types[1:7], ~types[8], types[9])
@@ -343,7 +343,7 @@ def chance_of(linked: bool) -> Callable[[], Task]:
 
 def some_of(linked: bool) -> Callable[[], Task]:
     def make() -> Task:
-        M, types = uncertain(linked)
+        M, types = uncertain_individuals(linked)
         T = meet(*[one | other for one, other in zip(types[1:], types, strict=False)])
         objects = [f"o{i}" for i in range(INDIVIDUALS)]
         return lambda: M.true(T, among=objects).hi < 1.0
@@ -355,10 +355,10 @@ QUESTIONS: dict[str, Question] = {
     "normal form of doubled records": Question(doubled_records, True, 50),
     "the same, with reading": Question(read_doubled_records, True, 100),
     "normal form of doubled functions": Question(
-        computed(lambda name: f"F{TIMES}(j)"), True, 50
+        normal_form_task(lambda name: f"F{TIMES}(j)"), True, 50
     ),
     "of D(D(…(Man)))(j)": Question(
-        computed(lambda name: wrapped("D", "Man") + "(j)"), True, 50
+        normal_form_task(lambda name: repeat_application("D", "Man") + "(j)"), True, 50
     ),
     "doubled = doubled": Question(
         lambda: asked_of_doubled(lambda S, T, Θ: equal(S, T, Θ).verdict), "yes", 100
@@ -373,10 +373,10 @@ QUESTIONS: dict[str, Question] = {
     "nine joins <= negations": Question(joins_below(9, "negations"), "no", 50),
     "nine joins <= their cases": Question(joins_below(9, "all cases"), "yes", 50),
     "nine joins <= others": Question(joins_below(9, "another"), "no", 50),
-    "eight against eight": Question(against(8, True), "yes", 50),
-    "eight against eight, no": Question(against(8, False), "no", 50),
-    "nine against nine": Question(against(9, True), "yes", 50),
-    "nine against nine, no": Question(against(9, False), "no", 50),
+    "eight against eight": Question(joins_against_negations(8, True), "yes", 50),
+    "eight against eight, no": Question(joins_against_negations(8, False), "no", 50),
+    "nine against nine": Question(joins_against_negations(9, True), "yes", 50),
+    "nine against nine, no": Question(joins_against_negations(9, False), "no", 50),
     "pigeonholes of 4 <= C": Question(pigeons_below(4), "yes", 1000),
     "pigeonholes of 5 <= C": Question(pigeons_below(5), "yes", 1000),
     "pigeonholes of 6 <= C": Question(pigeons_below(6), "yes", 1000),

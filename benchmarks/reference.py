@@ -66,7 +66,7 @@ def content(text: str) -> RecordType:
     )
 
 
-def resolving(text: str) -> Callable[[int], Task]:
+def resolving_task(text: str) -> Callable[[int], Task]:
     """The phrases of a sentence are set to things among n: readings and ranking."""
 
     def make(n: int) -> Task:
@@ -103,20 +103,20 @@ def measure_of(make: Callable[[int], Task], limit: float) -> Measure:
 
 MEASURES: Measures = {
     "resolving among n things": {
-        "the cup": measure_of(resolving("Where is the cup?"), LIMIT),
-        "the red cup": measure_of(resolving("Where is the red cup?"), LIMIT),
-        "the second cup": measure_of(resolving("Where is the second cup?"), LIMIT),
+        "the cup": measure_of(resolving_task("Where is the cup?"), LIMIT),
+        "the red cup": measure_of(resolving_task("Where is the red cup?"), LIMIT),
+        "the second cup": measure_of(resolving_task("Where is the second cup?"), LIMIT),
         "the cup near the book": measure_of(
-            resolving("Where is the cup near the book?"), LIMIT
+            resolving_task("Where is the cup near the book?"), LIMIT
         ),
         "the red cup near the blue book": measure_of(
-            resolving("Where is the red cup near the blue book?"), LIMIT
+            resolving_task("Where is the red cup near the blue book?"), LIMIT
         ),
         "the cup behind the box near the book": measure_of(
-            resolving("Where is the cup behind the box near the book?"), LIMIT
+            resolving_task("Where is the cup behind the box near the book?"), LIMIT
         ),
         "the red cup is near the book": measure_of(
-            resolving("The red cup is near the blue book."), LIMIT
+            resolving_task("The red cup is near the blue book."), LIMIT
         ),
     },
     "word by word": {"four words": measure_of(ranking_task, LIMIT)},

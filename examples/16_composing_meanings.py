@@ -11,7 +11,7 @@ from ttr import Model, Theory, box, html
 from ttr.computing import equal, normal_form, subtype
 from ttr.display.html import page
 from ttr.errors import IllFormedError
-from ttr.semantics.storage import Underspecified, readings, stored
+from ttr.semantics.storage import StoredQuantifier, Underspecified, readings
 
 # A lexicon: nouns and verbs are functions from individuals to types of situations; noun
 # phrases take such a function, and determiners two of them.
@@ -65,8 +65,8 @@ chases, dog, cat = english.parse("[e : chase('x', 'y')]"), english.Dog, english.
 in_store = Underspecified(
     chases,
     (
-        stored("x", english.Every, dog("x")),
-        stored("y", english.Some, cat("y")),
+        StoredQuantifier("x", english.Every, dog("x")),
+        StoredQuantifier("y", english.Some, cat("y")),
     ),
 )
 found = [normal_form(T, english) for T in readings(in_store)]

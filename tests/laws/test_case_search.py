@@ -26,7 +26,7 @@ literals = st.builds(lambda n, so: n if so else -n, variables, st.booleans())
 clauses = st.lists(st.lists(literals, max_size=4), max_size=24)
 
 
-def satisfying(wanted: list[list[int]]) -> list[frozenset[int]]:
+def satisfying_worlds(wanted: list[list[int]]) -> list[frozenset[int]]:
     """By truth table: all the ways to make the clauses true."""
     worlds = product(*[(n, -n) for n in range(1, 7)])
     return [
@@ -39,7 +39,7 @@ def satisfying(wanted: list[list[int]]) -> list[frozenset[int]]:
 @given(clauses)
 def test_it_finds_what_makes_clauses_true_iff_something_does(wanted):
     found = Search(wanted).solve()
-    every = satisfying(wanted)
+    every = satisfying_worlds(wanted)
     assert (found is not None) == bool(every)
     assert found is None or any(found <= world for world in every)
 
@@ -51,13 +51,13 @@ def test_clauses_may_be_added_between_searches(some, more):
     for clause in more:
         search.add(clause)
         search.solve()
-    assert (search.solve() is not None) == bool(satisfying(some + more))
+    assert (search.solve() is not None) == bool(satisfying_worlds(some + more))
 
 
 @given(clauses)
 def test_it_finds_every_way_once_each_is_forbidden(wanted):
     search = Search(wanted)
-    left = set(satisfying(wanted))
+    left = set(satisfying_worlds(wanted))
     while (found := search.solve()) is not None:
         covered = {world for world in left if found <= world}
         assert covered

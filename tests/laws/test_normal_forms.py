@@ -219,7 +219,7 @@ ID, K, S = map(
 )
 
 
-def applied(function, *args):
+def apply_to(function, *args):
     for one in args:
         function = Application(function, one)
     return function
@@ -234,10 +234,10 @@ def test_functions_over_types_compute_at_every_type(data, a, b, c):
     g = as_node(data.draw(terms((a, b), depth=2)))
     x, y = (as_node(data.draw(terms(kind, depth=2))) for kind in (a, b))
     for written, wanted, of in (
-        (applied(ID, A, x), x, A),
-        (applied(K, A, B, x, y), x, A),
-        (applied(S, A, B, C, f, g, x), applied(f, x, applied(g, x)), C),
-        (applied(S, A, B >> A, A, applied(K, A, B >> A), applied(K, A, B), x), x, A),
+        (apply_to(ID, A, x), x, A),
+        (apply_to(K, A, B, x, y), x, A),
+        (apply_to(S, A, B, C, f, g, x), apply_to(f, x, apply_to(g, x)), C),
+        (apply_to(S, A, B >> A, A, apply_to(K, A, B >> A), apply_to(K, A, B), x), x, A),
     ):
         found = normal_form(written, THEORY)
         assert found is normal_form(wanted, THEORY)

@@ -435,7 +435,7 @@ def test_bounds_of_a_chain_in_which_something_is_not_so():
 OPEN = Signature(opened=frozenset((A, B, C)))
 
 
-def linked(*said):
+def model_of(*said):
     M = Model(OPEN)
     for T, p, *when in said:
         M = M.given("a", T, p, when=[("a", S) for S in when])
@@ -444,7 +444,7 @@ def linked(*said):
 
 @pytest.mark.parametrize("in_order", [1, -1])
 def test_a_condition_of_degree_0_says_nothing_of_what_depends_on_it(in_order):
-    M = linked(*[(A, 0), (C, 0.3, A), (C, 0.1, ~A)][::in_order])
+    M = model_of(*[(A, 0), (C, 0.3, A), (C, 0.1, ~A)][::in_order])
     assert M.judge("a", C).p == (0.1, 0.1)
     with pytest.raises(RefusedError, match="that cannot be"):
         M.judge("a", C, when=[("a", A)])
@@ -452,22 +452,22 @@ def test_a_condition_of_degree_0_says_nothing_of_what_depends_on_it(in_order):
 
 @pytest.mark.parametrize("in_order", [1, -1])
 def test_what_is_0_makes_its_conditions_0(in_order):
-    M = linked(*[(C, 0), (C, 0.3, A)][::in_order])
+    M = model_of(*[(C, 0), (C, 0.3, A)][::in_order])
     assert M.judge("a", A).p == (0, 0)
     with pytest.raises(RefusedError, match="cannot all be so"):
         M.given("a", A, 0.5)
 
 
 def test_a_degree_is_told_through_what_nothing_else_is_known_of():
-    M = linked((B, 0.5, A), (C, 1, B), (C, 0))
+    M = model_of((B, 0.5, A), (C, 1, B), (C, 0))
     assert M.judge("a", B).p == (0, 0)
     assert M.judge("a", A).p == (0, 0)
-    likely = linked((B, 0.5, A), (C, 1, B), (C, 0.1))
+    likely = model_of((B, 0.5, A), (C, 1, B), (C, 0.1))
     assert likely.judge("a", A).p == pytest.approx((0, 0.2))
 
 
 def test_without_a_degree_what_depends_on_it_tells_nothing():
-    M = linked((A, 0.4), (B, 0.5, A), (B, 0.2, ~A), (C, 1, B), (C, 0.4, ~B))
+    M = model_of((A, 0.4), (B, 0.5, A), (B, 0.2, ~A), (C, 1, B), (C, 0.4, ~B))
     assert M.judge("a", A).p == (0.4, 0.4)
     assert M.judge("a", B).p == pytest.approx((0.32, 0.32))
 
@@ -476,16 +476,16 @@ def test_without_a_degree_what_depends_on_it_tells_nothing():
 
 
 def test_what_follows_from_a_condition_adds_nothing_to_it():
-    M = linked((A, 0.5), (C, 0.3, A))
+    M = model_of((A, 0.5), (C, 0.3, A))
     for more in ([A | C], [A | B], [A & (A | C)], [~(~A & ~C)]):
         when = [("a", S) for S in (A, *more)]
         assert M.judge("a", C, when=when).p == (0.3, 0.3)
-    unknown = linked((A, (0.01, 1)), (C, 0.3, A))
+    unknown = model_of((A, (0.01, 1)), (C, 0.3, A))
     assert unknown.judge("a", C, when=[("a", A), ("a", A | C)]).p == (0.3, 0.3)
 
 
 def test_a_disjunction_is_asked_of_the_worlds():
-    M = linked((A, 0.5), (C, 0.3, A))
+    M = model_of((A, 0.5), (C, 0.3, A))
     assert M.judge("a", C, when=[("a", A | C)]).p == pytest.approx((0.3, 0.65))
     M = M.given("a", C, 0.1, when=[("a", ~A)])
     assert M.judge("a", C, when=[("a", A | C)]).p == pytest.approx((4 / 11, 4 / 11))

@@ -12,10 +12,9 @@ from ttr.errors import IllFormedError, TooLargeError
 from ttr.safety.budgets import budget
 from ttr.semantics.quantifiers import every, exist, most, truth
 from ttr.semantics.storage import (
-    Stored,
+    StoredQuantifier,
     Underspecified,
     readings,
-    stored,
     type_of_readings,
 )
 from ttr.types.paths import subterms
@@ -25,8 +24,11 @@ rep, company, sample = Pred("rep", Ind, Ind), Pred("company", Ind), Pred("sample
 chase, see, run = Pred("chase", Ind, Ind), Pred("see", Ind, Ind), Pred("run", Ind)
 show = Pred("show", Ind, Ind, Ind)
 
-EVERY_DOG, A_CAT = stored("x", every, dog("x")), stored("y", exist, cat("y"))
-MOST_BOYS = stored("z", most, boy("z"))
+EVERY_DOG, A_CAT = (
+    StoredQuantifier("x", every, dog("x")),
+    StoredQuantifier("y", exist, cat("y")),
+)
+MOST_BOYS = StoredQuantifier("z", most, boy("z"))
 
 
 def of(body):
@@ -65,8 +67,11 @@ def test_without_a_store_it_is_its_own_reading():
 
 def test_a_quantifier_inside_another_stays_inside_or_has_wider_scope():
     """Every representative of a company saw most samples: five readings, not six."""
-    noun = Underspecified(rep("x", "y"), (stored("y", exist, company("y")),))
-    store = (stored("x", every, noun), stored("z", most, sample("z")))
+    noun = Underspecified(rep("x", "y"), (StoredQuantifier("y", exist, company("y")),))
+    store = (
+        StoredQuantifier("x", every, noun),
+        StoredQuantifier("z", most, sample("z")),
+    )
     found = readings(Underspecified(see("x", "z"), store))
     assert len(found) == 5
     whole = of(lambda x: exist(company, of(lambda y: rep(x, y))))
@@ -81,9 +86,9 @@ def test_a_quantifier_inside_another_stays_inside_or_has_wider_scope():
 
 def test_a_variable_in_a_restrictor_is_bound_from_outside():
     store = (
-        stored("x", every, rep("x", "y")),
-        stored("y", exist, company("y")),
-        stored("z", most, sample("z")),
+        StoredQuantifier("x", every, rep("x", "y")),
+        StoredQuantifier("y", exist, company("y")),
+        StoredQuantifier("z", most, sample("z")),
     )
     found = readings(Underspecified(see("x", "z"), store))
     assert len(found) == 3
@@ -91,8 +96,8 @@ def test_a_variable_in_a_restrictor_is_bound_from_outside():
 
 
 def test_nothing_is_retrieved_inside_that_is_wanted_outside():
-    noun = Underspecified(rep("x", "y"), (stored("y", exist, company("y")),))
-    sentence = Underspecified(see("x", "y"), (stored("x", every, noun),))
+    noun = Underspecified(rep("x", "y"), (StoredQuantifier("y", exist, company("y")),))
+    sentence = Underspecified(see("x", "y"), (StoredQuantifier("x", every, noun),))
     assert readings(sentence) == (
         exist(
             company,
@@ -109,7 +114,7 @@ def test_readings_that_compute_to_the_same_are_one():
         John := \P:(Ind -> Type). P(j)
         Kim  := \P:(Ind -> Type). P(k)
     """)
-    store = (stored("x", theory.John), stored("y", theory.Kim))
+    store = (StoredQuantifier("x", theory.John), StoredQuantifier("y", theory.Kim))
     assert readings(Underspecified(chase("x", "y"), store), theory) == (
         chase("j", "k"),
     )
@@ -128,7 +133,10 @@ def test_determiners_of_a_theory_are_computed():
             Every(\v:Ind. [e : dog(v)])(\v:Ind. [e : chase(v, w)]))
     """)
     e = [theory.parse(text) for text in ("[e : dog('v')]", "[e : cat('w')]")]
-    store = (stored("v", theory.Every, e[0]), stored("w", theory.Some, e[1]))
+    store = (
+        StoredQuantifier("v", theory.Every, e[0]),
+        StoredQuantifier("w", theory.Some, e[1]),
+    )
     content = theory.parse("[e : chase('v', 'w')]")
     surface, inverse = readings(Underspecified(content, store), theory)
     assert equal(surface, theory.Surface, theory).yes
@@ -157,7 +165,9 @@ def test_the_type_of_the_readings_has_them_as_witnesses():
 def test_a_property_may_be_of_other_things():
     box = rectype(x=Ind)
     full, red = Pred("full", box), Pred("red", box)
-    sentence = Underspecified(full("b"), (stored("b", exist, red("b"), domain=box),))
+    sentence = Underspecified(
+        full("b"), (StoredQuantifier("b", exist, red("b"), domain=box),)
+    )
     properties = [fun(r=box)(pred(this.r)) for pred in (red, full)]
     assert readings(sentence) == (exist(*properties),)
 
@@ -168,8 +178,11 @@ def test_a_property_may_be_of_other_things():
         (lambda: Underspecified(run("x"), (EVERY_DOG, EVERY_DOG)), "are to bind x"),
         (lambda: Underspecified("run"), "type"),
         (lambda: Underspecified(run("x"), (every,)), "a store has stored quantifiers"),
-        (lambda: stored(3, every, dog("x")), "a variable is a name"),
-        (lambda: stored("x", "every", dog("x")), "a quantifier is a function"),
+        (lambda: StoredQuantifier(3, every, dog("x")), "a variable is a name"),
+        (
+            lambda: StoredQuantifier("x", "every", dog("x")),
+            "a quantifier is a function",
+        ),
     ],
 )
 def test_what_is_no_store_is_refused(make, message):
@@ -180,7 +193,7 @@ def test_what_is_no_store_is_refused(make, message):
 def test_too_many_readings_are_refused():
     names = [f"x{i}" for i in range(12)]
     many = Pred("many", *[Ind] * 12)
-    store = [stored(name, every, dog(name)) for name in names]
+    store = [StoredQuantifier(name, every, dog(name)) for name in names]
     with budget(steps=20_000), pytest.raises(TooLargeError):
         readings(Underspecified(many(*names), store))
 
@@ -189,7 +202,9 @@ def test_too_many_readings_are_refused():
 def test_each_order_of_retrieval_is_a_reading(order, used):
     """By brute force: the readings are the orders in which the quantifiers nest."""
     kinds = {"x": (every, dog), "y": (exist, cat), "z": (most, boy)}
-    store = [stored(v, kinds[v][0], kinds[v][1](v)) for v in order if v in used]
+    store = [
+        StoredQuantifier(v, kinds[v][0], kinds[v][1](v)) for v in order if v in used
+    ]
     content = show(*[v if v in used else "fido" for v in "xyz"])
     wanted = set()
     for chosen in permutations(store):
@@ -200,4 +215,4 @@ def test_each_order_of_retrieval_is_a_reading(order, used):
         wanted.add(found)
     assert set(readings(Underspecified(content, store))) == wanted
     assert all(normal_form(one) is one for one in wanted)
-    assert all(isinstance(one, Stored) for one in store)
+    assert all(isinstance(one, StoredQuantifier) for one in store)

@@ -246,7 +246,7 @@ class _Search:
     ) -> Iterator[dict[Address, str]]:
         one = self._chosen[number]
         is_early = any(self._order.get(at, -1) > number for at in one.needs)
-        fitting = self._unused(one, names, untested=is_early)
+        fitting = self._unused_labels(one, names, untested=is_early)
         if not fitting:
             self._note_failure(number, one, names)
         for label in fitting:
@@ -260,7 +260,7 @@ class _Search:
         for one in self._waiting.get(number, ()):
             chosen = names.get(one.at)
             fits = (
-                self._unused(one, names)
+                self._unused_labels(one, names)
                 if chosen is None
                 else chosen in self._fit(one, names)
             )
@@ -269,9 +269,11 @@ class _Search:
                 return
         yield names
 
-    def _unused(self, one: _Field, names: _Names, untested: bool = False) -> list[str]:
+    def _unused_labels(
+        self, one: _Field, names: _Names, untested: bool = False
+    ) -> list[str]:
         """The labels that a field may have besides those that others have."""
-        used = _used(names, one.at[:-1])
+        used = _used_names(names, one.at[:-1])
         fitting = self._fit(one, names, untested)
         return [label for label in fitting if label not in used]
 
@@ -313,7 +315,7 @@ class _Search:
                 for one in self._fields
                 if one.at[:-1] == around and one.at not in names
             ]
-            matched = _match([self._unused(leaf, names) for leaf in inside])
+            matched = _match([self._unused_labels(leaf, names) for leaf in inside])
             if matched is None:
                 last = len(self._chosen)
                 listed = ", ".join(format_address(one.at) for one in inside)
@@ -361,7 +363,7 @@ class _Search:
                 yield {format_address(at): label for at, label in names.items()}
                 continue
             at = self._fields[len(names)].at
-            used = _used(names, at[:-1])
+            used = _used_names(names, at[:-1])
             new = f"{'_'.join(at)}_new"
             while new in known:
                 new += "_"
@@ -404,7 +406,7 @@ class _LabelIndex:
         return [label for label in self.labels if label in either]
 
 
-def _used(names: _Names, around: Address) -> set[str]:
+def _used_names(names: _Names, around: Address) -> set[str]:
     """The names that are given to labels of one record type."""
     return {label for at, label in names.items() if at[:-1] == around}
 

@@ -76,7 +76,9 @@ def open_cases(
             return
         case = search.narrow(S, model)
         if is_ruled_out(case.type):
-            case = search.narrow(S, model, _unneeded(search, S, model, is_ruled_out))
+            case = search.narrow(
+                S, model, _unneeded_choices(search, S, model, is_ruled_out)
+            )
         else:
             yield case.type
         search.block(case)
@@ -101,7 +103,7 @@ class _Case:
     type: TypeNode = _ANYTHING
 
 
-def _unneeded(
+def _unneeded_choices(
     search: _CaseSearch,
     S: TypeNode,
     model: Set[int],

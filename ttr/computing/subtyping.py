@@ -188,7 +188,7 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     S, T, theory = as_type(S), as_type(T), signature_of(theory)
     computed = (S, T) if S is T else (normal_type(S, theory), normal_type(T, theory))
     if computed != (S, T):
-        return _about(subtype(*computed, theory), T, *computed)
+        return _as_asked(subtype(*computed, theory), T)
     if S is T:
         return Answer("yes", lambda: f"{S} is below itself")
     if is_below_by_form(S, T):
@@ -258,7 +258,7 @@ def _possible_cases(T: TypeNode, theory: Signature) -> Iterator[TypeNode]:
     )
 
 
-def _about(answer: Answer, asked: TypeNode, *computed: TypeNode) -> Answer:
+def _as_asked(answer: Answer, asked: TypeNode) -> Answer:
     """The answer for types as they were written, from that for what they compute to.
 
     A counterexample is to the type that was asked for.

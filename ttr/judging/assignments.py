@@ -30,11 +30,7 @@ from ttr.signature.axioms import (
     subtypes,
     supertypes,
 )
-from ttr.signature.conditional_axioms import (
-    Way,
-    heads_below,
-    ways_to_follow,
-)
+from ttr.signature.conditional_axioms import Way, heads_below, ways_to_follow
 from ttr.signature.signature import Axiom, Condition, Signature, head
 from ttr.types.interning import identity
 from ttr.types.objects import Object

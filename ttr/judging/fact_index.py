@@ -66,7 +66,7 @@ class FactIndex:
         for demand in _demands(T).get(label, ()):
             if demand.pred in self._facts.theory.axiom_heads:
                 continue
-            fitting = self._fitting(demand, fields)
+            fitting = self._values_for(demand, fields)
             if not fitting:
                 return frozenset()
             found.append(fitting)
@@ -76,7 +76,7 @@ class FactIndex:
         spend(1 + len(least) * len(others) // 8)
         return least.intersection(*others) if others else least
 
-    def _fitting(self, demand: _Demand, fields: Mapping[str, Object]) -> _Some:
+    def _values_for(self, demand: _Demand, fields: Mapping[str, Object]) -> _Some:
         """The values at the position of a demand in facts that agree elsewhere."""
         positions: list[int] = []
         values: list[object] = []
@@ -124,7 +124,7 @@ def _demands(T: RecordType) -> Mapping[str, tuple[_Demand, ...]]:
     """For each label, the ptypes that a record of T needs, and that mention it."""
     found: dict[str, list[_Demand]] = {}
     for _, field in T.fields:
-        for pred, args in _needed(field, 0):
+        for pred, args in _needed_ptypes(field, 0):
             for number, arg in enumerate(args):
                 if isinstance(arg, Path) and len(arg.labels) == 1:
                     mine = found.setdefault(arg.labels[0], [])
@@ -133,19 +133,21 @@ def _demands(T: RecordType) -> Mapping[str, tuple[_Demand, ...]]:
     return {label: tuple(mine) for label, mine in found.items()}
 
 
-def _needed(T: TypeNode, depth: int) -> Iterator[tuple[Pred, tuple[Object, ...]]]:
+def _needed_ptypes(
+    T: TypeNode, depth: int
+) -> Iterator[tuple[Pred, tuple[Object, ...]]]:
     """The ptypes that need a witness where something is of T, so many records in."""
     match T:
         case PType(pred, args):
             yield pred, tuple([_seen_from_outside(arg, depth) for arg in args])
         case Meet(parts):
             for part in parts:
-                yield from _needed(part, depth)
+                yield from _needed_ptypes(part, depth)
         case Singleton(base, _):
-            yield from _needed(base, depth)
+            yield from _needed_ptypes(base, depth)
         case RecordType(fields):
             for _, field in fields:
-                yield from _needed(field, depth + 1)
+                yield from _needed_ptypes(field, depth + 1)
 
 
 def _seen_from_outside(arg: Object, depth: int) -> Object:

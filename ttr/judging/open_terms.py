@@ -120,12 +120,12 @@ class TermFinder:
             if not isinstance(kind, FunType):
                 continue
             try:
-                return self._applied(facts, f, kind, T, variables, depth - 1)
+                return self._apply(facts, f, kind, T, variables, depth - 1)
             except RefusedError:
                 continue
         raise RefusedError(f"no term of {T} can be made up")
 
-    def _applied(
+    def _apply(
         self,
         facts: Assignment,
         f: Object,
@@ -140,7 +140,7 @@ class TermFinder:
         if result is T:
             return found, facts
         if isinstance(result, FunType):
-            return self._applied(facts, found, result, T, variables, depth)
+            return self._apply(facts, found, result, T, variables, depth)
         raise RefusedError(f"{found} is of another type")
 
 

@@ -224,7 +224,9 @@ class _Listing:
                 f"the records of {T} cannot be listed: {unresolved.message}",
                 hint="fields on a cycle can be judged, but not listed",
             ) from None
-        for sit in self._fitting(field, self._values_that_fit(T, label, fields)):
+        for sit in self._witnesses_among(
+            field, self._values_that_fit(T, label, fields)
+        ):
             spend(4)
             self._tried += 1
             yield {**fields, label: sit}
@@ -240,7 +242,9 @@ class _Listing:
             return None
         return self._index.values_that_fit(T, label, fields)
 
-    def _fitting(self, T: TypeNode, fitting: Set[object] | None) -> Iterator[Object]:
+    def _witnesses_among(
+        self, T: TypeNode, fitting: Set[object] | None
+    ) -> Iterator[Object]:
         """What is of T, if it is among what fits; in the order of the facts."""
         if fitting is None:
             yield from self.of(T)

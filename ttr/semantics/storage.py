@@ -9,8 +9,10 @@ scope. Variables are objects by name.
 >>> from ttr.semantics.quantifiers import every, exist
 >>> poet, poem = Pred("poet", Ind), Pred("poem", Ind)
 >>> recite = Pred("recite", Ind, Ind)
->>> store = stored("a", every, poet("a")), stored("b", exist, poem("b"))
->>> for reading in readings(Underspecified(recite("a", "b"), store)):
+>>> every_poet = StoredQuantifier("a", every, poet("a"))
+>>> a_poem = StoredQuantifier("b", exist, poem("b"))
+>>> sentence = Underspecified(recite("a", "b"), (every_poet, a_poem))
+>>> for reading in readings(sentence):
 ...     print(reading)
 every(\\x:Ind. poet(x), \\y:Ind. exist(\\x:Ind. poem(x), \\x:Ind. recite(y, x)))
 exist(\\x:Ind. poem(x), \\y:Ind. every(\\x:Ind. poet(x), \\x:Ind. recite(x, y)))
@@ -22,6 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 from ttr.computing.normalisation import normal_form
@@ -43,7 +46,7 @@ from ttr.types.syntax import (
     kind_of,
 )
 
-__all__ = ["Stored", "Underspecified", "readings", "stored", "type_of_readings"]
+__all__ = ["StoredQuantifier", "Underspecified", "readings", "type_of_readings"]
 
 Quantifying: TypeAlias = Callable[..., TypeNode]
 """A determiner, of a restrictor and a scope; or a quantifier, of a scope alone."""
@@ -58,16 +61,16 @@ class Underspecified:
     """
 
     content: TypeNode
-    store: tuple[Stored, ...] = ()
+    store: tuple[StoredQuantifier, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "content", as_type(self.content))
         object.__setattr__(self, "store", tuple(self.store))
         for one in self.store:
-            if not isinstance(one, Stored):
+            if not isinstance(one, StoredQuantifier):
                 raise IllFormedError(
                     f"a store has stored quantifiers, found {kind_of(one)}",
-                    hint='write stored("x", every, dog("x"))',
+                    hint='write StoredQuantifier("x", every, dog("x"))',
                 )
         names = [one.variable for one in _all_stored(self.store)]
         twice = next((name for name in names if names.count(name) > 1), None)
@@ -81,40 +84,40 @@ class Underspecified:
 
 
 @dataclass(frozen=True)
-class Stored:
-    """A quantifier in store, and the variable that it is to bind.
+class StoredQuantifier:
+    r"""A quantifier in store, and the variable that it is to bind.
 
-    The restrictor may have a store of its own: its quantifiers take scope inside it, or
-    are in store where it is retrieved. Without one, `quantifier` takes the scope alone.
+    The quantifier is a `Determiner`, a function of a theory, as in
+    \P:(Ind -> Type). \Q:(Ind -> Type). …, or any Python function of properties.
+    Without a restrictor it takes the scope alone. The restrictor is a type, or a
+    content with a store of its own, whose quantifiers take scope inside it or are in
+    store where it is retrieved. Raises `IllFormedError` where the variable is no name
+    or the quantifier no function.
     """
 
     variable: str
     quantifier: Quantifying
-    restrictor: Underspecified | None = None
+    restrictor: TypeNode | Underspecified | None = None
     domain: TypeNode = Ind
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.variable, str):
+            raise IllFormedError(
+                f"a variable is a name, found {kind_of(self.variable)}"
+            )
+        if not callable(self.quantifier):
+            raise IllFormedError(
+                "a quantifier is a function of properties, "
+                f"found {kind_of(self.quantifier)}"
+            )
+        object.__setattr__(self, "domain", as_type(self.domain))
 
-def stored(
-    variable: str,
-    quantifier: Quantifying,
-    restrictor: TypeNode | Underspecified | None = None,
-    domain: TypeNode = Ind,
-) -> Stored:
-    r"""A quantifier to be put in store: a determiner with its restrictor, or a whole.
-
-    The quantifier is a `Determiner`, a function of a theory, as in
-    \P:(Ind -> Type). \Q:(Ind -> Type). …, or any Python function of properties. Raises
-    `IllFormedError` where the variable is no name or the quantifier no function.
-    """
-    if not isinstance(variable, str):
-        raise IllFormedError(f"a variable is a name, found {kind_of(variable)}")
-    if not callable(quantifier):
-        raise IllFormedError(
-            f"a quantifier is a function of properties, found {kind_of(quantifier)}"
-        )
-    if restrictor is not None and not isinstance(restrictor, Underspecified):
-        restrictor = Underspecified(restrictor)
-    return Stored(variable, quantifier, restrictor, as_type(domain))
+    @cached_property
+    def restriction(self) -> Underspecified | None:
+        """The restrictor as a content with its store."""
+        if self.restrictor is None or isinstance(self.restrictor, Underspecified):
+            return self.restrictor
+        return Underspecified(self.restrictor)
 
 
 @within_budget
@@ -150,8 +153,8 @@ def type_of_readings(
 
 
 def _retrievals(
-    content: TypeNode, store: tuple[Stored, ...]
-) -> Iterator[tuple[TypeNode, tuple[Stored, ...]]]:
+    content: TypeNode, store: tuple[StoredQuantifier, ...]
+) -> Iterator[tuple[TypeNode, tuple[StoredQuantifier, ...]]]:
     """What becomes of a content after some retrievals, with what is left in store."""
     spend()
     yield content, store
@@ -166,16 +169,18 @@ def _retrievals(
 
 
 def _restrictors(
-    one: Stored,
-) -> Iterator[tuple[TypeNode | None, tuple[Stored, ...]]]:
+    one: StoredQuantifier,
+) -> Iterator[tuple[TypeNode | None, tuple[StoredQuantifier, ...]]]:
     """The contents of a restrictor, each with what is lifted from its store."""
-    if one.restrictor is None:
+    if one.restriction is None:
         yield None, ()
     else:
-        yield from _retrievals(one.restrictor.content, one.restrictor.store)
+        yield from _retrievals(one.restriction.content, one.restriction.store)
 
 
-def _bind(one: Stored, restrictor: TypeNode | None, scope: TypeNode) -> TypeNode:
+def _bind(
+    one: StoredQuantifier, restrictor: TypeNode | None, scope: TypeNode
+) -> TypeNode:
     """The quantifier of the restrictor and the scope, as properties of the variable."""
     parts = [scope] if restrictor is None else [restrictor, scope]
     properties = [
@@ -184,21 +189,21 @@ def _bind(one: Stored, restrictor: TypeNode | None, scope: TypeNode) -> TypeNode
     return as_type(one.quantifier(*properties))
 
 
-def _all_stored(store: tuple[Stored, ...]) -> Iterator[Stored]:
+def _all_stored(store: tuple[StoredQuantifier, ...]) -> Iterator[StoredQuantifier]:
     """The quantifiers in a store, and in the stores of their restrictors."""
     for one in store:
         spend()
         yield one
-        if one.restrictor is not None:
-            yield from _all_stored(one.restrictor.store)
+        if one.restriction is not None:
+            yield from _all_stored(one.restriction.store)
 
 
-def _names_of(one: Stored) -> frozenset[str]:
+def _names_of(one: StoredQuantifier) -> frozenset[str]:
     """The names in the restrictor of a stored quantifier, and in its own store."""
-    if one.restrictor is None:
+    if one.restriction is None:
         return frozenset()
-    inside = (_names_of(other) for other in one.restrictor.store)
-    return _names_in(one.restrictor.content).union(*inside)
+    inside = (_names_of(other) for other in one.restriction.store)
+    return _names_in(one.restriction.content).union(*inside)
 
 
 def _names_in(T: Object) -> frozenset[str]:

@@ -19,9 +19,15 @@ from ttr.signature.axioms import (
     subtypes,
     supertypes,
 )
-from ttr.signature.signature import Axiom, Condition, Signature, head
+from ttr.signature.signature import (
+    Axiom,
+    Condition,
+    Head,
+    Signature,
+    head,
+    reachable_heads,
+)
 from ttr.types.interning import identity
-from ttr.types.syntax import Basic, Pred
 
 
 @dataclass(frozen=True)
@@ -133,21 +139,6 @@ def _follow_backwards(
                     yield way.extend(axiom, *by, when=when)
 
 
-def heads_below(
-    heads: Iterable[Basic | Pred], theory: Signature
-) -> tuple[Basic | Pred, ...]:
-    """The basic types and predicates from which axioms may lead to one of these."""
-    found = dict.fromkeys(heads)
-    waiting = list(found)
-    for upper in waiting:
-        for axiom in theory.axioms:
-            lower = head(axiom.lower)
-            if head(axiom.upper) is upper and lower not in found:
-                found[lower] = None
-                waiting.append(lower)
-    return tuple(found)
-
-
 def _combine(bound: Binding, more: Binding | None) -> Binding | None:
     """Both bindings, if they agree."""
     if more is None:
@@ -162,3 +153,9 @@ def _instantiate_conditions(axiom: Axiom, bound: Binding) -> tuple[Condition, ..
     """The conditions of an axiom on these values, without those that hold by form."""
     conditions = [condition.with_values(bound) for condition in axiom.when]
     return tuple([one for one in conditions if not one.holds_by_form])
+
+
+def heads_below(heads: Iterable[Head], theory: Signature) -> tuple[Head, ...]:
+    """The basic types and predicates from which axioms may lead to one of these."""
+    steps = [(head(one.upper), head(one.lower)) for one in theory.axioms]
+    return reachable_heads(heads, steps)

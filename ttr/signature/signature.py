@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ttr.aliases import Alias
 from ttr.errors import IllFormedError, Span
@@ -21,6 +21,9 @@ from ttr.types.syntax import Basic, Pred, PType, RecordType, TypeNode, kind_of
 if TYPE_CHECKING:
     from ttr.judging.assignments import Assignment
     from ttr.updates.update_strategies import Algorithm
+
+Head: TypeAlias = Basic | Pred
+"""What an axiom is about: a basic type, or the predicate of a ptype."""
 
 Interval = tuple[float, float]
 """An interval of probability [lo, hi] with 0 <= lo <= hi <= 1."""
@@ -179,7 +182,7 @@ class Signature:
     """What models and subtyping need of a theory: axioms, open types, judgements."""
 
     axioms: tuple[Axiom, ...] = ()
-    opened: frozenset[Basic | Pred] = frozenset()
+    opened: frozenset[Head] = frozenset()
     givens: tuple[Given | Expected, ...] = ()
     definitions: Mapping[str, Object] = field(default_factory=_no_definitions)
     exclusions: tuple[Exclusion, ...] = ()
@@ -195,7 +198,7 @@ class Signature:
         return {}
 
     @cached_property
-    def axiom_heads(self) -> frozenset[Basic | Pred]:
+    def axiom_heads(self) -> frozenset[Head]:
         """The basic types and predicates that an axiom or an exclusion is about."""
         axioms = [T for one in self.axioms for T in (one.lower, one.upper)]
         exclusions = [T for one in self.exclusions for T in (one.left, one.right)]
@@ -212,17 +215,11 @@ class Signature:
         return tuple([one for one in self.axioms if one.only])
 
     @cached_property
-    def conditional_heads(self) -> frozenset[Basic | Pred]:
+    def conditional_heads(self) -> frozenset[Head]:
         """The basic types and predicates that axioms with conditions may lead to."""
-        found = dict.fromkeys(head(one.upper) for one in self.conditional_axioms)
-        waiting = list(found)
-        for lower in waiting:
-            for axiom in self.axioms:
-                upper = head(axiom.upper)
-                if head(axiom.lower) is lower and upper not in found:
-                    found[upper] = None
-                    waiting.append(upper)
-        return frozenset(found)
+        heads = [head(one.upper) for one in self.conditional_axioms]
+        steps = [(head(one.lower), head(one.upper)) for one in self.axioms]
+        return frozenset(reachable_heads(heads, steps))
 
     related = Alias("axiom_heads")
 
@@ -234,9 +231,25 @@ class Signature:
             )
 
 
-def head(T: Basic | PType) -> Basic | Pred:
+def head(T: Basic | PType) -> Head:
     """The basic type itself, or the predicate of a ptype."""
     return T if isinstance(T, Basic) else T.pred
+
+
+def reachable_heads(
+    heads: Iterable[Head], steps: Iterable[tuple[Head, Head]]
+) -> tuple[Head, ...]:
+    """These heads and those to which steps lead from them, the nearest first."""
+    following: dict[Head, list[Head]] = {}
+    for one, next_ in steps:
+        following.setdefault(one, []).append(next_)
+    found = dict.fromkeys(heads)
+    waiting = list(found)
+    for one in waiting:
+        new = [it for it in following.get(one, ()) if it not in found]
+        found.update(dict.fromkeys(new))
+        waiting += dict.fromkeys(new)
+    return tuple(found)
 
 
 def signature_of(theory: object) -> Signature:
