@@ -31,7 +31,8 @@ from ttr.types import ListOf, TypeAt, Universe
 
 LOGIC = r"""
 basic Ind
-pred man(Ind), dog(Ind)
+pred man(Ind), dog(Ind), about(Type^1), saying((Ind -> Type^1))
+pred noting([T : Type^1]), listing(list(Type^1))
 object a, b : Ind
 Some := [T : Type, x : T]
 I := \A:Type. \x:A. x
@@ -133,6 +134,32 @@ POLYMORPHIC = {
         "(\\A:Type. list(A)) : (Type -> Type)",
         "(\\A:Type^1. list(A)) : (Type^1 -> Type^1)",
         "not (\\A:Type^1. list(A)) : (Type^1 -> Type)",
+        "not (\\P:(Ind -> Type^1). list(P(a))) : ((Ind -> Type^1) -> Type)",
+        "(\\P:(Ind -> Type^1). list(P(a))) : ((Ind -> Type^1) -> Type^1)",
+        "not (\\P:(Ind -> Type^1). ~P(a)) : ((Ind -> Type^1) -> Type)",
+        "not (\\P:(Ind -> Type^1). \\x:Ind. list(P(x))) : "
+        "((Ind -> Type^1) -> (Ind -> Type))",
+        "not (\\P:(Ind -> Type^1). ((x : Ind) -> P(x))) : ((Ind -> Type^1) -> Type)",
+        "(\\P:(Ind -> Type). ((x : Ind) -> P(x))) : ((Ind -> Type) -> Type)",
+        "not (\\R:(Ind -> (Ind -> Type^1)). [x : Ind, y : Ind, l : list(R(x)(y))]) : "
+        "((Ind -> (Ind -> Type^1)) -> RecType)",
+        "(\\R:(Ind -> (Ind -> RecType)). [x : Ind, y : Ind, l : list(R(x)(y))]) : "
+        "((Ind -> (Ind -> RecType)) -> RecType)",
+        "not (\\r:[f : (Ind -> Type^1)]. [x : Ind, l : r.f(x)]) : "
+        "([f : (Ind -> Type^1)] -> RecType)",
+        "(\\r:[f : (Ind -> Type^1)]. [x : Ind, l : r.f(x)]) : "
+        "([f : (Ind -> Type^1)] -> RecType^1)",
+        "not (\\f:((Ind -> Type^1) -> Type^1). list(f(\\x:Ind. Ind))) : "
+        "(((Ind -> Type^1) -> Type^1) -> Type)",
+        "not (\\A:Type^1. about(A)) : (Type^1 -> Type)",
+        "(\\A:Type. about(A)) : (Type -> Type)",
+        "not (\\P:(Ind -> Type^1). about(P(a))) : ((Ind -> Type^1) -> Type)",
+        "not (\\P:(Ind -> Type^1). saying(P)) : ((Ind -> Type^1) -> Type)",
+        "(\\P:(Ind -> Type^1). saying(P)) : ((Ind -> Type^1) -> Type^1)",
+        "(\\P:(Ind -> RecType). saying(P)) : ((Ind -> RecType) -> Type)",
+        "not (\\r:[T : Type^1]. noting(r)) : ([T : Type^1] -> Type)",
+        "(\\r:[T : Type]. noting(r)) : ([T : Type] -> Type)",
+        "not (\\l:list(Type^1). listing(l)) : (list(Type^1) -> Type)",
     ],
 )
 def test_functions_over_types(claim):

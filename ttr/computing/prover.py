@@ -50,7 +50,12 @@ from ttr.types.objects import (
     Record,
     freeze,
 )
-from ttr.types.paths import free_paths, paths_to_types, replace_paths
+from ttr.types.paths import (
+    free_paths,
+    paths_to_types,
+    paths_with_arguments,
+    replace_paths,
+)
 from ttr.types.printing import notation
 from ttr.types.substitution import field_type, substitute_variable
 from ttr.types.syntax import (
@@ -304,7 +309,24 @@ class Prover:
     def _prove_levels(self, term: TypeNode, T: Universe, where: Where) -> Finding:
         """Are the types that paths in a type lead to of no higher level?"""
         most = Universe("Type", T.level)
-        return every(self.prove(path, most, where) for path in paths_to_types(term))
+        found = every(self.prove(path, most, where) for path in paths_to_types(term))
+        if not found.yes:
+            return found
+        for path, arguments in paths_with_arguments(term):
+            level = self._level_of_value(path, arguments)
+            if level > T.level:
+                return no(where, partial(self._why_level, term, path, level))
+        return YES
+
+    def _level_of_value(self, path: Path, arguments: int) -> int:
+        """The level of the types in what a path leads to, applied to arguments."""
+        known = self._types_of(self.witness.normalise(path))
+        levels = [_level_of_result(T, arguments) for T in known]
+        return min((level for level in levels if level is not None), default=0)
+
+    def _why_level(self, term: TypeNode, path: Path, level: int) -> str:
+        of_path = self._format(path)
+        return f"{self._format(term)} may be of level {level}, as {of_path} may be"
 
     # --- joins and negations ---
 
@@ -798,6 +820,24 @@ def _ask_of(term: Object, T: TypeNode) -> Callable[[Prover], Finding]:
 def _is_closed(term: Object, T: TypeNode) -> bool:
     """Can a model be asked? Questions about functions are answered here."""
     return not (isinstance(T, FunType) or free_paths(term) or free_paths(T))
+
+
+def _level_of_result(T: TypeNode, arguments: int = 0) -> int | None:
+    """The level of the types in what is of T, applied to arguments; None for none.
+
+    A record may have more fields: what is in those is not counted.
+    """
+    match T:
+        case FunType():
+            return _level_of_result(T.result, max(0, arguments - 1))
+        case Universe():
+            return T.level
+        case ListOf(item) | NonEmpty(item) | SetOf(item) | Plus(item):
+            return _level_of_result(item)
+        case RecordType(fields):
+            levels = [_level_of_result(field) for _, field in fields]
+            return max((one for one in levels if one is not None), default=None)
+    return None
 
 
 def _is_among(U: Universe, T: Universe) -> bool:

@@ -7,6 +7,7 @@ and a path says how many scopes out it starts.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
 
 from ttr.hooks import hook
 from ttr.safety.budgets import spend
@@ -261,6 +262,31 @@ def paths_to_types(value: Object) -> frozenset[Path]:
     found = _NO_PATHS.union(*map(paths_to_types, same))
     further = _NO_PATHS.union(*map(paths_to_types, inner))
     return found | {Path(p.up - 1, p.labels) for p in further if p.up > 0}
+
+
+def paths_with_arguments(value: Object) -> frozenset[tuple[Path, int]]:
+    """The paths that start outside of a value, each with how many arguments it gets.
+
+    >>> from ttr import Ind, this
+    >>> of_two = Application(Application(this.f, "a"), this.x)
+    >>> sorted((str(path), number) for path, number in paths_with_arguments(of_two))
+    [('.f', 2), ('.x', 0)]
+    """
+    if not free_paths(value):
+        return frozenset()
+    head, arguments = value, list[Object]()
+    while isinstance(head, Application):
+        arguments.append(head.argument)
+        head = head.function
+    if isinstance(head, TypeAt):
+        head = head.term
+    if isinstance(head, Path):
+        here = frozenset([(head, len(arguments))])
+        return here.union(*map(paths_with_arguments, arguments))
+    same, inner = parts(value)
+    found = frozenset[tuple[Path, int]]().union(*map(paths_with_arguments, same))
+    further = chain.from_iterable(map(paths_with_arguments, inner))
+    return found | {(Path(p.up - 1, p.labels), n) for p, n in further if p.up > 0}
 
 
 def labels_mentioned(field: Object) -> set[str]:
