@@ -472,6 +472,19 @@ def test_without_a_degree_what_depends_on_it_tells_nothing():
     assert M.judge("a", B).p == pytest.approx((0.32, 0.32))
 
 
+@pytest.mark.parametrize("in_order", [1, -1])
+def test_degrees_that_are_rounded_fractions_do_not_contradict_one_another(in_order):
+    # p(A and B) is 2/9 either way, but 4/9 and 5/9 are no floats.
+    M = Model(OPEN).given("a", A, 4 / 9).given("a", B, 5 / 9)
+    for T, p, when in [(A, 0.4, B), (B, 0.5, A)][::in_order]:
+        M = M.given("a", T, p, when=[("a", when)])
+    assert M.judge("a", A & B).p == pytest.approx((2 / 9, 2 / 9))
+    with pytest.raises(RefusedError, match="cannot all be so"):
+        Model(OPEN).given("a", A, 4 / 9).given("a", B, 5 / 9).given(
+            "a", A, 0.81, when=[("a", B)]
+        )
+
+
 # --- conditions that are no conjunction ----------------------------------------------
 
 

@@ -12,8 +12,8 @@ are integers. Two questions have this form:
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from decimal import Decimal
 from fractions import Fraction
+from math import lcm
 
 from ttr.safety.budgets import spend
 
@@ -25,20 +25,33 @@ class InfeasibleError(Exception):
 
 
 def scale_to_integers(numbers: Iterable[float]) -> tuple[list[int], int]:
-    """The numbers as integers over one power of ten, and that power.
+    """The numbers as integers over one unit, and that unit.
 
-    A float stands for its shortest decimal, so 0.1 is a tenth.
+    A float stands for its shortest decimal, so 0.1 is a tenth; but where that has all
+    the digits that a float can have, for the simple fraction that rounds to it.
 
     >>> scale_to_integers([0.1, 0.25, 1.0])
-    ([10, 25, 100], 100)
+    ([2, 5, 20], 20)
+    >>> scale_to_integers([1 / 3, 4 / 9])
+    ([3, 4], 9)
     """
-    decimals = [Decimal(repr(float(x))).as_tuple() for x in numbers]
-    places = max((-int(d.exponent) for d in decimals), default=0)
-    counts = [
-        int("".join(map(str, d.digits))) * 10 ** (places + int(d.exponent))
-        for d in decimals
-    ]
-    return counts, 10**places
+    fractions = [_fraction_of(float(x)) for x in numbers]
+    unit = lcm(*[one.denominator for one in fractions])
+    return [one.numerator * (unit // one.denominator) for one in fractions], unit
+
+
+def _fraction_of(x: float) -> Fraction:
+    decimal = Fraction(repr(x))
+    if decimal.denominator > _EXACT:
+        simple = decimal.limit_denominator(_SIMPLE)
+        if float(simple) == x:
+            return simple
+    return decimal
+
+
+_EXACT, _SIMPLE = 10**12, 10**6
+"""Denominators: a decimal up to the first is meant as it is written, and a fraction up
+to the second is simple. Two simple fractions do not round to one float."""
 
 
 def minimise(f: Row, g: Row, rows: Sequence[Row]) -> Fraction:
