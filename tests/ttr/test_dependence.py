@@ -485,6 +485,16 @@ def test_degrees_that_are_rounded_fractions_do_not_contradict_one_another(in_ord
         )
 
 
+def test_a_condition_that_follows_from_another_adds_nothing():
+    # B is below C, so C happens with B or without it.
+    M = Model(Signature((Axiom(B, C),), frozenset((A, B, C))))
+    M = M.given("a", B, 0.01).given("a", A, 0.01)
+    for more in (C | A, C | ~B, C | ~(A | B), (C | A) & (C | B)):
+        for conditions in ((C, more), (more, C)):
+            p = M.judge("a", A, when=[("a", T) for T in conditions]).p
+            assert p == pytest.approx((0.01, 0.01)), str(more)
+
+
 # --- conditions that are no conjunction ----------------------------------------------
 
 

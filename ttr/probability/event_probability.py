@@ -93,8 +93,8 @@ class _TooManyCasesError(Exception):
 def _divide(given: Event) -> tuple[Event, list[Event]]:
     """The conjunction of literals that a condition needs, and what else it needs.
 
-    What the literals decide is left out, so that A and (A or B) is A alone. Raises
-    `ImpossibleError` where they contradict one another.
+    What follows from the rest is left out, so that A and (A or B) is A alone. Raises
+    `ImpossibleError` where the literals contradict one another.
     """
     truth: dict[Hashable, bool] = {}
     sure: list[Event] = []
@@ -113,7 +113,33 @@ def _divide(given: Event) -> tuple[Event, list[Event]]:
             waiting += one.parts
         elif found is None:
             others.append(one)
-    return All(tuple(sure)), others
+    return All(tuple(sure)), _without_consequences(others)
+
+
+def _without_consequences(events: Iterable[Event]) -> list[Event]:
+    """The events without those that follow from others of them by their form."""
+    kept = list(dict.fromkeys(events))
+    for one in tuple(kept):
+        others = [other for other in kept if other != one]
+        if _follows(one, others):
+            kept = others
+    return kept
+
+
+def _follows(event: Event, given: Sequence[Event]) -> bool:
+    """Does an event happen, by its form, where these do?"""
+    spend(1 + len(given))
+    if event in given:
+        return True
+    match event:
+        case All(parts):
+            return all(_follows(part, given) for part in parts)
+        case AnyOf(parts):
+            choices = (set(one.parts) for one in given if isinstance(one, AnyOf))
+            return any(map(set(parts).issuperset, choices)) or any(
+                _follows(part, given) for part in parts
+            )
+    return False
 
 
 def _relevant(
