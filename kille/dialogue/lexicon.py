@@ -5,7 +5,7 @@ All of it is read from `grammars/lexicon.*.toml`; the comments there say what is
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import chain
@@ -176,6 +176,13 @@ def _several(one_or_more: str | list[str]) -> tuple[str, ...]:
     return (one_or_more,) if isinstance(one_or_more, str) else tuple(one_or_more)
 
 
+def _endings(rows: Iterable[Sequence[str]]) -> Iterator[tuple[str, str]]:
+    """Pairs of endings; a third text lists the letters of which one stands before."""
+    for ending, new, *before in rows:
+        for letter in before[0] if before else ("",):
+            yield letter + ending, letter + new
+
+
 def _inflections(
     table: Mapping[str, Any], complements: Iterable[str]
 ) -> Iterable[Inflection]:
@@ -187,7 +194,7 @@ def _inflections(
                 word: _several(forms)
                 for word, forms in one.get("irregular", {}).items()
             },
-            endings=tuple((ending, new) for ending, new in one["endings"]),
+            endings=tuple(_endings(one["endings"])),
             complements=frozenset(complements),
             article=article,
         )

@@ -189,6 +189,7 @@ def test_swedish_nouns(word: str, definite: str, plural: str) -> None:
         ("hård", "hårt", "hårda"),
         ("mjuk", "mjukt", "mjuka"),
         ("tjock", "tjockt", "tjocka"),
+        ("gul", "gult", "gula"),
     ],
 )
 def test_swedish_adjectives(word: str, neuter: str, weak: str) -> None:
@@ -197,6 +198,13 @@ def test_swedish_adjectives(word: str, neuter: str, weak: str) -> None:
     assert swedish.inflect(word, "WEAK", "en") == weak
     assert forms(f"Huset är {neuter}.", "sv")[0][-1][0] == word
     assert any(it[0][0] == word for it in forms(f"Var är den {weak} koppen?", "sv"))
+
+
+@pytest.mark.parametrize("weak", ["stora", "gula", "fina", "sura", "lila"])
+def test_an_e_is_left_out_only_after_a_consonant(weak: str) -> None:
+    found = lexicon("sv").inflections["WEAK"]
+    words = [word for one in found for word in one.words(weak)]
+    assert words == [weak[:-1], weak]
 
 
 def test_a_colour_means_the_same_in_every_language() -> None:
