@@ -57,6 +57,33 @@ def test_a_change_that_its_operator_cannot_make_is_not_tested(
     assert outcomes == ["unreached", "invalid"]
 
 
+@pytest.mark.parametrize(
+    ("code", "changed", "is_tried"),
+    [
+        ("pairs = zip(a, b, strict=True)", "strict=False", False),
+        ("pairs = zip(a, b, strict=False)", "strict=True", True),
+        ("spend(2 + len(a))", "spend(3 + len(a))", False),
+        ("use(2 + len(a))", "use(3 + len(a))", True),
+        ("@lru_cache(4096)\ndef twice(n): return n", "cache(4097)", False),
+        ("@repeat(4096)\ndef twice(n): return n", "repeat(4097)", True),
+        ("def length(self) -> 2: ...", "-> 3", False),
+        ("def length(self):\n    ...", "pass", False),
+        ("def length(self):\n    stop()", "pass", True),
+        ("class Point(Base, frozen=True): x: 3", "frozen=False", False),
+        ("class Point(Base, frozen=True): x: 3", "x: 4", False),
+        ("class Point(Base, open=True): x: 3", "open=False", True),
+    ],
+)
+def test_what_no_answer_depends_on_is_left_alone(
+    mutants: ModuleType, code: str, changed: str, is_tried: bool
+) -> None:
+    code = f"{code}\n"
+    found = mutants.mutants_by_place("some.py", code).values()
+    tried = [mutant.mutate(code) for several in found for mutant in several]
+    tried = [one.replace("( ", "(") for one in tried]
+    assert any(changed in one for one in tried) is is_tried
+
+
 def test_the_tests_that_work_least_are_tried_however_long_they_waited(
     mutants: ModuleType,
 ) -> None:

@@ -134,41 +134,55 @@ class Mutant:
 
 
 def mutants_by_place(file: str, code: str) -> dict[tuple[str, Span], list[Mutant]]:
-    """All changes of a file, by place, but for what the type checker alone reads."""
-    unused = [*_spans_for_types_only(code)]
+    """All changes of a file, by place, but for those that no answer depends on."""
+    idle = [*_idle_spans(code)]
     nodes = list(ast_nodes(get_ast(code)))
     places: dict[tuple[str, Span], list[Mutant]] = {}
     for name, operator in operators().items():
         spans = [span for node in nodes for span in operator.mutation_positions(node)]
         for occurrence, span in enumerate(spans):
-            if any(start <= span[0] and span[1] <= end for start, end in unused):
+            if any(start <= span[0] and span[1] <= end for start, end in idle):
                 continue
             mutant = Mutant(file, name, occurrence, span[0][0], span[1][0])
             places.setdefault((file, span), []).append(mutant)
     return places
 
 
-def _spans_for_types_only(code: str) -> Iterator[Span]:
-    """Annotations, imports for them, and `frozen=True`, which mypy checks."""
+def _idle_spans(code: str) -> Iterator[Span]:
+    """The parts of the code that no answer depends on.
+
+    They are what the type checker alone reads, such as annotations and `frozen=True`;
+    `strict=True` of `zip`, which says what the code around it sees to; how much work
+    is charged to the budget; and how many answers a cache keeps.
+    """
     for node in ast.walk(ast.parse(code)):
-        kept: list[ast.expr | ast.stmt | None] = []
-        match node:
-            case ast.FunctionDef() | ast.AsyncFunctionDef():
-                kept = [node.returns]
-            case ast.arg() | ast.AnnAssign():
-                kept = [node.annotation]
-            case ast.keyword(arg="frozen"):
-                kept = [node.value]
-            case ast.If(test=ast.Name(id="TYPE_CHECKING")):
-                kept = [node]
-        for part in kept:
-            if part is not None:
-                assert part.end_lineno is not None
-                assert part.end_col_offset is not None
-                yield (
-                    (part.lineno, part.col_offset),
-                    (part.end_lineno, part.end_col_offset),
-                )
+        for part in _idle_parts(node):
+            assert part.end_lineno is not None
+            assert part.end_col_offset is not None
+            yield (
+                (part.lineno, part.col_offset),
+                (part.end_lineno, part.end_col_offset),
+            )
+
+
+def _idle_parts(node: ast.AST) -> Iterator[ast.expr | ast.stmt]:
+    match node:
+        case ast.FunctionDef(returns=ast.expr() as kind):
+            yield kind
+        case ast.AsyncFunctionDef(returns=ast.expr() as kind):
+            yield kind
+        case ast.arg(annotation=ast.expr() as kind) | ast.AnnAssign(annotation=kind):
+            yield kind
+        case ast.keyword(arg="frozen", value=value):
+            yield value
+        case ast.keyword(arg="strict", value=ast.Constant(value=True) as value):
+            yield value
+        case ast.If(test=ast.Name(id="TYPE_CHECKING")):
+            yield node
+        case ast.Expr(value=ast.Constant(value=value)) if value is ...:
+            yield node
+        case ast.Call(func=ast.Name(id="spend" | "lru_cache"), args=arguments):
+            yield from arguments
 
 
 def sample(files: Sequence[str], size: int, seed: int) -> list[Mutant]:
