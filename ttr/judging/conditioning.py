@@ -72,7 +72,7 @@ def _explain_quotient(
         return "; ".join((*said, "which has nothing to do with it"))
     both = chance(All((event, condition)), known).p
     whole = chance(condition, known).p
-    if both.lo == both.hi and whole.lo == whole.hi < 1.0:
+    if both.lo == both.hi and whole.lo == whole.hi:
         said.append(f"{both} / {whole}")
     return "; ".join((*said, *links))
 

@@ -164,7 +164,7 @@ def _seen_from(at: list[str], place: Path) -> Path:
     It starts at the innermost record around both. The place itself if there is none.
     """
     first, *labels = place.labels
-    if place.up > 0 or first != ITSELF.labels[0]:
+    if first != ITSELF.labels[0]:
         return place
     for shared in range(min(len(at), len(labels) - 1), -1, -1):
         depth = len([label for label in at[shared:] if not is_element(label)]) - 1
