@@ -1,13 +1,28 @@
 """Laws of updating: what is certain, what a rule makes of a state."""
 
-from generators import models, objects, record_types, records, types
+from generators import A, B, models, objects, record_types, records, types
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import Basic, ListOf, Model, TTRError, amerge, meet, merge, record, rectype
+from ttr import (
+    Basic,
+    Ind,
+    ListOf,
+    Model,
+    Pred,
+    TTRError,
+    amerge,
+    fun,
+    meet,
+    merge,
+    record,
+    rectype,
+    this,
+)
 from ttr.judging.certainty import is_certain, is_certain_given
 from ttr.probability import CERTAIN
-from ttr.types import NonEmpty
+from ttr.signature.signature import Axiom, Signature
+from ttr.types import Application, NonEmpty
 
 
 @given(types(), objects(), models())
@@ -68,3 +83,23 @@ def test_other_witness_functions_judge_anew():
     assert not is_certain(long.facts, r, T)
     assert not is_certain(short.given("a", A, 0.5).facts, r, T)
     assert is_certain(short.facts, r, T)
+
+
+def test_an_axiom_makes_a_part_of_a_join_certain():
+    dog, puppy, cat = (Pred(name, Ind) for name in ("dog", "puppy", "cat"))
+    T = dog("rex") | cat("rex")
+    told = Model().given("s", puppy("rex"))
+    assert not is_certain(told.facts, "s", T)
+    theory = Signature(axioms=(Axiom(puppy(this.x), dog(this.x)),))
+    known = Model(theory).given("s", puppy("rex"))
+    assert is_certain(known.facts, "s", T)
+    assert is_certain(known.given("s", A).facts, "s", T)
+    assert not is_certain(told.facts, "s", T)
+
+
+def test_what_is_set_to_what_has_no_value_is_not_certain():
+    of_B = Application(fun(y=B)(this.y), "a")
+    M = Model().given("a", A)
+    assert not is_certain_given(M.facts, "a", A @ of_B, A)
+    assert is_certain_given(M.given("a", B).facts, "a", A @ of_B, A)
+    assert not is_certain_given(M.given("b", B).facts, "b", A @ of_B, A)

@@ -172,6 +172,15 @@ def test_a_comparison_that_is_left_open_leaves_it_open():
     )
 
 
+def test_whether_something_is_of_types_on_a_circle_is_left_open():
+    theory = theory_of("think(a, C) <: know(a, C) if true(C)")
+    circle = "[x = y : Ind, y = x : Ind]"
+    M = Model(theory).given("k", theory.parse(f"think(sam, {circle})"))
+    j = M.judge("k", theory.parse(f"know(sam, {circle})"))
+    assert j.p == (0, 1)
+    assert j.why.rule.endswith(f": P({circle}) = [0, 1]")
+
+
 def test_what_follows_cannot_be_denied():
     theory = theory_of(THINK, "given m : view(sam, [i : Ind])")
     M = Model(theory).given("m", theory.parse("think(sam, [x : Ind, y : Ind])"), 0.1)

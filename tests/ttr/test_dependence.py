@@ -466,6 +466,19 @@ def test_a_degree_is_told_through_what_nothing_else_is_known_of():
     assert likely.judge("a", A).p == pytest.approx((0, 0.2))
 
 
+def test_a_degree_is_told_by_what_an_axiom_puts_above_it():
+    M = Model(Signature(axioms=(Axiom(B, C),), opened=frozenset((A,))))
+    M = M.given("a", B, 0.9, when=[("a", A)])
+    M = M.given("b", A).given("a", C, 0.1, when=[("b", A)])
+    assert M.judge("a", A).p == pytest.approx((0, 0.1 / 0.9))
+
+
+def test_the_reason_of_one_judgement_is_what_it_was_conditioned_on():
+    M = model_of((A, 0.6), (B, 0.5, A), (B, 0.2, ~A))
+    rule = "P(a : B | a : A) is 0.5; P(a : B | not a : A) is 0.2"
+    assert M.judge("a", B).why.rule == rule
+
+
 def test_without_a_degree_what_depends_on_it_tells_nothing():
     M = model_of((A, 0.4), (B, 0.5, A), (B, 0.2, ~A), (C, 1, B), (C, 0.4, ~B))
     assert M.judge("a", A).p == (0.4, 0.4)
@@ -505,6 +518,33 @@ def test_what_follows_from_a_condition_adds_nothing_to_it():
         assert M.judge("a", C, when=when).p == (0.3, 0.3)
     unknown = model_of((A, (0.01, 1)), (C, 0.3, A))
     assert unknown.judge("a", C, when=[("a", A), ("a", A | C)]).p == (0.3, 0.3)
+
+
+B_IF_A = "P(a : B | a : A) is 0.5"
+
+
+@pytest.mark.parametrize(
+    ("T", "p_of_A", "when", "reckoned"),
+    [
+        (B, 0.6, [("a", A)], f"given a : A; 0.3 / 0.6; {B_IF_A}"),
+        (A, 0.6, [("a", B)], f"given a : B; {B_IF_A}"),
+        (A, 0.6, [("a", A | B)], f"given a : A \\/ B; {B_IF_A}"),
+        (A, (0.5, 0.6), [("a", A)], "given a : A"),
+        (A, 0.6, [("a", A)], "given a : A; 0.6 / 0.6"),
+        (A, 0.6, [("b", C)], "given b : C; which has nothing to do with it"),
+        (A, 0.6, [("c", A)], "given c : A; which has nothing to do with it"),
+        (
+            A,
+            0.6,
+            [("b", C), ("c", A)],
+            "given b : C, c : A; which has nothing to do with it",
+        ),
+    ],
+)
+def test_the_reason_of_a_conditional_degree_is_a_quotient(T, p_of_A, when, reckoned):
+    M = Model().given("a", A, p_of_A).given("a", B, 0.5, when=[("a", A)])
+    M = M.given("b", C, 0.3).given("c", A)
+    assert M.judge("a", T, when=when).why.because == reckoned
 
 
 def test_a_disjunction_is_asked_of_the_worlds():

@@ -5,7 +5,8 @@ import pytest
 
 from ttr import Basic, Ind, ListOf, Model, Pred, record, rectype, this
 from ttr.errors import UndecidedError
-from ttr.probability import All, AnyOf
+from ttr.judging.judgements import degree_if_decided
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, All, AnyOf
 
 A = Basic("A")
 dog = Pred("dog", Ind)
@@ -107,6 +108,30 @@ def test_uncertain_judgements_in_order():
     why = M.judge(record(x="a", c="s"), Dog).why
     assert [step.type for step in why.uncertain()] == [Ind, dog("a")]
     assert list(Model().given("a", Ind).judge("a", Ind).why.uncertain()) == []
+
+
+C, R = CERTAIN, REFUTED
+
+
+@pytest.mark.parametrize(
+    ("how", "degrees", "decided"),
+    [
+        ("all", [C, C], C),
+        ("all", [], C),
+        ("all", [C, None], None),
+        ("all", [None, R], R),
+        ("any", [None, C], C),
+        ("any", [], R),
+        ("any", [R, R], R),
+        ("any", [R, None], None),
+        ("none", [None, C], R),
+        ("none", [], C),
+        ("none", [R, R], C),
+        ("none", [R, UNKNOWN], None),
+    ],
+)
+def test_certain_or_refuted_grounds_may_decide_a_claim(how, degrees, decided):
+    assert degree_if_decided(how, degrees) == decided
 
 
 def test_what_is_decided_rests_on_nothing_uncertain():

@@ -27,7 +27,7 @@ from ttr import (
 from ttr.errors import IllFormedError, RefusedError, UndecidedError, UnsupportedError
 from ttr.judging.witnesses import candidates
 from ttr.probability import Degree
-from ttr.signature.signature import Axiom, Given, Signature
+from ttr.signature.signature import Axiom, Expected, Given, Signature
 from ttr.types import Application, EventString, FunType, NonEmpty, fst
 from ttr.types.derived_types import star
 
@@ -162,6 +162,10 @@ def test_what_a_model_takes():
         M.given(record(x=this.y), rectype(x=Ind))
     with pytest.raises(IllFormedError, match="paths that lead nowhere"):
         M.create(rectype(c=dog(outer.x)))
+    with pytest.raises(IllFormedError, match="paths that lead nowhere"):
+        M.with_conditional(dog(this.x), 0.5, when=Ind)
+    with pytest.raises(IllFormedError, match="paths that lead nowhere"):
+        M.with_conditional(Ind, 0.5, when=dog(this.x))
     with pytest.raises(
         UnsupportedError, match="only basic types and ptypes take a degree"
     ):
@@ -191,6 +195,32 @@ def test_a_theory_gives_what_it_starts_from():
     M = Model(theory)
     assert M.theory is theory
     assert M.judge(record(x="a", c="s"), Dog).p == (0.2, 0.4)
+
+
+@pytest.mark.parametrize(
+    ("givens", "why"),
+    [
+        ([Given("a", A, 0.2), Given("a", A)], "a : A is given as 0.2 and as 1 here"),
+        (
+            [Given(record(x="a"), rectype(x=A)), Given("b", B), Given("a", A, 0.2)],
+            "a : A is given as 1 and as 0.2 here",
+        ),
+        (
+            [Given("a", A), *[Given("b", B, p, when=(("a", A),)) for p in (0.5, 0.6)]],
+            "P(b : B | a : A) is given as 0.5 and as 0.6 here",
+        ),
+        (
+            [Expected(B, (A, C), p) for p in (0.5, (0.5, 0.6))],
+            "P(B || A, C) is given as 0.5 and as [0.5, 0.6] here",
+        ),
+    ],
+)
+def test_a_theory_gives_no_judgement_two_degrees(givens, why):
+    with pytest.raises(RefusedError) as error:
+        Model(Signature(givens=tuple(givens)))
+    assert error.value.message == why
+    once = tuple(givens[:-1])
+    assert Model(Signature(givens=once + once)).facts.replaced is None
 
 
 def test_what_was_said_last_counts():
@@ -426,6 +456,14 @@ def test_perceiving_fills_what_is_missing(seeing, image, p):
     assert seeing.judge("e1", cup("o1", image)).p == (0, 1)
 
 
+def test_perceiving_fills_what_is_missing_in_a_record_inside(seeing):
+    M = seeing.witnessed(dog, by=lambda x: 0.5)
+    T = rectype(x=Ind, n=rectype(y=Ind, c=dog(this.y)))
+    j = M.perceive(record(x="o1", n={"y": "o1"}), T)
+    assert j.sit == record(x="o1", n={"y": "o1", "c": "e1"})
+    assert j.p == (0.5, 0.5)
+
+
 def test_perceiving_in_nested_types_and_meets(seeing):
     M = seeing.witnessed(dog, by=lambda x: 0.5)
     T = rectype(x=Ind, n=rectype(c=dog(outer.x)), m=rectype(y=Ind))
@@ -552,6 +590,24 @@ def test_a_function_that_is_not_surely_of_a_type(name):
     M = Model().given("a", A).given("a", B)
     f, T = NOT_SURELY[name]
     assert M.judge(f, T).p.lo == 0
+
+
+def test_a_function_is_of_no_type_where_it_has_no_value():
+    bark = fun(x=Ind)(Application(fun(y=dog("fido"))(this.y), this.x))
+    j = Model().given("a", Ind).judge(bark, Ind >> Ind)
+    assert j.holds is False
+    assert j.why.rule == "applied to a"
+    assert [part.p for part in j.why.parts] == [(1, 1), (0, 0)]
+    assert j.why.failure().rule.endswith(
+        "takes objects of dog(fido), which a is not: nothing says so; a is of Ind"
+    )
+
+
+def test_the_witnesses_of_what_a_function_gives_where_the_facts_say_it_is_defined():
+    of_fido = fun(y=dog("fido"))(A)
+    M = Model().given("s", dog("fido")).given("a", A)
+    assert M.witnesses(Application(of_fido, "s")) == ("a",)
+    assert M.witnesses(Application(of_fido, "a")) == ()
 
 
 def test_a_function_of_what_is_known():
