@@ -52,7 +52,9 @@ def scene(n: int) -> tuple[Record, Model]:
             by = partial(degree, number, sign.kind)
             model = model.witnessed(word_of(sign), by=by)
     game = tutoring([*NOUNS, *ADJECTIVES, *RELATIONS], model=model)
-    view = record(look="look1", things=names, placed=names, focus=names[:1])
+    view = record(
+        look="look1", things=names, placed=names, focus=names[:1], pointed=names[:1]
+    )
     return replace(game.begin().state, view=view), model
 
 

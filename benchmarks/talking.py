@@ -155,7 +155,9 @@ def model_of(signs: Sequence[Record]) -> Model:
 def begin_dialogue(signs: Sequence[Record] = SIGNS) -> tuple[Game, Run]:
     """The game, and the run in which the three things are seen."""
     game = tutoring(signs, model=model_of(signs))
-    view = record(look="look1", things=THINGS, placed=THINGS, focus=["o1"])
+    view = record(
+        look="look1", things=THINGS, placed=THINGS, focus=["o1"], pointed=["o1"]
+    )
     return game, game.take(game.begin(), _glance(view)).run
 
 

@@ -136,7 +136,7 @@ def tutoring_times(
 ) -> list[float]:
     """The milliseconds of each turn of tutoring: heard, taken, answered in words."""
     game = tutoring([noun(form) for form in NOUNS], model=seen_model())
-    view = record(look="look1", things=["o1"], placed=["o1"], focus=["o1"])
+    view = record(look="look1", things=["o1"], placed=["o1"], focus=["o1"], pointed=[])
     seen = record(view=view, kept=[], floor="tutor")
     begun = game.take(game.begin(), seen).run
     times = []

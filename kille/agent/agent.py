@@ -355,11 +355,13 @@ class Agent:
             thing_name(number) for number in range(1, len(view.look.percepts) + 1)
         ]
         places = [percept.region.place for percept in view.look.percepts]
+        focus = [] if view.focus is None else [thing_name(view.focus)]
         seen = record(
             look=handle,
             things=things,
             placed=[x for x, place in zip(things, places, strict=True) if place],
-            focus=[] if view.focus is None else [thing_name(view.focus)],
+            focus=focus,
+            pointed=focus if view.pointed else [],
         )
         model = now.model.given(handle, self.types["Look"])
         for x in things:

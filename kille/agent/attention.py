@@ -28,20 +28,26 @@ class NumberedLook:
     next. Later ones move up only when more things go than come. `focus` is the number
     of what the tutor points at, or else of the nearest thing. It stays while the same
     things are in view, even if noise makes another one nearer now and then; it is None
-    when nothing is in view. `kept` are the numbers of the things that had them before.
+    when nothing is in view. `kept` are the numbers of the things that had them before,
+    and `pointed` says whether the tutor has pointed at the focus since the last look.
     """
 
     look: Look
     focus: int | None
     kept: tuple[int, ...] = ()
+    pointed: bool = False
 
 
 @dataclass(frozen=True, eq=False)
 class Attention:
-    """What the tutor points at, if at anything, and the latest view of the scene."""
+    """What the tutor points at, if at anything, and the latest view of the scene.
+
+    `anew` says whether they have pointed since that view.
+    """
 
     pointed: Sighting | None = None
     view: NumberedLook | None = None
+    anew: bool = False
 
 
 @runtime_checkable
@@ -73,7 +79,10 @@ class AttentiveSensor:
         order = _in_order(seen.percepts, before)
         focus = _focus(order, before) if pointed is None else _first(order, seen)
         view = NumberedLook(
-            replace(seen, percepts=tuple(order)), focus, _kept_numbers(order, before)
+            replace(seen, percepts=tuple(order)),
+            focus,
+            _kept_numbers(order, before),
+            self.attention.anew and focus is not None,
         )
         self.attention = Attention(pointed, view)
         return view
@@ -83,7 +92,8 @@ class AttentiveSensor:
 
         Numbers are those of the latest view. SensorError if there is nothing like it.
         """
-        self.attention = replace(self.attention, pointed=self._target(target))
+        pointed = self._target(target)
+        self.attention = replace(self.attention, pointed=pointed, anew=True)
 
     def _target(self, target: str) -> Sighting:
         """What is pointed at, in the frame in which it is."""

@@ -23,6 +23,7 @@ from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.meanings import (
     CLAIMS,
     DialogueTypes,
+    claims,
     merge_of,
     packaged_types,
     set_to,
@@ -30,6 +31,7 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.parsing import Grammar, Token, Tree, parts, words
 from kille.dialogue.robot_grammar import CLOSELY, LOOSELY, robot_rules
+from kille.dialogue.word_lists import SAYING, plain_text, word_lists
 from ttr import Rec, Record, RecordType, RecType, rectype
 from ttr.types import TypeNode
 
@@ -53,6 +55,9 @@ _REMEMBERED = 1024
 
 _READINGS = 16
 """How many readings a sentence has at most: the simplest ones."""
+
+_LESSONS = ("instruct", "instruct_several", "describe", "correct", "reject")
+"""The moves that say what a thing is, or how: for them words are vetted."""
 
 _FORMS = 3
 """How many words a form is read as, at most; those in the lexicon come first."""
@@ -172,6 +177,7 @@ class _Reader:
         self, types: DialogueTypes, lexicon_: Lexicon, grammar: Grammar
     ) -> None:
         self._types, self._lexicon, self._grammar = types, lexicon_, grammar
+        self._lists = word_lists(lexicon_.language)
         self._meanings = lru_cache(4 * _REMEMBERED)(self._meanings_anew)
         self.sentences = lru_cache(_REMEMBERED)(self._sentences_anew)
 
@@ -199,13 +205,30 @@ class _Reader:
 
     def _heard_types(self, text: str, move: Tree) -> Iterator[RecordType]:
         """The types of the event: who speaks to whom, its move, words and content."""
+        is_lesson = move.rule in _LESSONS
+        is_saying = is_lesson and self._lexicon.is_saying(plain_text(text))
         for signs, content in self._together(move):
-            yield set_to(
+            heard = set_to(
                 self._types.move_type("Heard", _type_name(move.rule)),
                 text=self._types["Text"] @ text,
                 signs=self._types.record_type("Heard")["signs"] @ signs,
                 content=RecType @ content,
             )
+            doubt = SAYING if is_saying else is_lesson and self._doubt(signs, content)
+            yield set_to(heard, doubt=self._types["Text"] @ doubt) if doubt else heard
+
+    def _doubt(self, signs: Iterable[Record], content: RecordType) -> str:
+        """Why the word of a lesson may be none that is said of things, or nothing."""
+        if "counted" in content:
+            said = (it for it in signs if it.kind == "noun")
+        else:
+            said = (it for it in signs if claims(content, it))
+        for sign in said:
+            if sign.kind == "noun":
+                return self._lists.judge_noun(sign.form, self._lexicon.complements)
+            if sign.kind == "adjective":
+                return self._lists.judge_quality(sign.form)
+        return ""
 
     def said_types(self, move: Tree) -> Iterator[RecordType]:
         """The types of the event of the robot's saying this."""

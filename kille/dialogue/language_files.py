@@ -15,6 +15,12 @@ from ttr.safety.limits import SETTINGS
 FILES = ("tutor.{}.lark", "lexicon.{}.toml")
 """The files of a language: its grammar, and its lexicon."""
 
+WORDS = "words.{}.toml"
+"""The file of a language that says of which words the robot asks before it learns them.
+
+A language may do without.
+"""
+
 STRATEGIES = "strategies.toml"
 """The file of what the robot decides by, which is the same for all languages."""
 
@@ -38,7 +44,7 @@ def plain(language: str) -> str:
 
 
 def source(file: str, language: str) -> str:
-    """The text of one of the `FILES` of a language, or of the `STRATEGIES` beside them.
+    """The text of a file of a language, or of the `STRATEGIES` beside its `FILES`.
 
     Raises `OSError` if it cannot be read.
 

@@ -5,6 +5,7 @@ All of it is read from `grammars/lexicon.*.toml`; the comments there say what is
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -55,6 +56,9 @@ class Lexicon:
     means: Mapping[str, str]
     referring: Mapping[str, str]
     values: Mapping[str, str]
+    complements: frozenset[str]
+    """Words after which a noun of several words has no ending: the "of" in it."""
+    sayings: re.Pattern[str] | None
     marking: Mapping[str, str]
     styles: Mapping[str, Style]
     vocabulary: frozenset[str]
@@ -73,6 +77,14 @@ class Lexicon:
             )
             for act in acts
         }
+
+    def is_saying(self, text: str) -> bool:
+        """Whether a text, in small letters without punctuation, is a saying.
+
+        >>> lexicon().is_saying("that's a good question")
+        True
+        """
+        return self.sayings is not None and bool(self.sayings.fullmatch(text))
 
     def article(self, sign: Record) -> str:
         """The indefinite article of a word: as the tutor used it, or by its form."""
@@ -155,6 +167,8 @@ def _lexicon(language: str, wording: str, _: int) -> Lexicon:
         means=data["means"],
         referring=phrases["referring"],
         values=data.get("values", {}),
+        complements=frozenset(complements),
+        sayings=_any_of(data.get("sayings", {}).get("patterns", ())),
         marking=phrases["marking"],
         styles={
             name: Style(table)
@@ -170,6 +184,12 @@ def _lexicon(language: str, wording: str, _: int) -> Lexicon:
         ),
         sections=data,
     )
+
+
+def _any_of(patterns: Iterable[str]) -> re.Pattern[str] | None:
+    """One expression for several, or None for none."""
+    some = tuple(patterns)
+    return re.compile("|".join(f"(?:{it})" for it in some)) if some else None
 
 
 def _several(one_or_more: str | list[str]) -> tuple[str, ...]:

@@ -46,7 +46,7 @@ def initial(
             strategy=default() if strategy is None else strategy,
             **known,
         ),
-        view=record(look=NO_LOOK, things=[], placed=[], focus=[]),
+        view=record(look=NO_LOOK, things=[], placed=[], focus=[], pointed=[]),
         shared=record(
             latest=record(),
             pending=[],
@@ -54,6 +54,7 @@ def initial(
             qud=[],
             salient=[],
             topic=[],
+            shown=[],
             frame=OPEN,
             turned=[],
             here=[],

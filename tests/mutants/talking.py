@@ -120,7 +120,9 @@ def seen(look: str, floor: str = "robot") -> Record:
     number = int(look.removeprefix("look"))
     things = THINGS[: number % 5]
     placed = things if number % 4 else ()
-    view = record(look=look, things=things, placed=placed, focus=things[:1])
+    view = record(
+        look=look, things=things, placed=placed, focus=things[:1], pointed=things[:1]
+    )
     return record(view=view, kept=things, floor=floor)
 
 

@@ -19,6 +19,8 @@ from kille.dialogue.games.confirming import CONFIRMING
 from kille.dialogue.games.correcting import CORRECTING
 from kille.dialogue.games.counting import COUNTING
 from kille.dialogue.games.courtesy import COURTESY, REPEATING
+from kille.dialogue.games.distinguishing import DISTINGUISHING
+from kille.dialogue.games.doubling import ANSWERED, DOUBLING
 from kille.dialogue.games.explaining import EXPLAINING
 from kille.dialogue.games.finding import FINDING
 from kille.dialogue.games.forgetting import FORGETTING
@@ -34,6 +36,7 @@ from kille.dialogue.games.placing import PLACING
 from kille.dialogue.games.referring import REFERRING
 from kille.dialogue.games.several import SEVERAL
 from kille.dialogue.games.surveying import SURVEYING
+from kille.dialogue.games.vetting import VETTED, VETTING
 from ttr.updates import Algorithm, Rule, first, maybe, seq
 
 __all__ = ["TUTORING", "games_with"]
@@ -42,6 +45,7 @@ ANSWERING = first(
     ACKNOWLEDGING,
     CONFIRMING,
     CORRECTING,
+    DOUBLING,
     INSTRUCTING,
     SEVERAL,
     NAMING,
@@ -75,14 +79,17 @@ def games_with(*answers: Rule) -> Algorithm:
                 REPEATING,
                 MISHEARD,
                 OFFER_ANSWERED,
+                VETTED,
+                ANSWERED,
                 SETTLING,
-                seq(maybe(CLARIFYING), maybe(OFFERING)),
+                seq(maybe(CLARIFYING), maybe(first(VETTING, OFFERING))),
             ),
             maybe(FRAMING),
             maybe(REFERRING),
             maybe(ASKING_FRAME),
             maybe(first(*ANSWERING.parts, *answers)),
             maybe(EXEMPLIFYING),
+            maybe(DISTINGUISHING),
         ),
         SAID,
         GLANCED,

@@ -49,7 +49,7 @@ def plan_pointing(
     planned = plan(
         s, act, content, signs=signs, pending=claims, points=[x], types=types
     )
-    return replace(planned, {"view.focus": (x,)})
+    return replace(planned, {"view.focus": (x,), "view.pointed": (x,)})
 
 
 def _where(

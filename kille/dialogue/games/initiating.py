@@ -147,7 +147,14 @@ def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initia
         yield Initiative(
             _option_to_ask(s, "thing", doubt(beliefs)),
             _question("AskThing", things=(x,)),
-            replace(planned, {"view.focus": (x,), "shared.salient": salient}),
+            replace(
+                planned,
+                {
+                    "view.focus": (x,),
+                    "view.pointed": (x,),
+                    "shared.salient": salient,
+                },
+            ),
         )
         return
 

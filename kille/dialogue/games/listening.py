@@ -46,11 +46,17 @@ def glance(s: Record, seen: Record) -> Record:
 def _state_after_look(s: Record, seen: Record) -> Record:
     """The state after a look: talk is about what is shown, and not about what is gone.
 
-    A question about what is gone is dropped.
+    Talk turns to what the tutor points at, or else to the one thing that is new if it
+    is the nearest as well; if it is not, it is open which of them "this" is. A question
+    about what is gone is dropped.
     """
     view = seen.view
-    new = [x for x in view.things if x not in s.view.things]
-    turned_to = () if view.focus == s.view.focus or len(new) > 1 else view.focus
+    before = {*s.view.things} & {*seen.kept}
+    new = [x for x in view.things if x not in before]
+    changed = view.focus if view.focus != s.view.focus else ()
+    pointed = view.pointed if view.pointed != s.view.pointed else ()
+    turned_to = () if len(new) > 1 else changed or pointed
+    topic = () if new else [x for x in s.shared.topic if x in seen.kept]
     salient = _first(turned_to, (x for x in s.shared.salient if x in seen.kept))
     turned = tuple(it for it in s.shared.turned if it.x in seen.kept)
     asked = [it for it in s.private.asked if set(it.things) <= set(seen.kept)]
@@ -60,7 +66,8 @@ def _state_after_look(s: Record, seen: Record) -> Record:
         "private.asked": asked,
         "shared.qud": qud,
         "shared.salient": salient,
-        "shared.topic": turned_to or [x for x in s.shared.topic if x in seen.kept],
+        "shared.topic": turned_to or topic,
+        "shared.shown": [x for x in s.shared.shown if x in seen.kept],
         "shared.turned": turned,
         "shared.here": keep_claims(s.shared.here, seen.kept),
     }

@@ -46,7 +46,8 @@ def refer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor talks of things in view: the one way to take it that fits is meant."""
     match _readings(s, model, types=types):
         case [meant]:
-            return about(s, meant.content, types=types)
+            state = about(s, meant.content, types=types)
+            return replace(state, {"shared.shown": _shown_by(s, model, meant, types)})
     return None
 
 
@@ -189,13 +190,49 @@ def differing_things(options: Sequence[Record]) -> tuple[str, Sequence[str]]:
 def _readings(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Reading]:
     """The ways to take the phrases of the latest move that are meant."""
     content = content_of(s)
-    return (
-        intended_readings(
-            s, possible_readings(s, model, content, types=types), types=types
-        )
-        if phrases(content)
-        else ()
+    if not phrases(content):
+        return ()
+    readings = intended_readings(
+        s, possible_readings(s, model, content, types=types), types=types
     )
+    if len(readings) < 2 or _teaches(s, model, types=types):
+        return readings
+    return _about_focus(s, readings) or readings
+
+
+def _about_focus(s: Record, readings: Sequence[Reading]) -> Sequence[Reading]:
+    """The readings in which what is asked of "this" is asked of the focus."""
+    shown = [
+        it for it in PARTS if it in readings[0].open and _is_shown(readings[0], it)
+    ]
+    return [
+        it
+        for it in readings
+        if shown and all(it.things[y] in s.view.focus for y in shown)
+    ]
+
+
+def _is_shown(reading: Reading, label: str) -> bool:
+    """Whether a phrase of a reading says of its thing only that it is shown."""
+    phrase = phrase_at(reading.open, label)
+    return set(phrase.labels) <= {"x", "look", "d"}
+
+
+def _teaches(s: Record, model: Model, *, types: DialogueTypes) -> bool:
+    """Whether the latest move is a lesson, or says what is not so."""
+    latest = s.shared.latest
+    return any(model.judge(latest, types[it]).holds for it in ("Teaching", "Reject"))
+
+
+def _shown_by(
+    s: Record, model: Model, meant: Reading, types: DialogueTypes
+) -> Sequence[str]:
+    """What a lesson calls "this", if that is all that it calls it."""
+    this = types.record_type("This")
+    if "target" not in meant.things or not _teaches(s, model, types=types):
+        return ()
+    calls_this = phrase_at(meant.open, "target").get("d") == this["d"]
+    return (meant.things["target"],) if calls_this else ()
 
 
 def _question_about(phrase: RecordType, *, types: DialogueTypes) -> RecordType:

@@ -22,6 +22,7 @@ from kille.dialogue.reference.salience import (
     choosing_predicates,
     in_talk,
     just_mentioned,
+    shown_things,
 )
 from ttr import Model, Pred, Record, RecordType, rectype
 from ttr.types import Singleton
@@ -183,7 +184,7 @@ def _things_without_words(
     if phrase.labels != types.record_type("Phrase").labels:
         return None
     claimed = {thing_at(claim, "target") for claim in s.shared.pending[:1]}
-    return [x for x in s.view.things if x in claimed] or list(s.view.focus)
+    return [x for x in s.view.things if x in claimed] or shown_things(s)
 
 
 def fitting_readings(s: Record, readings: Iterable[Reading]) -> list[Reading]:
@@ -243,7 +244,12 @@ def intended_readings(
 
 
 def _chooses(phrase: RecordType, *, types: DialogueTypes) -> bool:
-    """Whether a phrase says by itself which of several things it speaks of."""
+    """Whether a phrase says by itself which of several things it speaks of.
+
+    So does "that": where it may be several things, it is told from "this".
+    """
+    if phrase.get("d") == types.record_type("That")["d"]:
+        return True
     return bool(take_apart(phrase, types.derive(choosing_predicates)).choices)
 
 

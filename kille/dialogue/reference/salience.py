@@ -19,9 +19,48 @@ Choice = Callable[[Record, Model, Sequence[str], DialogueTypes], Sequence[str]]
 def in_talk(s: Record, model: Model, *, types: DialogueTypes) -> Model:
     """The model in which the talk says what is shown and what was mentioned."""
     latest = s.shared.salient[:1] or s.view.focus
-    return model.witnessed(
-        types["shown"], by=lambda x, look: x in s.view.focus
-    ).witnessed(types["mentioned"], by=lambda x, look: x in latest)
+    shown = shown_things(s)
+
+    def is_distal(x: str, look: str) -> bool:
+        return x in distal_things(s, model, shown, types)
+
+    return (
+        model.witnessed(types["shown"], by=lambda x, look: x in shown)
+        .witnessed(types["distal"], by=is_distal)
+        .witnessed(types["mentioned"], by=lambda x, look: x in latest)
+    )
+
+
+def shown_things(s: Record) -> Sequence[str]:
+    """What "this" may be: what is pointed at, or was just talked about.
+
+    Where neither singles out one thing, it may be any of those in view.
+    """
+    for one in (s.view.pointed, s.shared.topic):
+        if len(one) == 1 and one[0] in s.view.things:
+            return tuple(one)
+    return tuple(s.view.things)
+
+
+def distal_things(
+    s: Record, model: Model, shown: Sequence[str], types: DialogueTypes
+) -> Sequence[str]:
+    """What "that" may be: after a lesson about "this" another thing, if there is one.
+
+    What is said to be so of "that" may be said of "this" as well: then it is open.
+    """
+    this = [x for x in s.shared.shown if x in shown and not s.view.pointed]
+    others = tuple(x for x in s.view.things if x not in this)
+    if not this or not others:
+        return shown
+    if any(model.judge(s.shared.latest, types[act]).holds for act in CONTRASTING):
+        return others
+    describes = model.judge(s.shared.latest, types["Describe"]).holds
+    return tuple(s.view.things) if describes else shown
+
+
+CONTRASTING = ("Instruct", "AskName")
+"""The moves in which "that" is told from the "this" of a lesson."""
 
 
 def most_salient(s: Record, things: Iterable[str]) -> str | None:

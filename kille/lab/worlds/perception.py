@@ -57,11 +57,13 @@ def number_of(x: str) -> int:
 def view(world: World) -> Record:
     """What is in view."""
     things = [thing(number) for number in world.in_view]
+    attended = [] if world.attended_thing is None else [thing(world.attended_thing)]
     return record(
         look=world.name,
         things=things,
         placed=things if world.deep else [],
-        focus=[] if world.attended_thing is None else [thing(world.attended_thing)],
+        focus=attended,
+        pointed=attended,
     )
 
 

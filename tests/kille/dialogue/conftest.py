@@ -69,7 +69,11 @@ class Scene:
     def seen(self, kind: str = "Seen", kept: Sequence[str] | None = None) -> Record:
         """The event of a look at these things, as a turn or at a glance."""
         view = record(
-            look="look1", things=self.names, placed=self.placed, focus=self.names[:1]
+            look="look1",
+            things=self.names,
+            placed=self.placed,
+            focus=self.names[:1],
+            pointed=self.names[:1],
         )
         floor = "robot" if kind == "Seen" else "tutor"
         kept = self.names if kept is None else kept

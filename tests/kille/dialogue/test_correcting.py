@@ -51,7 +51,10 @@ def agreed(s: Record) -> set[object]:
 
 def test_a_claim_that_is_corrected_is_learned_not_to_be_so(table: Any) -> None:
     table.hear("What is this?")
-    assert table.hear("No, this is a mug.") == "OK, this is a mug, not a cup."
+    assert (
+        table.hear("No, this is a mug.")
+        == "OK, the one on the left (#1) is a mug, not a cup."
+    )
     assert taught(table.state) == ["not cup", "mug"]
     assert table.state.shared.pending == ()
 
@@ -127,7 +130,10 @@ def test_without_depth_no_place_is_learned(scene: Callable[..., Any]) -> None:
 
 def test_a_lesson_that_is_corrected_is_unlearned(table: Any) -> None:
     table.hear("This is a mug.")
-    assert table.hear("No, this is a cup.") == "OK, this is a cup, not a mug."
+    assert (
+        table.hear("No, this is a cup.")
+        == "OK, the one on the left (#1) is a cup, not a mug."
+    )
     assert taught(table.state) == ["cup"]
 
 
@@ -142,19 +148,25 @@ def test_only_the_thing_that_is_meant_is_corrected(scene: Callable[..., Any]) ->
 def test_only_what_is_said_of_the_same_is_corrected(table: Any) -> None:
     table.hear("This is blue.")
     table.hear("This is a mug.")
-    assert table.hear("No, it is red.") == "OK, this is red, not blue."
+    assert (
+        table.hear("No, it is red.") == "OK, the one on the left (#1) is red, not blue."
+    )
     assert taught(table.state) == ["mug", "red"]
 
 
 def test_what_is_rejected_is_unlearned(table: Any) -> None:
     table.hear("This is a mug.")
-    assert table.hear("This is not a mug.") == "OK, this is not a mug."
+    assert (
+        table.hear("This is not a mug.") == "OK, the one on the left (#1) is not a mug."
+    )
     assert taught(table.state) == []
     assert agreed(table.state) == set()
 
 
 def test_what_nobody_taught_is_learned_not_to_be_so(table: Any) -> None:
-    assert table.hear("This is not a mug.") == "OK, this is not a mug."
+    assert (
+        table.hear("This is not a mug.") == "OK, the one on the left (#1) is not a mug."
+    )
     assert taught(table.state) == ["not mug"]
 
 
@@ -186,19 +198,23 @@ def test_what_a_thing_is_has_nothing_to_do_with_how_it_is(table: Any) -> None:
     ],
 )
 def test_a_correction_may_name_what_it_rejects(table: Any, text: str) -> None:
-    assert table.hear(text) == "OK, this is a cup, not a mug."
+    assert table.hear(text) == "OK, the one on the left (#1) is a cup, not a mug."
     assert taught(table.state) == ["not mug", "cup"]
 
 
 def test_who_takes_one_word_for_another_and_back_only_teaches_it(table: Any) -> None:
-    assert table.hear("It's not a mug, it's a mug.") == "OK, I learned a mug."
+    assert (
+        table.hear("It's not a mug, it's a mug.")
+        == "OK, the one on the left (#1) is a mug."
+    )
     assert taught(table.state) == ["mug"]
 
 
 def test_what_is_named_is_rejected_rather_than_what_was_claimed(table: Any) -> None:
     table.hear("What is this?")
     assert (
-        table.hear("It's not a book, it's a mug.") == "OK, this is a mug, not a book."
+        table.hear("It's not a book, it's a mug.")
+        == "OK, the one on the left (#1) is a mug, not a book."
     )
     assert taught(table.state) == ["not book", "mug"]
 
@@ -207,7 +223,7 @@ def test_what_is_gone_is_not_corrected_in_another_thing(table: Any) -> None:
     table.hear("This is a mug.")
     gone = replace(table.seen(), {"kept": ()})
     table._take(gone)
-    assert table.hear("No, this is a cup.") == "OK, I learned a cup."
+    assert table.hear("No, this is a cup.") == "OK, the one on the left (#1) is a cup."
     assert taught(table.state) == ["mug", "cup"]
 
 
@@ -232,7 +248,7 @@ def test_what_was_claimed_of_another_thing_is_not_corrected(table: Any) -> None:
         model=table.now.model.given("look2", theory()["Look"])
     )
     table._take(replace(table.seen(), {"kept": (), "view.look": "look2"}))
-    assert table.hear("No, this is a mug.") == "OK, I learned a mug."
+    assert table.hear("No, this is a mug.") == "OK, the one on the left (#1) is a mug."
     assert taught(table.state) == ["mug"]
 
 
@@ -298,7 +314,7 @@ def test_a_mistake_that_is_corrected_leaves_no_trace(
         return taught(told(one, (*texts, "Thank you.", *more)).state)
 
     slip, correction = f"This is a {wrong}x.", f"No, this is a {right}."
-    assert after(slip, correction) == after(f"This is a {right}.")
+    assert after(slip, "Yes.", correction) == after(f"This is a {right}.", "Yes.")
 
 
 @given(st.lists(SAID, max_size=6))

@@ -108,7 +108,7 @@ def test_what_was_claimed_may_still_be_confirmed(table: Any) -> None:
     table.hear("How sure are you?")
     table.hear("Why?")
     table.hear("What do you know?")
-    assert table.hear("That is correct.") == "OK, I learned a cup."
+    assert table.hear("That is correct.") == "OK, the one on the left (#1) is a cup."
 
 
 def test_who_has_claimed_nothing_is_sure_of_nothing(table: Any) -> None:

@@ -34,7 +34,9 @@ def talk(said: Iterable[str], language: str = "en") -> tuple[list[str], list[str
         model = model.witnessed(word_of(sign), by=by)
     game = tutoring(known, language=language, model=model)
     things = ["o1", "o2"]
-    view = record(look="look1", things=things, placed=things, focus=["o1"])
+    view = record(
+        look="look1", things=things, placed=things, focus=["o1"], pointed=["o1"]
+    )
     seen = record(view=view, kept=[], floor="tutor")
     now = game.take(game.begin(), seen).run
     answers = []
@@ -47,13 +49,13 @@ def talk(said: Iterable[str], language: str = "en") -> tuple[list[str], list[str
 
 def test_yes_takes_the_known_word() -> None:
     said, nouns = talk(["This is a cupp.", "Yes."])
-    assert said == ["Do you mean a cup?", "OK, I learned a cup."]
+    assert said == ["Do you mean a cup?", "OK, the one on the left (#1) is a cup."]
     assert nouns == ["cup", "book"]
 
 
 def test_no_takes_the_word_as_it_was_said() -> None:
     said, nouns = talk(["This is a cupp.", "No."])
-    assert said == ["Do you mean a cup?", "OK, I learned a cupp."]
+    assert said == ["Do you mean a cup?", "OK, the one on the left (#1) is a cupp."]
     assert nouns == ["cup", "book", "cupp"]
 
 
@@ -65,14 +67,17 @@ def test_anything_else_drops_the_question() -> None:
 
 def test_of_what_is_asked_more_may_be_a_slip_than_of_what_is_taught() -> None:
     said, _ = talk(["This is a bouk."])
-    assert said == ["OK, I learned a bouk."]
+    assert said == ["OK, the one on the left (#1) is a bouk."]
     said, _ = talk(["Is this a bouk?"])
     assert said == ["Do you mean a book?"]
 
 
 def test_a_word_of_its_own_is_not_questioned() -> None:
-    said, nouns = talk(["This is a cap.", "This is a mug."])
-    assert said == ["OK, I learned a cap.", "OK, I learned a mug."]
+    said, nouns = talk(["This is a cap.", "The other one is a mug."])
+    assert said == [
+        "OK, the one on the left (#1) is a cap.",
+        "OK, the one on the right (#2) is a mug.",
+    ]
     assert nouns == ["cup", "book", "cap", "mug"]
 
 

@@ -70,7 +70,9 @@ def scene(known: Degrees, things: int = 3, **changes: Any) -> tuple[Record, Mode
         arity = 2 if sign.kind == "relation" else 1
         by = partial(degree, known, word.name, arity)
         model = model.witnessed(word, by=by)
-    view = record(look="look1", things=names, placed=names, focus=names[:1])
+    view = record(
+        look="look1", things=names, placed=names, focus=names[:1], pointed=names[:1]
+    )
     state = replace(tutoring(signs).begin().state, view=view)
     return replace(state, changes), model
 

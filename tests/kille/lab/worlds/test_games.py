@@ -42,9 +42,9 @@ class Talk:
 
 def test_it_learns_to_name_things_from_one_example():
     talk = Talk()
-    assert talk.hear("This is a cup.") == "OK, I learned a cup."
+    assert talk.hear("This is a cup.") == "OK, the one on the left (#1) is a cup."
     talk.see(lambda world: world.point_at(2))
-    assert talk.hear("This is a book.") == "OK, I learned a book."
+    assert talk.hear("This is a book.") == "OK, the one on the right (#2) is a book."
     talk.see(lambda world: world.point_at(3))
     assert talk.hear("What is this?") == "This is a cup."
 

@@ -1,0 +1,124 @@
+"""A second noun for one thing: the robot asks if it is both, before it learns that.
+
+"This is a cup." – "This is a mug.": the tutor may have corrected themselves, or mean
+that it is both, or speak of another thing. Yes is a lesson; after no the robot asks
+which of the two it is, and unlearns the other. Where the robot has just said itself
+what it takes the thing for, the tutor knows that, and it does not ask.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.commitments import plan_learning, same, signs_for
+from kille.dialogue.games.correcting import CORRECTED
+from kille.dialogue.meanings import DialogueTypes, is_denial
+from kille.dialogue.moves import content_of, issue, plan
+from kille.dialogue.reference import in_view, thing_at
+from kille.dialogue.rules import rule
+from ttr import Record, RecordType, replace
+from ttr.updates import first
+
+BOTH = "AskBoth"
+"""The question whether both nouns are right; its options: the new and the old one."""
+
+EITHER = "AskEither"
+"""The question which of the two is right, with the same options."""
+
+
+@rule(answers="Instruct")
+def ask_both(s: Record, *, types: DialogueTypes) -> Record | None:
+    """A thing was called something else: is it both?"""
+    content = content_of(s)
+    before = _other_name(s, content)
+    if before is None or s.shared.pending:
+        return None
+    signs = signs_for(s, content, before)
+    options = [s.shared.latest, replace(s.shared.latest, content=before)]
+    asks = [issue(BOTH, options)]
+    return plan(s, BOTH, before, content, signs=signs, asks=asks, types=types)
+
+
+@rule(answers="Affirm")
+def learn_both(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It is both: the new noun is a lesson, and the old one stays."""
+    if not _asks(s, BOTH):
+        return None
+    asked, *rest = s.shared.qud
+    left = replace(s, {"shared.qud": rest, "shared.latest": asked.options[0]})
+    new = in_view(left, asked.options[0].content, types=types)
+    return plan_learning(left, new, types=types)
+
+
+@rule(answers="Deny")
+def ask_either(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It is not both: which is it?"""
+    if not _asks(s, BOTH):
+        return None
+    asked, *rest = s.shared.qud
+    new, old = (it.content for it in asked.options)
+    return plan(
+        replace(s, {"shared.qud": rest}),
+        "AskWhich",
+        old,
+        new,
+        signs=(*asked.options[0].signs, *signs_for(s, old, new)),
+        asks=[issue(EITHER, asked.options)],
+        types=types,
+    )
+
+
+@rule(answers=("Instruct", "Correct"))
+def take_either(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says which of the two it is, or corrects it: the other is unlearned."""
+    if not (_asks(s, EITHER) or _asks(s, BOTH)):
+        return None
+    asked, *rest = s.shared.qud
+    new, old = (it.content for it in asked.options)
+    left = replace(s, {"shared.qud": rest})
+    if _says(s, old):
+        return plan_learning(left, content_of(s), types=types)
+    if not _says(s, new):
+        return None
+    new = in_view(s, new, types=types)
+    before = [it.key for it in s.private.lessons if same(it.content, old)]
+    return plan(
+        left,
+        CORRECTED["c"],
+        new,
+        old,
+        signs=(*asked.options[0].signs, *signs_for(s, old, new)),
+        teaches=[new],
+        forgets=before,
+        types=types,
+    )
+
+
+def _asks(s: Record, question: str) -> bool:
+    """Whether this question is under discussion."""
+    return bool(s.shared.qud) and s.shared.qud[0].ask == question
+
+
+def _says(s: Record, content: RecordType) -> bool:
+    """Whether the latest move says the same noun."""
+    return bool(content_of(s)["c"] == content["c"]) if "c" in content_of(s) else False
+
+
+def _other_name(s: Record, content: RecordType) -> RecordType | None:
+    """What else the tutor has said that the thing is, since it came in view."""
+    x = thing_at(content, "target")
+    names = [
+        it.content
+        for it in s.private.lessons
+        if it.content in s.shared.here
+        and "c" in it.content
+        and not is_denial(it.content)
+        and thing_at(it.content, "target") == x
+    ]
+    if any(same(it, content) for it in names):
+        return None
+    return names[-1] if names else None
+
+
+ANSWERED = first(learn_both, ask_either, take_either)
+"""What answers whether it is both, or which of the two it is."""
+
+DOUBLING = ask_both

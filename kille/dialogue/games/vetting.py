@@ -1,0 +1,125 @@
+"""What may be a word: the robot asks about what it doubts, before it learns that.
+
+"This is sugar." may name a kind of thing, or say how this is, and "This is a king." may
+be a joke: the robot asks, and learns only from a yes. "That's life." names nothing that
+can be seen, and "This is a piece of cake." is a saying: from such it learns nothing.
+The lists are those of `kille.dialogue.word_lists`; a known word is never doubted.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import knows
+from kille.dialogue.meanings import CLAIMS, DialogueTypes, claims, is_denial, set_to
+from kille.dialogue.moves import content_of, issue, plan
+from kille.dialogue.reference import in_view
+from kille.dialogue.rules import rule
+from kille.dialogue.state import words
+from kille.dialogue.word_lists import DOUBTFUL, SAYING
+from ttr import Model, Record, RecType, rectype, replace
+from ttr.updates import first
+
+KIND = "AskKind"
+"""The question whether a word is a kind of thing."""
+
+HOW = "AskHow"
+"""The question whether a word says how a thing is."""
+
+Update = tuple[Record, Model]
+
+
+@rule(answers="Doubted")
+def take_as_remark(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says what cannot be a lesson: a saying, or a word for no thing."""
+    doubt, sign = s.shared.latest.doubt, _doubted_sign(s)
+    if not doubt or (doubt != SAYING and sign is None):
+        return None
+    if doubt == DOUBTFUL and not is_denial(content_of(s)):
+        return None
+    return plan(s, "TakeAsRemark", types=types)
+
+
+@rule(answers="Doubted")
+def ask_kind(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
+    """A new word may be none for a thing: it asks before it learns it."""
+    sign = _doubted_sign(s)
+    if s.shared.latest.doubt != DOUBTFUL or sign is None:
+        return None
+    content = in_view(s, content_of(s), types=types)
+    options = [replace(s.shared.latest, content=content, doubt="")]
+    if sign.kind == "adjective":
+        named, model = _as_naming(options[0], sign, model, types=types)
+        options = [named, *options]
+    asked = issue(KIND, options)
+    return plan(s, KIND, sign.meaning, signs=[sign], asks=[asked], types=types), model
+
+
+@rule(answers="Affirm")
+def take_vetted(s: Record) -> Record | None:
+    """The tutor means it as a word: that is what was said."""
+    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW):
+        return None
+    asked, *rest = s.shared.qud
+    return replace(s, {"shared.qud": rest, "shared.latest": asked.options[0]})
+
+
+@rule(answers="Deny")
+def ask_how(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It is no kind of thing: then it may say how this is."""
+    if not s.shared.qud or s.shared.qud[0].ask != KIND:
+        return None
+    asked, *rest = s.shared.qud
+    if len(asked.options) < 2:
+        return None
+    meant = asked.options[1]
+    sign = next(it for it in meant.signs if claims(meant.content, it))
+    left = replace(s, {"shared.qud": rest})
+    asks = [issue(HOW, [meant])]
+    return plan(left, HOW, sign.meaning, signs=[sign], asks=asks, types=types)
+
+
+@rule(answers="Deny")
+def let_be(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor did not mean it as a word: nothing is learned."""
+    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW):
+        return None
+    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
+
+
+def _doubted_sign(s: Record) -> Record | None:
+    """The word of the latest move that would be learned, if it is not known."""
+    said = s.shared.latest
+    content = said.content
+    if "counted" in content:
+        named = [it for it in said.signs if it.kind == "noun"]
+    else:
+        named = [it for it in said.signs if claims(content, it)]
+    new = [it for it in named if not knows(words(s), it)]
+    return new[0] if new else None
+
+
+def _as_naming(
+    said: Record, sign: Record, model: Model, *, types: DialogueTypes
+) -> Update:
+    """The move with a word taken as a noun that was said as an adjective."""
+    noun = types.sign(sign.form, "noun")
+    claim = types.meaning_at(noun, "Naming")["c"]
+    content = rectype(
+        {
+            **{label: T for label, T in said.content.fields if label not in CLAIMS},
+            "c": claim,
+        }
+    )
+    signs = tuple(noun if it == sign else it for it in said.signs)
+    corrects = model.judge(said, types["Correct"]).holds
+    move = set_to(
+        types.move_type("Heard", "Correct" if corrects else "Instruct"),
+        text=types["Text"] @ said.text,
+        signs=types.record_type("Heard")["signs"] @ signs,
+        content=RecType @ content,
+    )
+    return model.create(move)
+
+
+VETTING = first(take_as_remark, ask_kind)
+VETTED = first(take_vetted, ask_how, let_be)
+"""What answers the questions that vetting asks."""

@@ -1,0 +1,97 @@
+"""Which words a tutor may say of a thing without being asked whether they mean it.
+
+The lists are in `grammars/words.*.toml`; sayings are in the lexicon. A word that the
+robot knows is never asked about: the lists are only for new ones.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+
+from kille.dialogue.language_files import WORDS, last_change, source
+from ttr.safety.inputs import parse_toml
+
+REMARK, DOUBTFUL, SAYING = "remark", "doubtful", "saying"
+"""What a new word of a lesson may be: no word for a thing at all, or perhaps none.
+
+A saying is one as a whole, whatever its words are.
+"""
+
+_PLAIN = re.compile(r"[^\w'’-]+")
+
+
+@dataclass(frozen=True)
+class WordLists:
+    """The lists of a language; without any, no word is asked about."""
+
+    abstract: frozenset[str] = frozenset()
+    doubtful: frozenset[str] = frozenset()
+    qualities: frozenset[str] = frozenset()
+    endings: tuple[str, ...] = ()
+
+    def judge_noun(self, form: str, complements: Iterable[str] = ()) -> str:
+        """`REMARK` or `DOUBTFUL` for a noun that may be no word for a thing, or "".
+
+        >>> english = word_lists("en")
+        >>> [english.judge_noun(it) for it in ("cup", "test", "wug", "king")]
+        ['', 'remark', '', 'doubtful']
+        >>> english.judge_noun("question of taste", ["of"])
+        'remark'
+        """
+        form = form.replace(" ", "_")
+        words = form.split("_")
+        at = next((n for n, it in enumerate(words) if n and it in complements), None)
+        head = words[-1 if at is None else at - 1]
+        if form in self.abstract or head in self.abstract:
+            return REMARK
+        if head.endswith(self.endings):
+            return REMARK
+        return DOUBTFUL if form in self.doubtful or head in self.doubtful else ""
+
+    def judge_quality(self, form: str) -> str:
+        """The same of a word that is said without an article: "this is sugar".
+
+        >>> english = word_lists("en")
+        >>> [english.judge_quality(it) for it in ("light blue", "sugar", "life")]
+        ['', 'doubtful', 'remark']
+        """
+        if not self.qualities:
+            return ""
+        words = form.split()
+        if all(map(self._is_quality, words)):
+            return ""
+        return REMARK if words[-1] in self.abstract else DOUBTFUL
+
+    def _is_quality(self, word: str) -> bool:
+        return any(it in self.qualities for it in (word, *word.split("-")[-1:]))
+
+
+def plain_text(text: str) -> str:
+    """A text in small letters without punctuation, as sayings are looked for in it.
+
+    >>> plain_text("That's the spirit!")
+    "that's the spirit"
+    """
+    return " ".join(_PLAIN.sub(" ", text.lower().replace("’", "'")).split())
+
+
+def word_lists(language: str) -> WordLists:
+    """The lists of a language."""
+    return _word_lists(language, last_change(WORDS, language))
+
+
+@lru_cache
+def _word_lists(language: str, _: int) -> WordLists:
+    try:
+        data = parse_toml(source(WORDS, language))
+    except FileNotFoundError:
+        return WordLists()
+    return WordLists(
+        abstract=frozenset(data.get("abstract", "").split()),
+        doubtful=frozenset(data.get("doubtful", "").split()),
+        qualities=frozenset(data.get("qualities", "").split()),
+        endings=tuple(data.get("abstract_endings", "").split()),
+    )
