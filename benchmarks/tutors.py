@@ -120,14 +120,14 @@ def things_in(scene: str) -> list[str]:
 
 
 def toy_names(things: Sequence[str]) -> list[str]:
-    """A toy for each thing, the same for the same word."""
-    given: dict[str, str] = {}
+    """A toy for each thing: the one that it looks like, or else one that is left."""
+    given: list[str] = []
     for thing in things:
         name = re.sub(r"s$", "", thing)
         toy = LOOKS_LIKE.get(name, name)
-        free = [it for it in TOYS if it not in given.values()]
-        given.setdefault(thing, toy if toy in (*TOYS, "shoe-box") else free[0])
-    return [given[thing] for thing in things]
+        free = [it for it in (*TOYS, "shoe-box") if it not in given]
+        given.append(toy if toy in free else free[0])
+    return given
 
 
 def set_up(robot: Agent, line: Line, language: str) -> None:

@@ -20,6 +20,7 @@ from itertools import islice, product, zip_longest
 
 from kille.dialogue.language_files import FILES, last_change, source
 from kille.dialogue.lexicon import Lexicon, lexicon
+from kille.dialogue.lookalikes import replace_lookalikes
 from kille.dialogue.meanings import (
     CLAIMS,
     DialogueTypes,
@@ -115,7 +116,7 @@ def understand(
     """
     reader = (types or packaged_types()).derive(_reader, language, _changes(language))
     found: list[Sentence] = []
-    for part in _SENTENCE.findall(text):
+    for part in _SENTENCE.findall(replace_lookalikes(text)):
         if re.search(r"\w", part):
             found += reader.sentences(part.strip())
     return tuple(found) or (Sentence(text, ()),)

@@ -36,7 +36,7 @@ class WordLists:
         """`REMARK` or `DOUBTFUL` for a noun that may be no word for a thing, or "".
 
         >>> english = word_lists("en")
-        >>> [english.judge_noun(it) for it in ("cup", "test", "wug", "king")]
+        >>> [english.judge_noun(it) for it in ("cup", "idea", "wug", "king")]
         ['', 'remark', '', 'doubtful']
         >>> english.judge_noun("question of taste", ["of"])
         'remark'
@@ -49,6 +49,10 @@ class WordLists:
             return REMARK
         if head.endswith(self.endings):
             return REMARK
+        if len(form) == 1 and self.abstract:
+            return DOUBTFUL
+        if words[0] in self.doubtful and len(words) > 1:
+            return DOUBTFUL
         return DOUBTFUL if form in self.doubtful or head in self.doubtful else ""
 
     def judge_quality(self, form: str) -> str:

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.beliefs import knows
+from kille.dialogue.meanings import DialogueTypes, claims
 from kille.dialogue.moves import issue, plan
 from kille.dialogue.reading_weights import FAINTLY, WeighedMove, weigh_readings
 from kille.dialogue.rules import rule
+from kille.dialogue.state import words
 from ttr import Model, Record, replace
 from ttr.updates import NBest, first
 
@@ -27,7 +29,8 @@ def ask_heard(
         s.private.strategy.hearing,
         weigh_readings(s, model, nbest, types=types),
     )
-    if _is_clear(s, heard) or heard[0].p < hearing.floor:
+    clear = _is_clear(s, heard) and not _is_new_word(s, model, heard[0], types=types)
+    if clear or heard[0].p < hearing.floor:
         return None
     near = [it.said for it in heard[:2] if heard[0].p - it.p < hearing.ahead]
     act = "AskHeard" if len(near) == 2 else "AskHeardOne"
@@ -56,6 +59,22 @@ def take_back_heard(s: Record, *, types: DialogueTypes) -> Record | None:
     if not s.shared.qud or s.shared.qud[0].ask != "AskHeard":
         return None
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Pardon", types=types)
+
+
+NEW = 0.9
+"""From which probability on a lesson in a new word is learned without being asked."""
+
+
+def _is_new_word(
+    s: Record, model: Model, heard: WeighedMove, *, types: DialogueTypes
+) -> bool:
+    """Whether what was heard would teach a new word that was not heard that well."""
+    said = heard.said
+    if heard.p >= NEW or not model.judge(said, types["Teaching"]).holds:
+        return False
+    return any(
+        claims(said.content, it) and not knows(words(s), it) for it in said.signs
+    )
 
 
 def _is_clear(s: Record, heard: Sequence[WeighedMove]) -> bool:

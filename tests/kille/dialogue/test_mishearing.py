@@ -162,3 +162,21 @@ def test_what_is_referred_to_is_chosen_asked_about_or_missing(
 ) -> None:
     acts = {"ask_referent": {"ask_referent", "offer_referents"}}
     assert set(balls.acts(text)) <= acts.get(act, {act})
+
+
+def test_a_new_word_that_was_heard_uncertainly_is_asked_about(scene: Any) -> None:
+    robot = scene(1, nouns=["cup"])
+    assert robot.perhaps(This_is_a_log=0.75) == "Did you say a log?"
+    assert robot.state.private.lessons == ()
+    assert robot.hear("Yes.") == "OK, I learned a log."
+
+
+def test_a_new_word_that_was_heard_well_is_learned(scene: Any) -> None:
+    robot = scene(1, nouns=["cup"])
+    assert robot.perhaps(This_is_a_log=0.99) == "OK, I learned a log."
+
+
+def test_letters_that_look_latin_are_latin(scene: Any) -> None:
+    robot = scene(1, nouns=["cup"])
+    robot.hear("This is a \u0441up.")
+    assert [it.form for it in robot.state.private.nouns] == ["cup"]
