@@ -24,7 +24,7 @@ LESSONS = (
 
 SIDES = {
     2: ("on_the_left", "on_the_right"),
-    3: ("on_the_left", "middle", "on_the_right"),
+    3: ("on_the_left", "in_the_middle", "on_the_right"),
 }
 """How things are told apart by their places, for so many."""
 

@@ -12,7 +12,7 @@ from kille.dialogue.commitments import plan_learning, same, signs_for
 from kille.dialogue.games.correcting import CORRECTED
 from kille.dialogue.meanings import DialogueTypes, is_denial
 from kille.dialogue.moves import content_of, issue, plan
-from kille.dialogue.reference import in_view, thing_at
+from kille.dialogue.reference import in_view, phrase_at, thing_at
 from kille.dialogue.rules import rule
 from ttr import Record, RecordType, replace
 from ttr.updates import first
@@ -22,6 +22,9 @@ BOTH = "AskBoth"
 
 EITHER = "AskEither"
 """The question which of the two is right, with the same options."""
+
+THIS = {"x", "look", "d"}
+"""The labels of a phrase that describes no thing, such as "this" and "it"."""
 
 
 @rule(answers="Instruct")
@@ -75,7 +78,7 @@ def take_either(s: Record, *, types: DialogueTypes) -> Record | None:
     new, old = (it.content for it in asked.options)
     left = replace(s, {"shared.qud": rest})
     if _says(s, old):
-        return plan_learning(left, content_of(s), types=types)
+        return plan_learning(left, in_view(s, old, types=types), types=types)
     if not _says(s, new):
         return None
     new = in_view(s, new, types=types)
@@ -98,8 +101,13 @@ def _asks(s: Record, question: str) -> bool:
 
 
 def _says(s: Record, content: RecordType) -> bool:
-    """Whether the latest move says the same noun."""
-    return bool(content_of(s)["c"] == content["c"]) if "c" in content_of(s) else False
+    """Whether the latest move says the same noun, and not of another thing."""
+    said, x = content_of(s), thing_at(content, "target")
+    if "c" not in said or said["c"] != content["c"]:
+        return False
+    if "target" in said and not set(phrase_at(said, "target").labels) <= THIS:
+        return False
+    return not s.view.pointed or x in s.view.pointed
 
 
 def _other_name(s: Record, content: RecordType) -> RecordType | None:

@@ -9,6 +9,8 @@ The lists are those of `kille.dialogue.word_lists`; a known word is never doubte
 from __future__ import annotations
 
 from kille.dialogue.beliefs import knows
+from kille.dialogue.commitments import kind_of
+from kille.dialogue.games.doubling import BOTH
 from kille.dialogue.meanings import CLAIMS, DialogueTypes, claims, is_denial, set_to
 from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import in_view
@@ -85,6 +87,16 @@ def let_be(s: Record, *, types: DialogueTypes) -> Record | None:
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
 
 
+@rule(answers=("ForgetThat", "ForgetLast"))
+def let_go(s: Record, *, types: DialogueTypes) -> Record | None:
+    """What the tutor takes back has not been learned yet: the robot lets it be."""
+    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, BOTH):
+        return None
+    if kind_of(content_of(s)) is not None:
+        return None
+    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
+
+
 def _doubted_sign(s: Record) -> Record | None:
     """The word of the latest move that would be learned, if it is not known."""
     said = s.shared.latest
@@ -121,5 +133,5 @@ def _as_naming(
 
 
 VETTING = first(take_as_remark, ask_kind)
-VETTED = first(take_vetted, ask_how, let_be)
-"""What answers the questions that vetting asks."""
+VETTED = first(take_vetted, ask_how, let_be, let_go)
+"""What answers the questions that vetting asks, or takes the lesson back."""

@@ -87,6 +87,9 @@ TOLD_BESIDES = {
 }
 """Slots of what is beside the content: how certain, why, from which lesson."""
 
+SIDES = ("OnTheLeft", "InTheMiddle", "OnTheRight")
+"""Which of several things is meant, as the types that say it."""
+
 IN_VIEW = {"things", "count", "maybe_count"}
 """Slots of what a content has a part for each of: only how it is said is recovered."""
 
@@ -225,6 +228,8 @@ def a_move(
                 content = merge(content, said)
         elif slot == "number":
             content = merge(content, rectype(number=theory()["Text"] @ "12"))
+        elif slot == "one":
+            content = merge(content, record_type(chance.choice(SIDES)))
         elif slot == "choices":
             nouns = [noun(it) for it in chance.sample(NOUNS[language], 3)]
             WORDS.extend(nouns)

@@ -455,5 +455,6 @@ def test_a_recording_is_talked_about_as_the_scene_was(
     out = tmp_path / "desk"
     kille("record", str(out), "--sensor", "synthetic:desk?seed=7", "--frames", "12")
     with Agent(sensor=str(out)) as robot:
-        assert robot.hear("#1 This is a cup.") == "OK, I learned a cup."
+        learned = "OK, the one in the middle (#1) is a cup."
+        assert robot.hear("#1 This is a cup.") == learned
         assert robot.hear("What is this?") == "This is a cup."

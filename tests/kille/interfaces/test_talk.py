@@ -126,7 +126,7 @@ def test_a_number_alone_points(kille: Run) -> None:
     assert view[1] == "2 things are in view:"
     assert "← this" not in view[2]
     assert "← this" in view[3]
-    assert view[-1] == "S> OK, I learned a book."
+    assert view[-1] == "S> OK, the one on the left (#2) is a book."
 
 
 def test_a_picture_of_what_is_in_view(kille: Run, tmp_path: Path) -> None:

@@ -135,7 +135,8 @@ def test_things_are_pointed_at_by_number_and_by_pixel(robot: Robot, heard: Any) 
     tutor.says("@ show cup")
     tutor.says("This is a cup.")
     tutor.says("@ place book right of cup")
-    assert tutor.says("#2 This is a book.").startswith("OK, I learned a book.")
+    learned = "OK, the one on the right (#2) is a book."
+    assert tutor.says("#2 This is a book.").startswith(learned)
     assert tutor.says("What is #1?").startswith("This is a cup.")
     assert tutor.cannot("@ point 99") == (
         "there is no thing #99 to point at: there are 2"

@@ -39,7 +39,7 @@ def test_a_lesson_is_heard_and_answered(
     talk: Callable[..., tuple[int, str, str]], lesson: Lesson, tmp_path: Path
 ) -> None:
     heard, answers = tmp_path / "tutor.wav", tmp_path / "robot.wav"
-    texts = ("This is a cup.", "What is this?", "Goodbye.")
+    texts = ("This is a cup.", "The red one.", "What is this?", "Goodbye.")
     heard.write_bytes(lesson(*texts))
     code, out, _ = talk(
         "--hear", str(heard), "--say", str(answers), sensor="synthetic?seed=7"
@@ -48,7 +48,9 @@ def test_a_lesson_is_heard_and_answered(
     said = [line for line in out.splitlines() if line[:3] in ("U> ", "S> ")]
     assert said == [
         "U> This is a cup.",
-        "S> OK, I learned a cup.",
+        "S> Do you mean the violet one, the white one or the red one?",
+        "U> The red one.",
+        "S> OK, the one on the right (#2) is a cup.",
         "U> What is this?",
         "S> This is a cup.",
         "U> Goodbye.",

@@ -111,7 +111,7 @@ def test_a_tutor_sees_what_is_to_be_done_and_what_comes_of_it(capsys):
         "  #1 brown cup, 4 right 0 away, facing left  <- pointed at",
         "  #2 yellow mug, 5 right 2 away",
         "me (you): This is a cup.",
-        "Robot: OK, I learned a cup.",
+        "Robot: OK, the one on the left (#1) is a cup.",
     ):
         assert f"{line}\n" in shown
     assert "You are the tutor" in shown

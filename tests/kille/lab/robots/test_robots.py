@@ -34,7 +34,8 @@ def test_it_replies_as_its_theory_says():
     it, _ = robot()
     it.see(shown(1))
     reply = it.hear("This is a cup.")
-    assert (reply.text, reply.acts) == ("OK, I learned a cup.", ("learned",))
+    learned = "OK, the one on the left (#1) is a cup."
+    assert (reply.text, reply.acts) == (learned, ("learned",))
     assert "learn_word" in reply.rules
     asked = it.hear("What is this?")
     assert (asked.way, asked.claimed_word("noun")) == ("assert", "cup")

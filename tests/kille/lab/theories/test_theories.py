@@ -196,12 +196,14 @@ def test_rules_in_the_notation_stand_for_those_of_their_kind(tmp_path: Path) -> 
 
 def test_a_lexicon_of_ones_own_words_it_otherwise(tmp_path: Path) -> None:
     lexicon = packaged("lexicon.en.toml")
-    own = lexicon.replace("OK, I learned {a_word}.", "So {a_word} it is.")
+    packaged_wording = "OK, {one} (#{number}) is {a_word}."
+    assert packaged_wording in lexicon
+    own = lexicon.replace(packaged_wording, "So {a_word} it is.")
     (tmp_path / "lexicon.en.toml").write_text(own, encoding="utf-8")
     theory = Theory("otherwise", grammar=tmp_path)
     assert dialogue(game_of(theory, WORLD), NAMING)[0] == "So a cup it is."
     assert dialogue(game_of(Theory("plain"), WORLD), NAMING)[0] == (
-        "OK, I learned a cup."
+        "OK, the one on the left (#1) is a cup."
     )
 
 
