@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 
 from kille.dialogue.beliefs import knows
+from kille.dialogue.commitments import kind_of
 from kille.dialogue.describing import Description, describe
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -228,11 +229,11 @@ def _shown_by(
     s: Record, model: Model, meant: Reading, types: DialogueTypes
 ) -> Sequence[str]:
     """What a lesson calls "this", if that is all that it calls it."""
-    this = types.record_type("This")
-    if "target" not in meant.things or not _teaches(s, model, types=types):
+    if "target" not in meant.things or kind_of(content_of(s)) is None:
         return ()
-    calls_this = phrase_at(meant.open, "target").get("d") == this["d"]
-    return (meant.things["target"],) if calls_this else ()
+    if phrase_at(meant.open, "target").get("d") != types.record_type("This")["d"]:
+        return ()
+    return (meant.things["target"],) if _teaches(s, model, types=types) else ()
 
 
 def _question_about(phrase: RecordType, *, types: DialogueTypes) -> RecordType:
