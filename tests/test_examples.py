@@ -171,8 +171,8 @@ KEY_LINES = {
         "Forgotten again: True",
     ],
     "15_write_your_own_game.py": [
-        "cup: This is a geka. OK, I learned a geka.",
-        "box: This is a lale. OK, I learned a lale.",
+        "cup: This is a geka. OK, the one on the left (#1) is a geka.",
+        "box: This is a lale. OK, the one on the right (#3) is a lale.",
         "A and B have the same words: True ['bubi', 'geka', 'lale']",
     ],
     "16_composing_meanings.py": [
