@@ -22,6 +22,7 @@ from kille.dialogue.theory_files import packaged_theory
 from ttr import Pred, Record, RecordType, Theory, join, meet, merge, record, rectype
 from ttr.aliases import former_names
 from ttr.types import Meet, Negation, PType, Singleton, TypeNode
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object
 from ttr.types.paths import free_paths
 
@@ -321,6 +322,8 @@ def set_to(T: RecordType, **fields: TypeNode) -> RecordType:
     types = {**dict(T.fields), **fields}
     if all(label in T and _is_set(T[label], to) for label, to in fields.items()):
         return RecordType(tuple(types.items()))
+    if all(label not in T and not free_paths(to) for label, to in fields.items()):
+        return RecordType(order_fields(types))
     return rectype(types)
 
 

@@ -69,9 +69,20 @@ def ask_either(s: Record, *, types: DialogueTypes) -> Record | None:
     )
 
 
-@rule(answers=("Instruct", "Correct"))
+@rule(answers="Instruct")
 def take_either(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The tutor says which of the two it is, or corrects it: the other is unlearned."""
+    """The tutor says which of the two it is: the other is unlearned."""
+    return _plan_either(s, types=types)
+
+
+@rule(answers="Correct")
+def correct_either(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor corrects the robot's doubt: it is one of the two, and not the other."""
+    return _plan_either(s, types=types)
+
+
+def _plan_either(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The plan to learn the one of the two that is said, and to unlearn the other."""
     if not (_asks(s, EITHER) or _asks(s, BOTH)):
         return None
     asked, *rest = s.shared.qud
@@ -126,7 +137,7 @@ def _other_name(s: Record, content: RecordType) -> RecordType | None:
     return names[-1] if names else None
 
 
-ANSWERED = first(learn_both, ask_either, take_either)
+ANSWERED = first(learn_both, ask_either, take_either, correct_either)
 """What answers whether it is both, or which of the two it is."""
 
 DOUBLING = ask_both

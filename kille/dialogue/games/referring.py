@@ -47,8 +47,8 @@ def refer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor talks of things in view: the one way to take it that fits is meant."""
     match _readings(s, model, types=types):
         case [meant]:
-            state = about(s, meant.content, types=types)
-            return replace(state, {"shared.shown": _shown_by(s, model, meant, types)})
+            shown = _shown_by(s, meant, types=types)
+            return about(s, meant.content, shown=shown, types=types)
     return None
 
 
@@ -105,10 +105,17 @@ def miss_thing(s: Record, *, model: Model, types: DialogueTypes) -> Record | Non
     return plan(s, "SeeNoSuch", missing, signs=signs, types=types)
 
 
-def about(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
+def about(
+    s: Record,
+    content: RecordType,
+    *,
+    shown: Sequence[str] | None = None,
+    types: DialogueTypes,
+) -> Record:
     """The state in which this is what the latest move is about, as it is seen now.
 
     The things it is about are the topic, and the ones that were talked about last.
+    `shown` is what it calls "this", if that is another than before.
     """
     topic = things_in(content)
     salient = dict.fromkeys((*topic, *s.shared.salient))
@@ -117,6 +124,8 @@ def about(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
         "shared.salient": tuple(salient),
         "shared.topic": topic,
     }
+    if shown is not None and shown != s.shared.shown:
+        changes["shared.shown"] = shown
     return replace(s, changes)
 
 
@@ -225,15 +234,13 @@ def _teaches(s: Record, model: Model, *, types: DialogueTypes) -> bool:
     return any(model.judge(latest, types[it]).holds for it in ("Teaching", "Reject"))
 
 
-def _shown_by(
-    s: Record, model: Model, meant: Reading, types: DialogueTypes
-) -> Sequence[str]:
-    """What a lesson calls "this", if that is all that it calls it."""
+def _shown_by(s: Record, meant: Reading, *, types: DialogueTypes) -> Sequence[str]:
+    """What something is said of that is called "this", if that is all it is called."""
     if "target" not in meant.things or kind_of(content_of(s)) is None:
         return ()
     if phrase_at(meant.open, "target").get("d") != types.record_type("This")["d"]:
         return ()
-    return (meant.things["target"],) if _teaches(s, model, types=types) else ()
+    return (meant.things["target"],)
 
 
 def _question_about(phrase: RecordType, *, types: DialogueTypes) -> RecordType:

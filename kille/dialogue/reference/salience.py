@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
-from kille.dialogue.meanings import DialogueTypes, packaged_types
-from ttr import Model, Pred, Record
+from kille.dialogue.meanings import DialogueTypes, packaged_types, value_at
+from ttr import Model, Pred, Record, RecordType
 
 Choice = Callable[[Record, Model, Sequence[str], DialogueTypes], Sequence[str]]
 """Chooses, in a state, among the things that the rest of a phrase fits."""
@@ -50,6 +50,7 @@ def distal_things(
     What is said to be so of "that" may be said of "this" as well: then it is open.
     """
     this = [x for x in s.shared.shown if x in shown and not s.view.pointed]
+    this = [x for x in this if x in _latest_taught(s)]
     others = tuple(x for x in s.view.things if x not in this)
     if not this or not others:
         return shown
@@ -57,6 +58,12 @@ def distal_things(
         return others
     describes = model.judge(s.shared.latest, types["Describe"]).holds
     return tuple(s.view.things) if describes else shown
+
+
+def _latest_taught(s: Record) -> Sequence[str]:
+    """The thing of the latest lesson."""
+    targets = (it.content.get("target") for it in s.private.lessons[-1:])
+    return [str(value_at(it, "x")) for it in targets if isinstance(it, RecordType)]
 
 
 CONTRASTING = ("Instruct", "AskName")
