@@ -112,6 +112,19 @@ def test_faults_of_one_rule_are_found(broken, name, why):
     assert why in told
 
 
+def test_an_error_that_a_tutor_raises_once_is_told():
+    asked = count()
+
+    def moves(s, model):
+        if next(asked) == 37:
+            raise OSError("the file is being written")
+        return [{"w": "hi"}, {"w": "ho"}]
+
+    told = failing(note, tutor=Tutor(moves=moves), properties=["P3"])
+    assert told.startswith("P3 ")
+    assert "once there was OSError: the file is being written" in told
+
+
 def test_a_repetition_without_an_end_is_found():
     @rule(when=Board)
     def again(s):

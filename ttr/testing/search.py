@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.errors import Flaky
 
 from ttr.dialogues.dialogue import Dialogue
-from ttr.errors import TTRError
+from ttr.errors import TTRError, describe_error
 from ttr.testing.shrinking import Failure, Verdict, shorten
 
 Why = TypeVar("Why")
@@ -34,10 +34,16 @@ class _FoundError(Exception):
 
 
 class UnsteadyError(Exception):
-    """A dialogue went another way when the same moves were made again."""
+    """A dialogue went another way when the same moves were made again.
 
-    def __init__(self, dialogue: Dialogue) -> None:
-        super().__init__("the dialogue goes another way when it is played again")
+    `once` is the error that came the one time and not the other, if one did.
+    """
+
+    def __init__(self, dialogue: Dialogue, once: Exception | None = None) -> None:
+        failed = "" if once is None else f": once there was {describe_error(once)}"
+        super().__init__(
+            f"the dialogue goes another way when it is played again{failed}"
+        )
         self.dialogue = dialogue
 
 
@@ -87,5 +93,16 @@ def find_failure(
         pass
     except Flaky as error:
         if not found:
-            raise UnsteadyError(*latest) from error
+            raise UnsteadyError(latest[0], _error_behind(error)) from error
     return shorten(found[0], verdict_again) if found else None
+
+
+def _error_behind(error: Flaky) -> Exception | None:
+    """The error that a dialogue failed with once; None if it only came out otherwise.
+
+    A tutor may fail for a moment: while a file that they read is being written, say.
+    """
+    if not isinstance(error, ExceptionGroup):
+        return None
+    failures = (it for it in error.exceptions if not isinstance(it, Flaky))
+    return next(failures, None)
