@@ -179,7 +179,14 @@ def _add_talk(commands: Any) -> None:
         help="how certain it sounds: the paper's wordings, or four bands (paper)",
     )
     _add_theory(talk)
-    talk.add_argument("--trace", action="store_true", help="show the judgements")
+    talk.add_argument(
+        "--trace",
+        nargs="?",
+        const="short",
+        choices=("short", "whole"),
+        help="show what each turn does to the state: short (in at most ten lines), or "
+        "whole (every judgement, rule and change)",
+    )
     talk.add_argument(
         "--speech",
         action="store_true",
@@ -504,10 +511,10 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _talk(options: argparse.Namespace) -> int:
-    from kille.interfaces.formatting import derivation, show_nothing
+    from kille.interfaces.formatting import ACCOUNTS
     from kille.interfaces.talk import talk
 
-    account = derivation if options.trace else show_nothing
+    account = ACCOUNTS[options.trace or "none"]
     settings = {"mode": options.mode, "wording": options.wording}
     if options.theory:
         from functools import partial

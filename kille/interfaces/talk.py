@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from kille.agent.agent import Agent
 from kille.dialogue.language_files import plain
-from kille.interfaces.formatting import Account, format_account, things_in_view
+from kille.interfaces.formatting import Account, things_in_view, whole_account
 from kille.interfaces.speech_input import (
     SpeechHypotheses,
     SpeechInput,
@@ -40,6 +40,7 @@ Lines that begin with @ change what there is to see:
   @ look                        what is in view
   @ picture [FILE.png]          a picture of it, with the numbers
   @ why [FILE.png]              what the latest "Why?" reminded it of, as a picture
+  @ trace                       what the latest turn did to the state, in full
   @ things                      all that can be shown
   @ scene SENSOR                look through another sensor
   @ restart                     a new dialogue, with the same memory
@@ -170,8 +171,7 @@ class _Conversation:
         turns = len(self._robot.exchanges)
         answer = take()
         for turn in self._robot.exchanges[turns:]:
-            for text in format_account(self._account(turn)):
-                self._print(text, style="dim")
+            self._print_account(self._account(turn))
         if self._has_said("GiveHelp"):
             answer += "".join(f"\n  {command}" for command in COMMANDS.splitlines())
         return answer
@@ -185,6 +185,8 @@ class _Conversation:
                 return self._reminder(Path(rest or "kille-why.png"))
             case "things":
                 return self._things()
+            case "trace":
+                return self._trace()
             case "" | "help":
                 self._print(COMMANDS)
                 return ""
@@ -230,6 +232,17 @@ class _Conversation:
                 if said.judgement is not None:
                     for reason in said.judgement.sit.reasons:
                         yield from (it.key for it in reason.reminders)
+
+    def _trace(self) -> str:
+        """Shows all that the latest turn did, whatever `--trace` shows of each."""
+        latest = self._robot.exchanges[-1:]
+        lines = [line for turn in latest for line in whole_account(turn)]
+        self._print_account(lines or ["The latest turn changed nothing."])
+        return ""
+
+    def _print_account(self, lines: Iterable[str]) -> None:
+        for line in lines:
+            self._print(line, style="dim")
 
     def _things(self) -> str:
         sensor = self._robot.gaze.sensor

@@ -118,6 +118,13 @@ def hanging_type(mark: str, text: str) -> str:
     return _fill(terminal_line(mark), whole).replace(_FIRM, " ")
 
 
+def cut_line(mark: str, text: str) -> str:
+    """The mark and the text on one line, cut off with … where the terminal ends."""
+    line = terminal_line(f"{mark}{text}")
+    width = _columns()
+    return line if len(line) <= width else line[: width - 1].rstrip() + "…"
+
+
 def _fill(mark: str, text: str) -> str:
     return textwrap.fill(
         text,

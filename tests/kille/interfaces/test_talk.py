@@ -17,12 +17,15 @@ from typing import IO
 import numpy as np
 import pytest
 
+from kille.agent.agent import Agent
+from kille.interfaces.formatting import short_account
 from kille.memory import Memory, MemoryFileError
 
 from .conftest import COMMAND, Run
 
 EMPTY = "synthetic:empty?seed=3"
 SHOWN = "@ show cup\n"
+STORIES = Path(__file__).parents[2] / "dialogues"
 
 
 def talked(kille: Run, typed: str, *options: str) -> list[str]:
@@ -137,7 +140,7 @@ def test_a_picture_of_what_is_in_view(kille: Run, tmp_path: Path) -> None:
 
 
 def test_a_trace_shows_the_judgements_and_fits_the_line(kille: Run) -> None:
-    said = talked(kille, f"{SHOWN}This is a cup.\nWhat is this?\n", "--trace")
+    said = talked(kille, f"{SHOWN}This is a cup.\nWhat is this?\n", "--trace", "whole")
     assert all(len(line) <= 100 for line in said)
     text = re.sub(r"\s+", " ", " ".join(said))
     assert re.search(r"heard s\d+ : instruct\(tutor, robot\)", text)
@@ -145,6 +148,48 @@ def test_a_trace_shows_the_judgements_and_fits_the_line(kille: Run) -> None:
     assert "learn_word: The tutor names a thing in view" in text
     assert re.search(r"judged some : cup\(o1, look\d\) p = 0\.\d\d|p = 1\.00", text)
     assert re.search(r"said s\d+ : assert_name\(robot, tutor\)", text)
+
+
+def test_a_short_trace_says_what_was_heard_done_and_said(kille: Run) -> None:
+    lines = f"{SHOWN}This is a cup.\nWhat is this?\nBlah blah.\n@ trace\n"
+    said = talked(kille, lines, "--trace")
+    told = said[said.index("U> This is a cup.") + 1 : said.index("U> What is this?")]
+    assert [line.split()[0] for line in told] == [
+        *("heard", "rules", "why", "new", "new", "…", "said", "S>")
+    ]
+    assert re.search(
+        r"s\d+ : instruct\(tutor, robot\), that cup\(o1, look\d\)", told[0]
+    )
+    assert told[1].split("  ")[-1] == "glance, hear, refer, learn_word, say, keep"
+    assert "learn_word: The tutor names a thing in view" in told[2]
+    assert "private.nouns: + cup" in told[4]
+    assert told[5].strip() == "… and 2 more; @ trace shows all"
+    asked = said[said.index("U> What is this?") + 1 :]
+    assert re.search(r"judged +some : cup\(o1, look\d\) +p = ", "\n".join(asked))
+    assert said[-1] == "The latest turn changed nothing."
+
+
+def test_the_latest_turn_is_shown_in_full_when_asked_for(kille: Run) -> None:
+    said = talked(kille, f"{SHOWN}This is a cup.\n@ trace\n")
+    assert "rule" not in "\n".join(said[: said.index("U> @ trace")])
+    text = re.sub(r"\s+", " ", " ".join(said))
+    assert "rule learn_word: The tutor names a thing in view" in text
+    assert "private.agenda: +" in text
+
+
+@pytest.mark.parametrize("story", ["paper.dlg", "false_lessons.dlg", "explaining.dlg"])
+def test_a_short_trace_has_at_most_ten_lines(story: str) -> None:
+    lines = (STORIES / story).read_text("utf-8").splitlines()
+    with Agent(sensor=EMPTY) as robot:
+        for line in lines:
+            if line.startswith("@"):
+                robot.do(line[1:].strip())
+            elif line.startswith("U>"):
+                robot.hear(line[2:].strip())
+        accounts = [list(short_account(turn)) for turn in robot.exchanges]
+    assert len(accounts) > 5
+    assert all(len(told) <= 10 for told in accounts)
+    assert all(len(it) <= 100 and "\n" not in it for told in accounts for it in told)
 
 
 # --- at a terminal -------------------------------------------------------------------
