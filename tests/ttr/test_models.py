@@ -19,16 +19,17 @@ from ttr import (
     TTRError,
     Type,
     fun,
+    meet,
     outer,
     record,
     rectype,
     this,
 )
 from ttr.errors import IllFormedError, RefusedError, UndecidedError, UnsupportedError
-from ttr.judging.witnesses import candidates
+from ttr.judging.witnesses import candidates, listed_type, some_witnesses
 from ttr.probability import Degree
 from ttr.signature.signature import Axiom, Expected, Given, Signature
-from ttr.types import Application, EventString, FunType, NonEmpty, fst
+from ttr.types import Application, EventString, FunType, NonEmpty, TypeAt, fst
 from ttr.types.derived_types import star
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
@@ -230,6 +231,12 @@ def test_what_was_said_last_counts():
     assert M.given(("a", "a"), ListOf(A)) is M
 
 
+def test_each_fact_is_counted_once():
+    M = Model().given("a", A).given("b", A, 0.5).given("b", A, 0.5).given("b", A, 0.6)
+    assert Model().facts.facts == 0
+    assert M.facts.facts == 3
+
+
 def test_arrays_are_kept_apart():
     M = Model()
     for _ in range(50):
@@ -356,6 +363,12 @@ def test_what_a_witness_function_refuses_may_be_said_not_to_be(p):
 )
 def test_what_is_certainly_not_of_a_type_may_be_denied_of_it(sit, T):
     assert Model().given(sit, T).judge(sit, T).holds
+
+
+def test_what_is_denied_of_a_join_is_denied_of_its_parts():
+    M = Model().given("a", ~(A | B)).given("b", ~~A)
+    assert M.facts.told_degree("a", A) == M.facts.told_degree("a", B) == (0, 0)
+    assert M.judge("b", A).holds is True
 
 
 def test_only_atoms_are_denied_of_what_may_be_of_them():
@@ -590,6 +603,111 @@ def test_a_function_that_is_not_surely_of_a_type(name):
     M = Model().given("a", A).given("a", B)
     f, T = NOT_SURELY[name]
     assert M.judge(f, T).p.lo == 0
+
+
+OF_FIDO = fun(y=dog("fido"))
+NO_VALUES = {
+    "in an argument": (dog(Application(OF_FIDO(this.y), "a")), "takes objects of"),
+    "as a type": (Application(OF_FIDO(A), "a"), "takes objects of dog(fido)"),
+    "as a value": (Ind @ Application(OF_FIDO(this.y), "a"), "takes objects of"),
+    "an object": (Application(fun(x=Ind)(this.x), "a"), "a is no type"),
+    "no function": (Application("f", "a"), 'f is no function, so "f"(a) is nothing'),
+    "a name": (TypeAt("a"), "a is no type"),
+    "of what has no value": (
+        Application(Application(OF_FIDO(fun(x=Ind)(A)), "a"), "a"),
+        "takes objects of dog(fido)",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", NO_VALUES)
+def test_nothing_is_of_what_has_no_value(name):
+    T, why = NO_VALUES[name]
+    M = Model().given("a", Ind).given("s", dog("a"))
+    for sit in ("a", "s"):
+        j = M.judge(sit, T)
+        assert j.holds is False
+        assert why in j.why.rule
+        assert M.judge(record(x=sit), rectype(x=T)).holds is False
+        assert M.judge(sit, T | Ind | dog("a")).holds is True
+    assert M.witnesses(T) == ()
+
+
+@pytest.mark.parametrize("name", NO_VALUES)
+def test_nothing_can_be_made_of_what_has_no_value(name):
+    T, _ = NO_VALUES[name]
+    M = Model().given("a", Ind)
+    for ask in (lambda: M.given("a", T), lambda: M.create(T)):
+        with pytest.raises(
+            RefusedError, match=r"takes objects|is no type|is no function"
+        ):
+            ask()
+
+
+def test_what_has_no_value_is_not_denied_in_vain():
+    T, _ = NO_VALUES["in an argument"]
+    M = Model().given("a", Ind)
+    assert M.given("s", ~T) is M
+    with pytest.raises(RefusedError, match="takes objects of"):
+        M.given("s", T, 0.5)
+
+
+def test_facts_are_about_what_the_arguments_of_a_type_come_to():
+    """The facts alone say that e is of dog(fido): without them nothing is computed."""
+    T = dog(Application(OF_FIDO("a"), "e"))
+    M = Model().given("e", dog("fido")).given("a", Ind).given("s", dog("a"))
+    assert M.witnesses(T) == ("s",)
+    assert M.true(T) == (1, 1)
+    assert M.given("t", T).judge("t", T & dog("a")).holds is True
+    assert M.given("t", T, 0.5).judge("t", T & dog("a")).p == (0.5, 0.5)
+    assert M.given(record(c="t"), rectype(c=T)).judge("t", dog("a")).holds is True
+    assert M.given("t", ~T).facts.told_degree("t", dog("a")) == (0, 0)
+    made, after = M.create(rectype(c=T))
+    assert after.judge(made, rectype(c=T)).holds is True
+
+
+def test_a_function_may_give_a_function_that_gives_a_type():
+    f = OF_FIDO(fun(x=Ind)(dog(this.x)))
+    M = Model().given("e", dog("fido")).given("a", Ind).given("s", dog("a"))
+    T = Application(Application(f, "e"), "a")
+    assert M.judge("s", T).holds is True
+    assert M.judge("e", T).holds is False
+    assert M.witnesses(T) == ("s",)
+
+
+def test_something_is_made_of_a_type_with_very_many_cases():
+    T = meet(*[Basic(f"P{n}") | Basic(f"Q{n}") for n in range(9)])
+    made, M = Model().create(T)
+    assert M.judge(made, T).holds is True
+
+
+def test_a_string_of_events_that_cannot_be_is_not_made():
+    with pytest.raises(RefusedError, match="Type : Type cannot be given"):
+        Model().create(Str(A, Type @ Type))
+
+
+def test_whether_something_is_on_a_circle_is_left_open():
+    M = Model().given("a", Ind)
+    circle = rectype(x=Ind @ this.y, y=Ind @ this.x)
+    assert M.true(circle) == (0, 1)
+    assert (
+        list(some_witnesses(M.facts, rectype(x=Ind @ this.y, y=Ind @ this.x, z=~Ind)))
+        == []
+    )
+
+
+def test_what_can_be_listed_of_a_type_bounds_how_probable_something_of_it_is():
+    M = Model().given("a", Ind).given("s", dog("a"), 0.5).given("n", A, 0)
+    assert M.true(rectype(x=Ind, c=dog(this.x), z=~Ind)) == (0.5, 1)
+    assert M.true(NonEmpty(A)) == M.true(Plus(A)) == M.true(ListOf(B) & A) == (0, 0)
+    listed = [
+        NonEmpty(A),
+        Plus(A),
+        A & ListOf(B),
+        rectype(x=Ind, c=dog(this.x), z=~Ind),
+    ]
+    assert list(map(listed_type, listed)) == [A, A, A, Dog]
+    assert listed_type(NonEmpty(~A)) is listed_type(ListOf(A) & ~B) is None
 
 
 def test_a_function_is_of_no_type_where_it_has_no_value():

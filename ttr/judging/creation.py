@@ -29,6 +29,7 @@ from ttr.judging.evaluator import (
     is_reduced,
     make_witness,
     reduce_applications,
+    reduce_atom,
 )
 from ttr.judging.open_terms import TermFinder
 from ttr.judging.truth_of_types import IsTrue
@@ -92,7 +93,7 @@ def with_judgement(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     """
     match T:
         case Basic() | PType():
-            return facts.with_fact(sit, T, CERTAIN)
+            return facts.with_fact(sit, reduce_atom(facts, T), CERTAIN)
         case Meet(parts):
             for part in parts:
                 facts = with_judgement(facts, sit, part)
@@ -137,7 +138,11 @@ def _with_denial(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     """The assignment in which also sit is not of T."""
     match T:
         case Basic() | PType():
-            return facts.with_fact(sit, T, REFUTED)
+            try:
+                atom = reduce_atom(facts, T)
+            except RefusedError:
+                return facts  # as nothing is of it
+            return facts.with_fact(sit, atom, REFUTED)
         case Negation(body):
             return with_judgement(facts, sit, body)
         case Join(parts):

@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import islice, product
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar, cast
 
 from ttr.computing.case_analysis import cases_or_whole
 from ttr.computing.prover import Prover
@@ -535,6 +535,13 @@ def reduce_applications(facts: Assignment, value: Object) -> Object:
     if not isinstance(value, Application) or free_paths(value):
         return value
     return reduce_applications(facts, _apply(facts, value.function, value.argument))
+
+
+def reduce_atom(facts: Assignment, T: Atom) -> Atom:
+    """The atom with its arguments reduced; `RefusedError` where one has no value."""
+    if not mentions(T, Application):
+        return T
+    return cast(Atom, reduce_applications(facts, T))
 
 
 def _reduce_head(facts: Assignment, T: Application) -> Object:

@@ -32,7 +32,7 @@ from ttr.judging.conditioning import (
 )
 from ttr.judging.creation import create_witness, with_judgement
 from ttr.judging.dependence_analysis import check_together
-from ttr.judging.evaluator import derivation, reduce_applications
+from ttr.judging.evaluator import derivation, reduce_applications, reduce_atom
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.perception import fill_fields
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
@@ -174,6 +174,8 @@ class Model:
         sit, T = self._normalise(*_check_closed(sit, T))
         p = _degree_of(f"{notation(sit)} : {T}", p)
         pairs = conditions(when)
+        if isinstance(T, Basic | PType):
+            T = reduce_atom(self._facts, T)
         if pairs:
             return self._with(with_conditional_fact(self._facts, sit, T, p, pairs))
         if isinstance(T, Basic | PType):

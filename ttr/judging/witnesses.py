@@ -11,7 +11,7 @@ from ttr.building.merging import merge
 from ttr.computing.strings.pieces import string_of
 from ttr.errors import RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
-from ttr.judging.evaluator import derivation, reduce_applications
+from ttr.judging.evaluator import derivation, reduce_applications, reduce_atom
 from ttr.judging.fact_index import FactIndex
 from ttr.probability import Degree
 from ttr.safety.budgets import spend
@@ -148,9 +148,16 @@ class _Listing:
         facts = self.facts
         match T:
             case Basic() | PType():
-                yield from facts.told_of(T, self._enough)
+                try:
+                    atom = reduce_atom(facts, T)
+                except RefusedError:
+                    return
+                yield from facts.told_of(atom, self._enough)
             case Singleton(_, value):
-                value = reduce_applications(facts, value)
+                try:
+                    value = reduce_applications(facts, value)
+                except RefusedError:
+                    return
                 if self._is_of(value, T):
                     yield value
             case Join(parts):
