@@ -165,8 +165,7 @@ class Assignment:
 
     def is_told(self, sit: Object, T: Atom) -> bool:
         """Does a fact or a witness function give the probability of sit : T?"""
-        seen = isinstance(T, Basic) and T in self.functions
-        return seen or self.told_degree(sit, T) is not None
+        return T in self.functions or self.told_degree(sit, T) is not None
 
     def types_of(self, sit: Object) -> list[Atom]:
         """The types with a fact that the object may be of them, in no order."""

@@ -166,10 +166,10 @@ def _seen_from(at: list[str], place: Path) -> Path:
     first, *labels = place.labels
     if first != ITSELF.labels[0]:
         return place
-    for shared in range(min(len(at), len(labels) - 1), -1, -1):
+    for shared in reversed(range(min(len(at), len(labels)))):
         depth = len([label for label in at[shared:] if not is_element(label)]) - 1
         rest = labels[shared:]
-        if at[:shared] == labels[:shared] and depth >= 0 and rest:
+        if at[:shared] == labels[:shared] and depth >= 0:
             return place if any(map(is_element, rest)) else Path(depth, tuple(rest))
     return place
 

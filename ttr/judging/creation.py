@@ -9,7 +9,7 @@ from itertools import count, cycle, islice, product
 from typing import assert_never
 
 from ttr.building.merging import merge
-from ttr.computing.case_analysis import cases, cases_or_whole, has_cases
+from ttr.computing.case_analysis import cases, cases_or_whole
 from ttr.computing.case_search import open_cases
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.path_cycles import describe_cycle
@@ -430,8 +430,6 @@ class _WitnessMaker:
         raise refused
 
     def _case(self, facts: Assignment, T: TypeNode) -> Made:
-        if has_cases(T) and isinstance(T, Join):
-            raise RefusedError(f"{T} has too many cases for a witness to be made up")
         if not isinstance(T, Meet | Negation):
             return self.make(facts, T)
         parts = T.parts if isinstance(T, Meet) else (T,)

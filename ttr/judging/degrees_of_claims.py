@@ -90,6 +90,4 @@ def _product(how: How, degrees: Sequence[Degree]) -> str:
             return " × ".join(map(str, some)) + more
         case "any":
             return "1 − " + " × ".join(f"(1 − {p})" for p in some) + more
-        case "none" if len(degrees) == 1:
-            return f"1 − {degrees[0]}"
-    return " × ".join(f"(1 − {p})" for p in some) + more
+    return f"1 − {degrees[0]}"  # one judgement is denied

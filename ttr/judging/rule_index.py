@@ -80,9 +80,6 @@ class RuleIndex:
         self._left: dict[frozenset[Pred], Sequence[int]] = {}
         self._open: tuple[tuple[object, ...], frozenset[Pred]] = (), _NONE
 
-    def __len__(self) -> int:
-        return len(self._wanted)
-
     def possible_demands(self, sit: Object, facts: Assignment) -> Sequence[int]:
         """The numbers of the demands that sit may meet, in order."""
         possible = self._possible(sit, facts) if self._every else _NONE

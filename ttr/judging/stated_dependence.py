@@ -53,10 +53,6 @@ class Conditioned:
     condition: tuple[tuple[Claim, bool], ...]
     p: Degree
 
-    def __str__(self) -> str:
-        on = ", ".join([_literal(claim, so) for claim, so in self.condition])
-        return f"P({self.target} | {on}) {_relation(self.p)}"
-
     def claims(self) -> tuple[Claim, ...]:
         """The target and what it depends on."""
         return self.target, *[claim for claim, _ in self.condition]
@@ -82,14 +78,6 @@ class Expectation:
     def concerns(self) -> tuple[object, object]:
         """What it says something of: a later one that concerns the same replaces it."""
         return self.type, frozenset(self.condition)
-
-
-def _literal(claim: Claim, so: bool) -> str:
-    return f"{notation(claim.sit)} : {'' if so else '~'}{claim.type}"
-
-
-def _relation(p: Degree) -> str:
-    return f"= {p}" if p.lo == p.hi else f"in {p}"
 
 
 _EMPTY: Map[Any, Any] = Map()
