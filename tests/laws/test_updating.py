@@ -1,5 +1,6 @@
 """Laws of updating: what is certain, what a rule makes of a state."""
 
+import numpy as np
 from generators import A, B, models, objects, record_types, records, types
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -103,3 +104,29 @@ def test_what_is_set_to_what_has_no_value_is_not_certain():
     assert not is_certain_given(M.facts, "a", A @ of_B, A)
     assert is_certain_given(M.given("a", B).facts, "a", A @ of_B, A)
     assert not is_certain_given(M.given("b", B).facts, "b", A @ of_B, A)
+
+
+def test_what_a_field_is_set_to_is_compared_by_value():
+    pair = ("a", "b")
+    r, T = record(x=["a", "b"]), rectype(x=ListOf(A) @ pair)
+    M = Model().given("a", A).given("b", A)
+    assert is_certain_given(M.facts, r, T, rectype(x=ListOf(A)))
+    for sit, other in (("a", "b"), ("b", "a")):
+        assert not is_certain_given(M.facts, sit, A @ other, A)
+
+
+def test_a_part_of_a_join_is_found_at_a_path():
+    ask, tell = Pred("ask", Ind), Pred("tell", Ind)
+    T = rectype(m=rectype(e=ask("a"))) | rectype(m=rectype(e=tell("a")))
+    facts = Model().given("s", tell("a")).facts
+    assert is_certain(facts, record(m={"e": "s"}), T)
+    for other in (record(m={"e": "t"}), record(m={}), record(m="s"), record(), "s"):
+        assert not is_certain(facts, other, T)
+
+
+def test_what_was_changed_in_place_is_judged_anew():
+    r, T = record(x=np.zeros(1)), rectype(x=A)
+    facts = Model().witnessed(A, by=lambda x: bool(x[0] == 0)).facts
+    assert is_certain(facts, r, T)
+    r.x[0] = 1
+    assert not is_certain(facts, r, T)

@@ -132,6 +132,38 @@ COUNTEREXAMPLES = [
     ("[l : nelist(plus(A))]", "[l : nelist(str(A, A))]", "{l = [<a1>]}"),
     ("[s : plus(A) /\\ plus(C)]", "[s : str(A)]", "{s = <a1 a2>}"),
     ("[r : Rec, s : plus(A)]", "[r : Rec, s : str(A, A)]", "{r = {}, s = <a1>}"),
+    (r"C /\ [s : plus(A)]", "[s : str(A, A)]", "{s = <a1>}"),
+    (r"C /\ [s : plus(A)]", "[s : str(A)]", "{more0 = a3, s = <a1 a2>}"),
+    (r"C /\ [l : list(A)]", "[l : list(~B)]", "{l = [a1]}"),
+    (r"C /\ list(list(A))", "list(list(~B))", "(('a1',),)"),
+    (r"C /\ [s : str(A, A)]", "[s : str(A, ~B)]", "{s = <a1 a2>}"),
+    ("[s : str(A, A)]", "[s : str(A, ~B)]", "{s = <a1 a2>}"),
+    (r"[s : plus(A)] /\ ~p(a)", "[s : str(A, A)]", "{s = <a1>}"),
+    (r"[r : [s : plus(A)] /\ C]", "[r : [s : str(A, A)]]", "{r = {s = <a1>}}"),
+    ("[s : str(list(A), C)]", "[s : str(list(~B), C)]", "{s = <[a1] a2>}"),
+    ("[x : A, s : plus(p(x))]", "[x : A, s : str(p(x))]", "{s = <s2 s3>, x = a1}"),
+    (
+        "[x : A, r : [s : plus(p(^.x))]]",
+        "[x : A, r : [s : str(p(^.x))]]",
+        "{r = {s = <s2 s3>}, x = a1}",
+    ),
+    (
+        "[x : A, l : list([s : plus(p(^.x))])]",
+        "[x : A, l : list([s : str(p(^.x))])]",
+        "{l = [{s = <s2 s3>}], x = a1}",
+    ),
+    (
+        "[l : list([x : A, s : plus(p(x))])]",
+        "[l : list([x : A, s : str(p(x))])]",
+        "{l = [{s = <s2 s3>, x = a1}]}",
+    ),
+    (
+        "[l : nelist(A), s : plus(p(fst(l)))]",
+        "[l : nelist(A), s : str(p(fst(l)))]",
+        "{l = [a1], s = <s2 s3>}",
+    ),
+    ("[f : (A -> A)]", "[f : (A -> ~B)]", r"{f = \x:A. a1}"),
+    ("(A -> [x : A])", "(A -> [x : ~B])", r"\x:A. {x = a1}"),
 ]
 """A type, another one, and what is of the first and not of the other."""
 

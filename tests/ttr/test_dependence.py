@@ -9,6 +9,7 @@ import pytest
 from ttr import (
     Basic,
     Ind,
+    ListOf,
     Model,
     Pred,
     Theory,
@@ -99,6 +100,59 @@ def test_a_condition_is_a_pair():
         Model().judge("a", A, when=[A])
     with pytest.raises(TTRError, match="judgements are given as a list, found A"):
         Model().judge("a", A, when=A)
+
+
+@pytest.mark.parametrize(
+    ("say", "message"),
+    [
+        (
+            lambda M: M.with_conditional(A, 0.5, when=[]),
+            "A has to depend on some other",
+        ),
+        (lambda M: M.with_conditional(A, 0.5, when=A), "A has to depend on some other"),
+        (
+            lambda M: M.with_conditional(A, 0.5, when=~(B & C)),
+            "a condition is of a basic",
+        ),
+        (
+            lambda M: M.given("a", A, 0.5, when=[("b", ListOf(A))]),
+            "a condition is of a",
+        ),
+        (
+            lambda M: M.given("a", ListOf(A), 0.5, when=[("b", A)]),
+            "what depends on others is of a basic type or a ptype, found list\\(A\\)",
+        ),
+        (lambda M: M.with_unknown_dependence(("a", A)), "two judgements or more"),
+    ],
+)
+def test_what_is_said_of_dependence_is_of_several_atoms(say, message):
+    with pytest.raises(TTRError, match=message):
+        say(Model())
+
+
+def test_a_condition_may_be_a_meet():
+    M = Model().given("a", A, 0.6).given("a", C, 0.5)
+    meets = M.given("a", B, 0.5, when=[("a", A & ~C)])
+    both = M.given("a", B, 0.5, when=[("a", A), ("a", ~C)])
+    assert meets.judge("a", A & B & ~C).p == pytest.approx((0.15, 0.15))
+    assert both.judge("a", A & B & ~C).p == pytest.approx((0.15, 0.15))
+
+
+def test_classifiers_that_cannot_all_be_right():
+    M = Model(Apart)
+    for T in (A, B, C):
+        M = M.witnessed(T, by=sure(0.4))
+    with pytest.raises(RefusedError, match=r"cannot all be so: a : A with 0\.4, a : B"):
+        M.judge("a", A | B | C)
+
+
+def test_what_excludes_one_another_is_no_chain():
+    M = Model(Apart).given("a", A, 0.3).given("a", B, 0.2).given("a", C, 0.2)
+    found = M.judge("a", A & B & C)
+    assert found.p == (0, 0)
+    pairs = [(A, B), (A, C), (B, C)]
+    links = [f"a : {S} excludes a : {T}" for S, T in pairs]
+    assert found.why.because == "; ".join(["each part", *links])
 
 
 def test_given_what_cannot_be():

@@ -63,6 +63,20 @@ def test_a_nested_path():
     assert str(why.failure()) == "✗ c: t : dog(a)   (nothing says so; s would do)"
 
 
+def test_what_is_denied_fails_itself():
+    why = M.judge(record(x="a"), rectype(x=~Ind)).why
+    assert why.path() == "x"
+    assert why.failure().rule == "what is denied"
+
+
+def test_a_remedy_is_named_for_atoms_only():
+    missing = M.judge(record(), rectype(x=ListOf(Ind), y=Ind)).why
+    assert [part.because for part in missing.parts] == [
+        "there is no x",
+        "there is no y; a would do",
+    ]
+
+
 def test_what_is_refuted_fails_before_what_is_uncertain():
     T = rectype(b=A, c=dog("a"))
     assert M.judge(record(b="b", c="t"), T).why.path() == "c"

@@ -185,6 +185,32 @@ def test_a_function_is_made_up_whose_values_depend_on_its_argument(T, made):
         assert f is theory.parse(made)
 
 
+@pytest.mark.parametrize(
+    ("T", "made"),
+    [
+        ("((x : Ind) -> nelist([y = x : Ind]))", r"\x:Ind. [{y = x}]"),
+        ("((x : Ind) -> set([y = x : Ind]))", r"\x:Ind. set{}"),
+        ("((x : Ind) -> list([y = x : Ind]))", r"\x:Ind. []"),
+        ("((x : Ind) -> ([z : man(x)] \\/ [y = x : Ind]))", r"\x:Ind. {y = x}"),
+        ("((x : Ind) -> [y = x : Ind, z : dog(a)])", r"\x:Ind. {y = x, z = s1}"),
+        ("((x : [y = a : Ind]) -> [z = x.y : Ind])", r"\r:[y = a : Ind]. {z = r.y}"),
+        (
+            "((x : Ind) -> ((Ind -> (Ind -> dog(x))) -> dog(x)))",
+            r"\x:Ind. \f:(Ind -> (Ind -> dog(x))). f(x)(x)",
+        ),
+        (
+            "((x : Ind) -> ((man(a) -> dog(x)) -> dog(x)))",
+            r"\x:Ind. \f:(man(a) -> dog(x)). f(s1)",
+        ),
+    ],
+)
+def test_the_body_of_a_function_is_put_together(T, made):
+    kind = theory.parse(T)
+    f, model = Model(theory).create(kind)
+    assert str(f) == made
+    assert model.judge(f, kind).holds
+
+
 def test_what_no_function_is_of_is_not_made_up():
     assert check(Theory.parse(f"{LOGIC}check error create(((A : Type) -> A))")).holds
 

@@ -42,6 +42,14 @@ def test_why_a_string_is_one():
     assert str(reason).splitlines()[-1] == "  ✓ b : B   (given)"
 
 
+def test_the_reasons_of_a_string_are_a_list():
+    parts = why("aab", Str(Plus(A), B)).parts
+    assert len(parts) == 3
+    assert [part.sit for part in parts] == ["a", "a", "b"]
+    assert [part.sit for part in parts[::2]] == ["a", "b"]
+    assert (len(parts[1:]), parts[-1].sit) == (2, "b")
+
+
 def test_fields_around_a_string_are_looked_up():
     run = Pred("run", Ind)
     T = rectype(x=Ind, s=Str(Plus(run(this.x)), B))
