@@ -152,8 +152,9 @@ def _idle_spans(code: str) -> Iterator[Span]:
     """The parts of the code that no answer depends on.
 
     They are what the type checker alone reads, such as annotations and `frozen=True`;
-    `strict=True` of `zip`, which says what the code around it sees to; how much work
-    is charged to the budget; and how many answers a cache keeps.
+    `strict=True` of `zip` and assertions, which say what the code around them sees to;
+    what is raised where nothing gets; how much work is charged to the budget; and how
+    many answers a cache keeps.
     """
     for node in ast.walk(ast.parse(code)):
         for part in _idle_parts(node):
@@ -163,6 +164,9 @@ def _idle_spans(code: str) -> Iterator[Span]:
                 (part.lineno, part.col_offset),
                 (part.end_lineno, part.end_col_offset),
             )
+        for it in getattr(node, "decorator_list", ()):
+            if ast.unparse(it) == "overload":
+                yield (it.lineno, 0), (it.lineno + 1, 0)
 
 
 def _idle_parts(node: ast.AST) -> Iterator[ast.expr | ast.stmt]:
@@ -180,6 +184,10 @@ def _idle_parts(node: ast.AST) -> Iterator[ast.expr | ast.stmt]:
         case ast.If(test=ast.Name(id="TYPE_CHECKING")):
             yield node
         case ast.Expr(value=ast.Constant(value=value)) if value is ...:
+            yield node
+        case ast.Assert() | ast.Raise(exc=ast.Name(id="NotImplementedError")):
+            yield node
+        case ast.Raise(exc=ast.Call(func=ast.Name(id="assert_never"))):
             yield node
         case ast.Call(func=ast.Name(id="spend" | "lru_cache"), args=arguments):
             yield from arguments
