@@ -46,7 +46,7 @@ def test_what_is_open_is_left():
 def without_indexes():
     """Every part is tried, of strategies and of joins."""
     return patch.object(
-        RuleIndex, "possible_demands", lambda self, sit, facts: range(len(self))
+        RuleIndex, "possible_demands", lambda self, sit, facts: range(len(self._wanted))
     )
 
 
