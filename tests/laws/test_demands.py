@@ -78,7 +78,13 @@ def lessons():
     return tutoring(SIGNS, model=model)
 
 
-VIEW = record(look="look1", things=["o1", "o2"], placed=["o1", "o2"], focus=["o1"])
+VIEW = record(
+    look="look1",
+    things=["o1", "o2"],
+    placed=["o1", "o2"],
+    focus=["o1"],
+    pointed=[],
+)
 GLANCE = record(view=VIEW, kept=[], floor="tutor")
 SAYINGS = st.sampled_from(
     (
