@@ -831,3 +831,61 @@ def test_former_names_of_methods_work_and_warn(former, now):
     M = Model()
     with pytest.warns(DeprecationWarning, match=f"Model.{former} is now Model.{now}$"):
         assert getattr(M, former) == getattr(M, now)
+
+
+# --- axioms and what is seen of ptypes ------------------------------------------------
+
+wren, bird, animal = (Pred(name, Ind) for name in ("wren", "bird", "animal"))
+KINDS = Signature(
+    (Axiom(wren(this.x), bird(this.x)), Axiom(bird(this.x), animal(this.x)))
+)
+
+
+def look_at(**degrees):
+    """A model of one thing, of which these words are seen to be true so far."""
+    model = Model().given("o1", Ind)
+    for pred in (wren, bird, animal):
+        if pred.name in degrees:
+            degree = degrees[pred.name]
+            model = model.witnessed(pred, by=lambda x, degree=degree: degree)
+    return model.under(KINDS)
+
+
+@pytest.mark.parametrize(
+    ("degrees", "of_bird", "of_animal"),
+    [
+        ({"wren": 0.9, "bird": 0.2, "animal": 0.0}, (0.9, 0.9), (0.9, 0.9)),
+        ({"wren": 0.2, "bird": 0.9, "animal": 0.0}, (0.9, 0.9), (0.9, 0.9)),
+        ({"wren": 0.9}, (0.9, 1.0), (0.9, 1.0)),
+        ({"wren": 0.0, "bird": (0.1, 0.6)}, (0.1, 0.6), (0.1, 1.0)),
+        ({"wren": (0.5, 0.8), "bird": (0.1, 0.6)}, (0.5, 0.6), (0.5, 1.0)),
+    ],
+)
+def test_what_is_seen_of_a_kind_is_seen_of_those_above(degrees, of_bird, of_animal):
+    model = look_at(**degrees)
+    for pred, bounds in ((bird, of_bird), (animal, of_animal)):
+        found = model.facts.perceive(None, pred("o1"))
+        assert (found.lo, found.hi) == bounds
+
+
+def test_what_is_seen_of_a_kind_says_nothing_of_those_below():
+    model = look_at(wren=0.1, bird=0.9)
+    assert model.facts.perceive(None, wren("o1")).lo == 0.1
+
+
+def test_what_nothing_is_seen_of_has_no_degree():
+    assert look_at(bird=0.9).facts.perceive(None, wren("o1")) is None
+    assert look_at(wren=0.0).facts.perceive(None, bird("o1")) is None
+
+
+def test_a_situation_that_is_perceived_is_as_probable_as_the_axioms_say():
+    model = look_at(wren=0.9, bird=0.2)
+    judged = model.perceive(record(x="o1"), rectype(x=Ind, c=bird(this.x)))
+    assert judged.p.lo == 0.9
+
+
+def test_a_model_under_another_theory_keeps_what_was_judged():
+    model = Model().given("o1", Ind).given("s1", wren("o1"))
+    assert not model.judge("s1", animal("o1")).holds
+    assert model.under(KINDS).judge("s1", animal("o1")).holds
+    assert not model.under(KINDS).under(Signature()).judge("s1", animal("o1")).holds

@@ -137,8 +137,25 @@ class Assignment:
     def perceive(self, sit: Object, T: Atom) -> Degree | None:
         """The answer of the witness function of T, or None where there is none.
 
-        For a basic type it is asked of the object, for a ptype of its arguments.
+        For a basic type it is asked of the object, for a ptype of its arguments. What
+        is seen of a ptype is seen of those above it as well: by `mug(x) <: cup(x)`,
+        cup(o1) is at least as probable as mug(o1).
         """
+        own = self._ask(sit, T)
+        if isinstance(T, Basic) or T.pred not in self.theory.axiom_heads:
+            return own
+        below = (
+            self._ask(sit, lower)
+            for _, lower in subtypes(T, self.theory.axioms)
+            if not free_paths(lower)
+        )
+        least = max((seen.lo for seen in below if seen is not None), default=0.0)
+        if own is None:
+            return Degree(least, 1.0) if least > 0.0 else None
+        return own if own.lo >= least else Degree(least, max(least, own.hi))
+
+    def _ask(self, sit: Object, T: Atom) -> Degree | None:
+        """The answer of T's own witness function, or None where there is none."""
         function = self.functions.get(head(T))
         if function is None:
             return None
@@ -256,6 +273,10 @@ class Assignment:
     def with_function(self, of: Head, function: WitnessFunction) -> Assignment:
         """The assignment in which a function says what is of a type."""
         return self._replace(functions=self.functions.set(of, function))
+
+    def under(self, theory: Signature) -> Assignment:
+        """The assignment of the same facts under another theory."""
+        return self if theory is self.theory else self._replace(theory=theory)
 
     def with_new(self, stem: str) -> tuple[str, Assignment]:
         """A name that no fact mentions and no earlier call gave out."""

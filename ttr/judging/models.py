@@ -285,6 +285,24 @@ class Model:
             )
         return self._with(self._facts.with_function(head, by))
 
+    def under(self, theory: Signature | _HasSignature, /) -> Model:
+        """The model of the same judgements under another theory, with its axioms.
+
+        What that theory gives and opens is not added.
+
+        >>> from ttr import Ind, this
+        >>> from ttr.signature.signature import Axiom
+        >>> mug, cup = Pred("mug", Ind), Pred("cup", Ind)
+        >>> M = Model().given("o1", Ind).given("s1", mug("o1"))
+        >>> M.judge("s1", cup("o1")).holds
+        False
+        >>> M.under(Signature((Axiom(mug(this.x), cup(this.x)),))).judge(
+        ...     "s1", cup("o1")
+        ... ).holds
+        True
+        """
+        return self._with(self._facts.under(_signature(theory)))
+
     @within_budget(otherwise=_judged_unknown)
     def judge(self, sit: object, T: TypeNode, /, *, when: Conditions = ()) -> Judgement:
         """Is sit of T? What is there is checked; nothing is filled in.
