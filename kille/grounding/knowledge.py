@@ -13,6 +13,7 @@ from kille.grounding.reasons import Reasons, Share, best_rival, shares_of
 from kille.memory import (
     Arrangement,
     Kind,
+    KindLesson,
     Lesson,
     Memory,
     ObjectLesson,
@@ -21,6 +22,7 @@ from kille.memory import (
     Scan,
     Sighting,
     Turn,
+    Word,
 )
 from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, Palette, colours_of, xkcd
@@ -190,6 +192,11 @@ class Knowledge:
             self._undo(self.relations.forget, key)
         return key
 
+    def learn_kind(self, turn: Turn, lower: Word, upper: Word) -> int:
+        """Learn that a kind of thing is a kind of another; returns the key."""
+        with self.together():
+            return self.memory.learn_kind(turn, lower, upper)
+
     def forget(self, key: int) -> None:
         """Forget a lesson, as if it had never been. Raises NoSuchLessonError."""
         with self.together():
@@ -274,7 +281,11 @@ class Knowledge:
 
     def _forget(self, *lessons: Lesson) -> None:
         """Have the learners forget lessons; undo restores them in order."""
-        taught = [(self._learner_of_lesson(lesson), lesson.key) for lesson in lessons]
+        taught = [
+            (self._learner_of_lesson(lesson), lesson.key)
+            for lesson in lessons
+            if not isinstance(lesson, KindLesson)
+        ]
         for learner in {id(learner): learner for learner, _ in taught}.values():
             self._undo(learner.become, learner.copy())
         for learner, key in taught:

@@ -17,7 +17,11 @@ from kille.memory.exporting import (
     checksum,
     place,
 )
-from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
+from kille.memory.lessons import (
+    Dialogue,
+    SeenLesson,
+    Turn,
+)
 from kille.memory.packages import (
     MANIFEST,
     PackageError,
@@ -57,7 +61,7 @@ class Package:
         self._lessons = sorted(lessons)
         self._check(turns)
 
-    def lessons(self) -> Iterator[ObjectLesson | RelationLesson]:
+    def lessons(self) -> Iterator[SeenLesson]:
         """All lessons, oldest first, with their pictures, each checked as it is read.
 
         Raises PackageError at the first that is damaged.
@@ -67,7 +71,7 @@ class Package:
                 lesson = self._lesson(_json(line))
             yield lesson
 
-    def _lesson(self, line: Line) -> ObjectLesson | RelationLesson:
+    def _lesson(self, line: Line) -> SeenLesson:
         key, sums = line["lesson"], line["files"]
         files = {
             name: _checked_content(self._reader, place(key, name), sums[name])

@@ -6,7 +6,7 @@ import math
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import astuple, dataclass, field, replace
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,11 @@ from numpy.typing import NDArray
 from kille.memory.pictures import Picture
 from kille.scene import Configuration, Point, Traits, Vector
 
-Kind = Literal["object", "attribute", "relation"]
-"""What a word describes: what a thing is, how it is, or where it is."""
+Kind = Literal["object", "attribute", "relation", "subkind"]
+"""What a word describes: what a thing is, how it is, or where it is.
+
+A lesson of the kind "subkind" says what the kind of thing that it names is a kind of.
+"""
 
 DESCRIPTOR_LENGTH = 128
 
@@ -139,6 +142,22 @@ class Arrangement:
 
 
 @dataclass(frozen=True)
+class Subsumption:
+    """What a kind of thing was said to be a kind of: the `upper` word.
+
+    It was only said, so that there is neither a sensor nor a picture.
+    """
+
+    upper: Word
+    sensor: str = ""
+    time: float = 0.0
+    picture: Picture | None = None
+
+    def __post_init__(self) -> None:
+        _require_finite("a subsumption", self.time)
+
+
+@dataclass(frozen=True)
 class Lesson:
     """The fact that a turn taught a word; `key` identifies the lesson for good.
 
@@ -165,29 +184,44 @@ class RelationLesson(Lesson):
     seen: Arrangement
 
 
+@dataclass(frozen=True)
+class KindLesson(Lesson):
+    """A lesson that one kind of thing is a kind of another: an axiom."""
+
+    seen: Subsumption
+
+
+SeenLesson: TypeAlias = ObjectLesson | RelationLesson | KindLesson
+"""A lesson with what it was taught by."""
+
+Seen: TypeAlias = Sighting | Arrangement | Subsumption
+"""What a lesson was taught by."""
+
+
 def lesson_of(
-    key: int, word: Word, turn: Turn, seen: Sighting | Arrangement, *, holds: bool
-) -> ObjectLesson | RelationLesson:
+    key: int, word: Word, turn: Turn, seen: Seen, *, holds: bool
+) -> SeenLesson:
     """A lesson of the kind that fits what was seen."""
-    if isinstance(seen, Sighting):
-        return ObjectLesson(key, word, turn, seen, holds=holds)
-    return RelationLesson(key, word, turn, seen, holds=holds)
+    match seen:
+        case Sighting():
+            return ObjectLesson(key, word, turn, seen, holds=holds)
+        case Arrangement():
+            return RelationLesson(key, word, turn, seen, holds=holds)
+    return KindLesson(key, word, turn, seen, holds=holds)
 
 
-def with_picture(
-    lesson: ObjectLesson | RelationLesson, picture: Picture | None
-) -> ObjectLesson | RelationLesson:
+def with_picture(lesson: SeenLesson, picture: Picture | None) -> SeenLesson:
     """A copy of the lesson with this picture of what was seen."""
     match lesson:
         case ObjectLesson():
             return replace(lesson, seen=replace(lesson.seen, picture=picture))
         case RelationLesson():
             return replace(lesson, seen=replace(lesson.seen, picture=picture))
+        case KindLesson():
+            return lesson
 
 
-def has_same_content(
-    one: ObjectLesson | RelationLesson, other: ObjectLesson | RelationLesson
-) -> bool:
+def has_same_content(one: SeenLesson, other: SeenLesson) -> bool:
     """Do two lessons teach the same from the same turn and the same evidence?
 
     Their keys do not count; NaN is the same as NaN.

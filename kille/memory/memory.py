@@ -19,10 +19,14 @@ from kille.memory.lessons import (
     Arrangement,
     Dialogue,
     Kind,
+    KindLesson,
     Lesson,
     ObjectLesson,
     RelationLesson,
+    Seen,
+    SeenLesson,
     Sighting,
+    Subsumption,
     Turn,
     Word,
 )
@@ -128,7 +132,13 @@ class MemoryReader:
         with explain_content_failures(self.place):
             yield from reading.relations(self._connection)
 
-    def lesson(self, key: int) -> ObjectLesson | RelationLesson:
+    def kinds(self) -> tuple[KindLesson, ...]:
+        """The lessons that say which kind of thing is a kind of which, oldest
+        first."""
+        with explain_content_failures(self.place):
+            return reading.kinds(self._connection)
+
+    def lesson(self, key: int) -> SeenLesson:
         """The lesson of this key with its picture. Raises NoSuchLessonError."""
         with explain_content_failures(self.place):
             found = reading.lesson(self._connection, key)
@@ -250,9 +260,12 @@ class Memory(MemoryReader):
         word = Word(name, surface, "relation", article)
         return self._learn(turn, word, seen, holds)
 
-    def _learn(
-        self, turn: Turn, word: Word, seen: Sighting | Arrangement, holds: bool
-    ) -> int:
+    def learn_kind(self, turn: Turn, lower: Word, upper: Word) -> int:
+        """Learn that a kind of thing is a kind of another, in the same way."""
+        word = Word(lower.name, lower.surface, "subkind", lower.article)
+        return self._learn(turn, word, Subsumption(upper), holds=True)
+
+    def _learn(self, turn: Turn, word: Word, seen: Seen, holds: bool) -> int:
         with self._transaction() as connection:
             return writing.add_lesson(connection, turn, word, seen, holds=holds)
 

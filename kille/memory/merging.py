@@ -17,8 +17,7 @@ from kille.memory import reading, writing
 from kille.memory.lessons import (
     Dialogue,
     Lesson,
-    ObjectLesson,
-    RelationLesson,
+    SeenLesson,
     Turn,
 )
 
@@ -38,7 +37,7 @@ class MergeSource(Protocol):
     def turns(self) -> Sequence[Turn]:
         """Everything that was said."""
 
-    def lessons(self) -> Iterator[ObjectLesson | RelationLesson]:
+    def lessons(self) -> Iterator[SeenLesson]:
         """All lessons, oldest first."""
 
 

@@ -20,10 +20,13 @@ from kille.memory.lessons import (
     Arrangement,
     Dialogue,
     Kind,
+    KindLesson,
     ObjectLesson,
     RelationLesson,
     Scan,
+    SeenLesson,
     Sighting,
+    Subsumption,
     Turn,
     Word,
 )
@@ -64,7 +67,7 @@ def unpack_turn(line: Line) -> Turn:
     return Turn(whole(line, "dialogue"), whole(line, "number"), *texts)
 
 
-def pack_lesson(lesson: ObjectLesson | RelationLesson) -> tuple[Line, Files]:
+def pack_lesson(lesson: SeenLesson) -> tuple[Line, Files]:
     """Pack a lesson as a line, and the files that belong to it."""
     line: Line = {
         "lesson": lesson.key,
@@ -83,6 +86,12 @@ def pack_lesson(lesson: ObjectLesson | RelationLesson) -> tuple[Line, Files]:
         case Arrangement() as seen:
             line |= {"target": seen.target, "landmark": seen.landmark}
             line["configuration"] = as_json(seen.configuration)
+        case Subsumption(upper=upper):
+            line["upper"] = {
+                "name": upper.name,
+                "surface": upper.surface,
+                "article": upper.article,
+            }
     if lesson.seen.picture is not None:
         picture_line, pictures = _pack_picture(lesson.seen.picture)
         line["picture"] = picture_line
@@ -92,7 +101,7 @@ def pack_lesson(lesson: ObjectLesson | RelationLesson) -> tuple[Line, Files]:
 
 def unpack_lesson(
     line: Line, files: Files, turns: Mapping[tuple[int, int], Turn]
-) -> ObjectLesson | RelationLesson:
+) -> SeenLesson:
     """Unpack a lesson from its line and files; `turns` are by dialogue and number."""
     key = whole(line, "lesson")
     turn = turns[whole(line, "dialogue"), whole(line, "turn")]
@@ -110,6 +119,10 @@ def unpack_lesson(
             configuration = from_json(line["configuration"])
             stand = Arrangement(sensor, time, target, landmark, configuration, picture)
             return RelationLesson(key, word, turn, stand, holds=holds)
+        case "subkind":
+            upper = _word({**line["upper"], "kind": "object"})
+            said = Subsumption(upper, sensor, time)
+            return KindLesson(key, word, turn, said, holds=holds)
 
 
 def _word(line: Line) -> Word:

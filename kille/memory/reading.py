@@ -21,11 +21,14 @@ from kille.memory.lessons import (
     Arrangement,
     Dialogue,
     Kind,
+    KindLesson,
     Lesson,
     ObjectLesson,
     RelationLesson,
     Scan,
+    SeenLesson,
     Sighting,
+    Subsumption,
     Turn,
     Word,
     with_picture,
@@ -42,7 +45,8 @@ WORDS = """
          WHERE other.kind = first.kind AND other.name = first.name AND article != ''
          ORDER BY other.id LIMIT 1), '')
     FROM lessons AS first
-    WHERE id IN (SELECT min(id) FROM lessons WHERE holds GROUP BY kind, name)
+    WHERE id IN (SELECT min(id) FROM lessons WHERE holds AND kind != 'subkind'
+                 GROUP BY kind, name)
     ORDER BY id
 """
 
@@ -87,6 +91,13 @@ OBJECTS = f"""
 RELATIONS = f"""
     SELECT {LESSON_COLUMNS}, sensor, lessons.time, target, landmark, configuration
     FROM lessons JOIN turns ON turns.id = turn JOIN arrangements ON lesson = lessons.id
+    WHERE lessons.id BETWEEN ? AND ? ORDER BY lessons.id
+"""
+
+SUBSUMPTIONS = f"""
+    SELECT {LESSON_COLUMNS}, sensor, lessons.time,
+           upper, upper_surface, upper_article
+    FROM lessons JOIN turns ON turns.id = turn JOIN subsumptions ON lesson = lessons.id
     WHERE lessons.id BETWEEN ? AND ? ORDER BY lessons.id
 """
 
@@ -190,14 +201,22 @@ def relations(connection: sqlite3.Connection) -> Iterator[RelationLesson]:
         yield from batch
 
 
-def lesson(
-    connection: sqlite3.Connection, key: int
-) -> ObjectLesson | RelationLesson | None:
+def kinds(connection: sqlite3.Connection) -> tuple[KindLesson, ...]:
+    """The lessons that say which kind of thing is a kind of which, oldest first."""
+    return tuple(
+        it
+        for first, last in _batches(connection, "subkind")
+        for it in kinds_between(connection, first, last)
+    )
+
+
+def lesson(connection: sqlite3.Connection, key: int) -> SeenLesson | None:
     """The lesson of this key with its picture, or None."""
     with at_one_moment(connection):
-        found: list[ObjectLesson | RelationLesson] = [
+        found: list[SeenLesson] = [
             *objects_between(connection, key, key),
             *relations_between(connection, key, key),
+            *kinds_between(connection, key, key),
         ]
         return with_picture(found[0], picture(connection, key)) if found else None
 
@@ -250,6 +269,21 @@ def relations_between(
         known = _lesson(row)
         found.append(
             RelationLesson(known.key, known.word, known.turn, seen, holds=known.holds)
+        )
+    return found
+
+
+def kinds_between(
+    connection: sqlite3.Connection, first: int, last: int
+) -> list[KindLesson]:
+    """The lessons about kinds of things with keys from `first` to `last`."""
+    found = []
+    for row in connection.execute(SUBSUMPTIONS, (first, last)).fetchall():
+        sensor, time, name, surface, article = row[LESSON_WIDTH:]
+        seen = Subsumption(Word(name, surface, "object", article), sensor, time)
+        known = _lesson(row)
+        found.append(
+            KindLesson(known.key, known.word, known.turn, seen, holds=known.holds)
         )
     return found
 

@@ -20,7 +20,11 @@ from typing import NamedTuple
 
 from kille.memory import reading, schema
 from kille.memory.errors import ELSEWHERE, MemoryFileError, explain_failures
-from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
+from kille.memory.lessons import (
+    Dialogue,
+    SeenLesson,
+    Turn,
+)
 from kille.memory.memory import Memory
 from kille.memory.merging import MergeResult
 from kille.memory.sqlite_pages import SqliteRow, SqliteRows, Value, rows_in
@@ -140,7 +144,7 @@ def _rows_of(path: Path) -> SqliteRows:
 def _fill(tables: sqlite3.Connection, found: SqliteRows) -> Iterator[str]:
     """Put rows into tables of the current version; yields what does not fit."""
     version = max(
-        range(1, schema.VERSION + 1), key=lambda it: _count_fitting(it, found)
+        range(schema.VERSION, 0, -1), key=lambda it: _count_fitting(it, found)
     )
     with tables:
         tables.execute("BEGIN")
@@ -250,26 +254,41 @@ def _mend(tables: sqlite3.Connection) -> Iterator[str]:
     yield from _mend_turns(tables)
     tables.execute(
         "INSERT INTO sightings (lesson) SELECT id FROM lessons "
-        "WHERE kind != 'relation' AND id NOT IN (SELECT lesson FROM sightings) "
+        "WHERE kind NOT IN ('relation', 'subkind') "
+        "AND id NOT IN (SELECT lesson FROM sightings) "
         "AND id IN (SELECT lesson FROM scans)"
     )
+    has_kinds = "subsumptions" in _names(tables)
+    unsaid = "id NOT IN (SELECT lesson FROM subsumptions)" if has_kinds else "1"
     unseen = tables.execute(
-        "SELECT id, name FROM lessons WHERE iif(kind = 'relation', "
-        "id NOT IN (SELECT lesson FROM arrangements), "
-        "id NOT IN (SELECT lesson FROM sightings)) ORDER BY id"
+        f"SELECT id, name FROM lessons WHERE CASE kind WHEN 'subkind' THEN {unsaid} "
+        "WHEN 'relation' THEN id NOT IN (SELECT lesson FROM arrangements) "
+        "ELSE id NOT IN (SELECT lesson FROM sightings) END ORDER BY id"
     ).fetchall()
     for key, name in unseen:
         lesson = f"lesson {key} ({printable_name(name)})"
         yield f"{lesson}: nothing is left of what was seen"
     tables.executemany("DELETE FROM lessons WHERE id = ?", [(it,) for it, _ in unseen])
     orphans: set[int] = set()
-    for table in ("crops", "pictures", "scans", "traits", "sightings", "arrangements"):
+    for table in _OF_LESSONS:
         if table in _names(tables):
             gone = f"FROM {table} WHERE lesson NOT IN (SELECT id FROM lessons)"
             orphans |= {key for (key,) in tables.execute(f"SELECT lesson {gone}")}
             tables.execute(f"DELETE {gone}")
     for key in sorted(orphans - {key for key, _ in (*strange, *unseen)}):
         yield f"lesson {key}: what was seen is left, but not what word it taught"
+
+
+_OF_LESSONS = (
+    "crops",
+    "pictures",
+    "scans",
+    "traits",
+    "sightings",
+    "arrangements",
+    "subsumptions",
+)
+"""The tables with what was seen in lessons."""
 
 
 def _mend_turns(tables: sqlite3.Connection) -> Iterator[str]:
@@ -302,7 +321,7 @@ class _SalvagedMemory:
         self.keys = [key for (key,) in tables.execute("SELECT id FROM lessons")]
         self.losses: list[str] = []
 
-    def lessons(self) -> Iterator[ObjectLesson | RelationLesson]:
+    def lessons(self) -> Iterator[SeenLesson]:
         """All lessons that are whole, oldest first."""
         for key in sorted(self.keys):
             try:

@@ -208,9 +208,45 @@ POLARITY: Migration = (
     "CREATE INDEX lessons_by_word ON lessons (kind, name)",
 )
 
+# What a kind of thing is a kind of. The table of lessons takes another kind: it is made
+# anew, as above.
+KINDS: Migration = (
+    """
+    CREATE TABLE newer_lessons (
+        id INTEGER PRIMARY KEY AUTOINCREMENT,
+        kind TEXT NOT NULL
+            CHECK (kind IN ('object', 'attribute', 'relation', 'subkind')),
+        name TEXT NOT NULL,
+        surface TEXT NOT NULL,
+        turn INTEGER NOT NULL REFERENCES turns,
+        sensor TEXT NOT NULL,
+        time REAL NOT NULL,
+        article TEXT NOT NULL DEFAULT '',
+        holds INTEGER NOT NULL DEFAULT 1 CHECK (holds IN (0, 1))
+    )
+    """,
+    "INSERT INTO newer_lessons SELECT * FROM lessons ORDER BY id",
+    "DELETE FROM sqlite_sequence WHERE name = 'newer_lessons'",
+    """
+    INSERT INTO sqlite_sequence (name, seq)
+    SELECT 'newer_lessons', seq FROM sqlite_sequence WHERE name = 'lessons'
+    """,
+    "DROP TABLE lessons",
+    "ALTER TABLE newer_lessons RENAME TO lessons",
+    "CREATE INDEX lessons_by_word ON lessons (kind, name)",
+    """
+    CREATE TABLE subsumptions (
+        lesson INTEGER PRIMARY KEY REFERENCES lessons ON DELETE CASCADE,
+        upper TEXT NOT NULL,
+        upper_surface TEXT NOT NULL,
+        upper_article TEXT NOT NULL
+    )
+    """,
+)
+
 # The n-th makes a file of version n out of one of version n - 1. Append, never edit:
 # files of every version are out there.
-MIGRATIONS: tuple[Migration, ...] = (TABLES, EVIDENCE, POLARITY)
+MIGRATIONS: tuple[Migration, ...] = (TABLES, EVIDENCE, POLARITY, KINDS)
 VERSION = len(MIGRATIONS)
 
 
@@ -264,7 +300,7 @@ _NEVER = (
     (
         1,
         "SELECT count(*) FROM lessons "
-        "WHERE kind NOT IN ('object', 'attribute', 'relation')",
+        "WHERE kind NOT IN ('object', 'attribute', 'relation', 'subkind')",
         "lessons of other kinds than kille has",
     ),
     (
@@ -274,10 +310,17 @@ _NEVER = (
     ),
     (
         1,
-        "SELECT count(*) FROM lessons WHERE iif(kind = 'relation', "
+        "SELECT count(*) FROM lessons WHERE kind != 'subkind' AND "
+        "iif(kind = 'relation', "
         "NOT EXISTS (SELECT 1 FROM arrangements WHERE lesson = lessons.id), "
         "NOT EXISTS (SELECT 1 FROM sightings WHERE lesson = lessons.id))",
         "lessons without what was seen in them",
+    ),
+    (
+        4,
+        "SELECT count(*) FROM lessons WHERE kind = 'subkind' AND "
+        "NOT EXISTS (SELECT 1 FROM subsumptions WHERE lesson = lessons.id)",
+        "lessons about kinds of things without what these are kinds of",
     ),
     (
         1,

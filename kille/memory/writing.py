@@ -11,10 +11,11 @@ from kille.memory.configurations import to_text
 from kille.memory.errors import NotKeptError
 from kille.memory.lessons import (
     Arrangement,
-    ObjectLesson,
-    RelationLesson,
     Scan,
+    Seen,
+    SeenLesson,
     Sighting,
+    Subsumption,
     Turn,
     Word,
     has_same_content,
@@ -65,7 +66,7 @@ def add_lesson(
     connection: sqlite3.Connection,
     turn: Turn,
     word: Word,
-    seen: Sighting | Arrangement,
+    seen: Seen,
     *,
     holds: bool = True,
     key: int | None = None,
@@ -90,10 +91,13 @@ def add_lesson(
         seen.sensor,
         seen.time,
     )
-    if isinstance(seen, Sighting):
-        _add_sighting(connection, key, seen)
-    else:
-        _add_arrangement(connection, key, seen)
+    match seen:
+        case Sighting():
+            _add_sighting(connection, key, seen)
+        case Arrangement():
+            _add_arrangement(connection, key, seen)
+        case Subsumption():
+            _add_subsumption(connection, key, seen)
     if seen.picture is not None:
         _add_picture(connection, key, seen.picture)
     _check_kept(connection, lesson_of(key, word, turn, seen, holds=holds))
@@ -160,6 +164,20 @@ def _add_arrangement(
     )
 
 
+def _add_subsumption(
+    connection: sqlite3.Connection, key: int, seen: Subsumption
+) -> None:
+    upper = seen.upper
+    _insert(
+        connection,
+        "INSERT INTO subsumptions VALUES (?, ?, ?, ?)",
+        key,
+        upper.name,
+        upper.surface,
+        upper.article,
+    )
+
+
 def _add_picture(connection: sqlite3.Connection, key: int, picture: Picture) -> None:
     _insert(
         connection,
@@ -186,9 +204,7 @@ def _add_crop(connection: sqlite3.Connection, key: int, crop: Crop) -> None:
     )
 
 
-def _check_kept(
-    connection: sqlite3.Connection, lesson: ObjectLesson | RelationLesson
-) -> None:
+def _check_kept(connection: sqlite3.Connection, lesson: SeenLesson) -> None:
     """Read the lesson back: the robot may say that it has learned only if it has."""
     try:
         kept = reading.lesson(connection, lesson.key)

@@ -10,11 +10,11 @@ import numpy as np
 from kille.memory import (
     Arrangement,
     Lesson,
-    ObjectLesson,
-    RelationLesson,
     Sighting,
+    Subsumption,
     Turn,
 )
+from kille.memory.lessons import SeenLesson
 from kille.scene import Direction, Point, Traits
 from ttr.escapes import terminal_word
 
@@ -22,6 +22,7 @@ _KINDS = {
     "object": "a thing",
     "attribute": "how a thing is",
     "relation": "where a thing is",
+    "subkind": "a kind of thing",
 }
 _NEARLY_NOTHING = 0.01  # metres: the cue of size is the logarithm of a length and this
 _HOLDS, _MOST_COLOURS = 0.5, 3
@@ -45,8 +46,8 @@ def title(lesson: Lesson) -> str:
     return terminal_word(f"{what} ({_KINDS[word.kind]}), lesson {lesson.key}")
 
 
-def describe_sight(lesson: ObjectLesson | RelationLesson) -> Iterator[str]:
-    """Describe what was to be seen, line by line."""
+def describe_sight(lesson: SeenLesson) -> Iterator[str]:
+    """Describe what was to be seen, or what was said of a kind, line by line."""
     yield f"dialogue {lesson.turn.dialogue}, turn {lesson.turn.number}"
     match lesson.seen:
         case Sighting() as sighting:
@@ -55,11 +56,13 @@ def describe_sight(lesson: ObjectLesson | RelationLesson) -> Iterator[str]:
             yield f"seen through {terminal_word(stand.sensor)}"
             things = f"{_words(stand.target)} from {_words(stand.landmark)}"
             yield f"{things}: {_where(stand.configuration.offset)}"
+        case Subsumption() as said:
+            yield f"a kind of {terminal_word(said.upper.surface)}"
 
 
-def looks(lesson: ObjectLesson | RelationLesson) -> str:
+def looks(lesson: SeenLesson) -> str:
     """The size and the colours of the thing, as far as they are known; else ""."""
-    if isinstance(lesson.seen, Arrangement):
+    if not isinstance(lesson.seen, Sighting):
         return ""
     traits = lesson.seen.traits
     return ", ".join(filter(None, (_list_words(colours(traits)), _size(traits))))

@@ -31,12 +31,12 @@ from kille.memory import (
     Memory,
     MemoryFileError,
     NoSuchLessonError,
-    ObjectLesson,
     Picture,
-    RelationLesson,
     Sighting,
+    Subsumption,
 )
 from kille.memory.configurations import as_json as configuration_json
+from kille.memory.lessons import SeenLesson
 from kille.memory.pictures import JPEG
 from kille.safety.private_files import open_private
 
@@ -48,7 +48,7 @@ _NAME = 50  # characters of a word in the name of a file
 class ShownLesson:
     """A lesson to show, and where its pictures were written."""
 
-    lesson: ObjectLesson | RelationLesson
+    lesson: SeenLesson
     files: Mapping[str, Path]
 
 
@@ -97,6 +97,8 @@ def _tell(out: Console, shown: ShownLesson) -> None:
 def _lines(shown: ShownLesson) -> Iterator[str]:
     yield describe_turn(shown.lesson.turn)
     yield ", ".join(describe_sight(shown.lesson))
+    if isinstance(shown.lesson.seen, Subsumption):
+        return
     if looked := looks(shown.lesson):
         yield looked
     if shown.lesson.seen.picture is None:
@@ -130,9 +132,7 @@ class _Unwritable(Exception):
     """Pictures that cannot be written where the user wants them."""
 
 
-def _write_lesson(
-    lesson: ObjectLesson | RelationLesson, out: Path | None
-) -> ShownLesson:
+def _write_lesson(lesson: SeenLesson, out: Path | None) -> ShownLesson:
     """Write the pictures of a lesson into the folder; returns the lesson to show."""
     picture = lesson.seen.picture
     if out is None or picture is None:
@@ -181,6 +181,8 @@ def _facts(shown: ShownLesson) -> dict[str, Any]:
     }
     if isinstance(lesson.seen, Sighting):
         return facts | _sighting_fields(lesson.seen)
+    if isinstance(lesson.seen, Subsumption):
+        return facts | {"kind_of": lesson.seen.upper.surface}
     stand = lesson.seen
     things = {"target": stand.target, "landmark": stand.landmark}
     return facts | things | {"configuration": configuration_json(stand.configuration)}

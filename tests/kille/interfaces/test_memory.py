@@ -6,6 +6,7 @@ import io
 import json
 import os
 import pty
+import re
 import sqlite3
 import subprocess
 from contextlib import closing
@@ -16,7 +17,7 @@ import numpy as np
 import pytest
 
 from kille.interfaces.memory.half_blocks import half_blocks
-from kille.memory import Arrangement, Memory, Picture, Scan, Sighting, Turn
+from kille.memory import Arrangement, Memory, Picture, Scan, Sighting, Turn, Word
 from kille.perception.thumbnails import evidence_of
 from kille.scene import Box, Configuration, Frame, Intrinsics, Point, Region
 
@@ -99,6 +100,21 @@ def test_a_word_of_several_words_or_a_number_will_do(
     out = kille("memory", "show", *named).out
     assert out.startswith("can of paint (a thing), lesson 3\n")
     assert "no picture was kept" in out
+
+
+def test_a_kind_of_a_kind_is_listed_and_shown(kille: Run, taught: Path) -> None:
+    cup, vessel = (Word(it, it, "object", "a") for it in ("cup", "vessel"))
+    with Memory.open(taught) as memory:
+        dialogue = memory.begin_dialogue("2026-02-01T12:00:00+00:00")
+        turn = Turn(dialogue, 1, "tutor", "Cups are vessels.", "", "2026-02-01T12:00")
+        key = memory.learn_kind(turn, cup, vessel)
+    listed = kille("memory", "list").out
+    assert re.search(r"cup +subkind +1 ", listed)
+    shown = kille("memory", "show", str(key)).out
+    assert f"cup (a kind of thing), lesson {key}" in shown
+    assert "a kind of vessel" in shown
+    facts = kille("memory", "show", str(key), "--json").out
+    assert json.loads(facts)[0]["kind_of"] == "vessel"
 
 
 def test_a_relation_is_shown_by_where_things_were(kille: Run, taught: Path) -> None:
