@@ -10,6 +10,7 @@ from kille.agent.dialogue_log import DialogueLog
 from kille.agent.explanations import Explainer, sign_of
 from kille.dialogue.meanings import DialogueTypes, claims, is_denial, value_at, word_of
 from kille.dialogue.reference import PARTS, phrase_at
+from kille.dialogue.taxonomy import nouns_in
 from kille.grounding.knowledge import Knowledge, LessonSource, Named
 from kille.grounding.witness_functions import WitnessFunctions, number_of
 from kille.memory import Word
@@ -42,6 +43,7 @@ class MoveExecutor:
         """Make a planned move: the event, and the model in which it has been made."""
         move, model = model.create(planned)
         keys = tuple(str(self._learn(it, move.signs)) for it in move.teaches)
+        kinds = tuple(str(self._learn_kind(it, move.signs)) for it in move.classifies)
         explainer = Explainer(
             self._knowledge, self._witnesses, self._now(), self._types
         )
@@ -49,13 +51,14 @@ class MoveExecutor:
         undone = explainer.latest(len(move.undoes))
         undone_keys = [it.key for it in undone]
         lost = self._unlearn((*move.forgets, *dropped, *undone_keys))
-        if keys or move.forgets or dropped or undone:
+        if keys or kinds or move.forgets or dropped or undone:
             self._witnesses.reconsider()
             model = self._witnesses.in_model(model, move.signs, types=self._types)
         for x in move.points:
             self._gaze.point(str(number_of(x)))
         done = {
             "keys": keys,
+            "kinds": kinds,
             "dropped": dropped,
             "undone": undone or move.undone,
             "lost": lost,
@@ -84,6 +87,14 @@ class MoveExecutor:
             article=learned.article,
             holds=not is_denial(content),
         )
+
+    def _learn_kind(self, content: RecordType, signs: Sequence[Record]) -> int:
+        """Learn that a kind is a kind of another; returns the key of the lesson."""
+        lower, upper = (
+            Word(word_of(it).name, it.form, "object", it.article)
+            for it in nouns_in(content, signs)
+        )
+        return self._knowledge.learn_kind(self._log.record_source(), lower, upper)
 
     def _learn_relation(self, content: RecordType, learned: Record) -> int:
         look, front = value_at(content, "look"), value_at(content, "frame")

@@ -14,7 +14,7 @@ from kille.agent.actions import MoveExecutor
 from kille.agent.attention import AttentiveSensor, NumberedLook
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import Exchange, RobotSentence
-from kille.agent.explanations import sign_of
+from kille.agent.explanations import kind_of_lesson, sign_of
 from kille.dialogue.games.clarifying import asks_which
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
@@ -101,7 +101,15 @@ class Agent:
             )
             for it in memory.words()
         ]
-        signs = (*colours, *(it.sign for it in taught))
+        kinds = [
+            kind_of_lesson(it, knowledge.memory, self.types)
+            for it in knowledge.memory.kinds()
+        ]
+        signs = (
+            *colours,
+            *(it.sign for it in taught),
+            *(sign for it in kinds for sign in it.signs),
+        )
         known = list({word_of(it): it for it in signs}.values())
         self._looks = 0
         self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
@@ -118,6 +126,7 @@ class Agent:
             act=executor.act,
             colours=colours,
             taught=taught,
+            kinds=kinds,
             types=self.types,
         )
         self.game: Game = game if self._change is None else self._change(game)

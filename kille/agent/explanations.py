@@ -12,10 +12,11 @@ from datetime import datetime
 
 from kille.dialogue.meanings import DialogueTypes, claims, value_at, word_of
 from kille.dialogue.reference import thing_at
+from kille.dialogue.taxonomy import subsumption
 from kille.grounding.knowledge import Knowledge
 from kille.grounding.reasons import Reasons
 from kille.grounding.witness_functions import WitnessFunctions
-from kille.memory import Kind, Lesson, Word
+from kille.memory import Kind, KindLesson, Lesson, Memory, Word
 from ttr import Record, RecordType, record
 
 KINDS: dict[str, Kind] = {
@@ -25,7 +26,10 @@ KINDS: dict[str, Kind] = {
 }
 """The kinds of words in talk, and what they are called in a memory."""
 
-_TALKED_OF = {kind: said for said, kind in KINDS.items()}
+_TALKED_OF: dict[Kind, str] = {
+    **{kind: said for said, kind in KINDS.items()},
+    "subkind": "noun",
+}
 
 
 def sign_of(word: Word, types: DialogueTypes) -> Record:
@@ -34,6 +38,23 @@ def sign_of(word: Word, types: DialogueTypes) -> Record:
     kind = _TALKED_OF[word.kind]
     means = means if kind == "adjective" else ""
     return types.sign(word.surface, kind, word.article, means)
+
+
+def kind_of_lesson(lesson: KindLesson, memory: Memory, types: DialogueTypes) -> Record:
+    """A lesson in which kind of thing is a kind of which, as a `Kind` of the dialogue.
+
+    It was taught before all lessons of the dialogue.
+    """
+    upper = sign_of(lesson.seen.upper, types)
+    lower = sign_of(lesson.word, types)
+    taught = [word_of(sign_of(it, types)) for it in memory.words()]
+    return record(
+        key=str(lesson.key),
+        signs=[lower, upper],
+        content=subsumption(lower, upper),
+        new=[it for it in (lower, upper) if word_of(it) not in taught],
+        after=-1.0,
+    )
 
 
 class Explainer:
@@ -120,6 +141,8 @@ class Explainer:
         percept = self._witnesses.percept(x, look)
         if percept is None:
             return None
+        if word.kind == "noun" and name not in self._knowledge.objects.labels:
+            return None  # it is known as a kind of another only
         if word.kind == "noun":
             heard = self._witnesses.evidence(x, look)
             return self._knowledge.reasons(name, percept, heard=heard)

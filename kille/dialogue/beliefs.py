@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 
 from kille.dialogue.meanings import word_of
 from kille.dialogue.reference.perspectives import front_of
+from kille.dialogue.taxonomy import is_kind_of, rank_names
 from ttr import Model, Record, record
 from ttr.types import PType
 
@@ -56,6 +57,27 @@ def beliefs_about(
         for sign in signs
     ]
     return sorted(beliefs, key=lambda b: (-b.p, b.sign.form))
+
+
+def names_of(s: Record, model: Model, x: str) -> Beliefs:
+    """How probably each noun is true of x, the one that it would be called by first.
+
+    After it come the nouns that are its rivals; those of which it is a kind, or which
+    are kinds of it, may be true as well.
+    """
+    return rank_names(s, beliefs_about(s, model, s.private.nouns, x))
+
+
+def special_name(s: Record, model: Model, noun: Record, x: str) -> Record | None:
+    """The likeliest noun that x is called by and that is a kind of this one.
+
+    None if x would be called by the noun itself, whatever else it is.
+    """
+    kinds = [it for it in s.private.nouns if is_kind_of(s, it, noun)]
+    if len(kinds) < 2:
+        return None
+    name = rank_names(s, beliefs_about(s, model, kinds, x))[0].sign
+    return None if knows([noun], name) else name
 
 
 def degree(model: Model, claim: PType) -> float:

@@ -7,7 +7,8 @@ look holds of it in the next; `shared.here` is what was said of things since the
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from itertools import product
 
 from kille.dialogue.beliefs import Beliefs
 from kille.dialogue.meanings import (
@@ -21,6 +22,7 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import plan
 from kille.dialogue.reference import PARTS, thing_at, things_in
 from kille.dialogue.state import words
+from kille.dialogue.taxonomy import is_kind_of
 from ttr import Pred, Record, RecordType, replace
 
 LEARNED = {"c": "Learned", "a": "LearnedQuality", "rel": "LearnedRelation"}
@@ -112,9 +114,26 @@ def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
         for it in s.private.lessons
         if it.content in s.shared.here and "rel" not in it.content
     }
+    told = _follow_kinds(s, told)
     known = ((it, told.get((word_of(it.sign), it.sit.x))) for it in beliefs)
     certain = [it if so is None else replace(it, p=float(so)) for it, so in known]
     return sorted(certain, key=lambda it: (-it.p, it.sign.form))
+
+
+def _follow_kinds(
+    s: Record, told: Mapping[tuple[Pred, str | None], bool]
+) -> dict[tuple[Pred, str | None], bool]:
+    """What was told of things, and what follows by the axioms of kinds of things."""
+    found = dict(told)
+    for lower, upper in product(s.private.nouns, repeat=2) if s.private.kinds else ():
+        if not is_kind_of(s, lower, upper):
+            continue
+        for (word, x), so in told.items():
+            if so and word is word_of(lower):
+                found.setdefault((word_of(upper), x), True)
+            if not so and word is word_of(upper):
+                found.setdefault((word_of(lower), x), False)
+    return found
 
 
 def is_here(s: Record, claim: RecordType, *, types: DialogueTypes) -> bool:

@@ -42,7 +42,15 @@ __all__ = [
     "words_in",
 ]
 
-DOES = ("drops", "degrees", "explains", "recalls", "points", "undoes")
+DOES = (
+    "drops",
+    "degrees",
+    "explains",
+    "recalls",
+    "points",
+    "undoes",
+    "classifies",
+)
 """What else a move of the robot may do, by the labels of the type Said."""
 
 CLAIMED = {

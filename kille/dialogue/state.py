@@ -18,12 +18,14 @@ def initial(
     strategy: Record | None = None,
     colours: Iterable[Record] = (),
     taught: Iterable[Record] = (),
+    kinds: Iterable[Record] = (),
 ) -> Record:
     """The state in which a dialogue begins: words are known, nothing has been said.
 
     The strategy is a value of `kille.dialogue.strategies`; `colours` are those of the
     adjectives that answer what colour something is; `taught` says how many lessons
-    there were in a word before, as `Taught`.
+    there were in a word before, as `Taught`, and `kinds` which kinds of things were
+    said to be kinds of others, as `Kind`.
 
     >>> from kille.dialogue.meanings import noun, record_type
     >>> s = initial([noun("cup")])
@@ -39,6 +41,7 @@ def initial(
             asked=[],
             lessons=[],
             taught=list(taught),
+            kinds=list(kinds),
             last=[],
             failed=[],
             colours=list(colours),

@@ -21,6 +21,7 @@ from kille.dialogue.meanings import (
 from kille.dialogue.rules import bind
 from kille.dialogue.state import blank_model, initial
 from kille.dialogue.strategies import strategy
+from kille.dialogue.taxonomy import under_kinds
 from kille.dialogue.wording import say as worded
 from ttr import Model, Record, RecordType
 from ttr.aliases import former_names
@@ -44,6 +45,7 @@ def tutoring(
     wording: str = "",
     colours: Iterable[Record] = (),
     taught: Iterable[Record] = (),
+    kinds: Iterable[Record] = (),
     types: DialogueTypes | None = None,
 ) -> Game:
     """The games of tutoring as one, by a robot that knows these words.
@@ -52,8 +54,9 @@ def tutoring(
     `act` makes a planned move, where more is to be done for it than to create it.
     `mode` and `wording` name its strategy in `strategies.toml`; `colours` are those of
     its adjectives that are colours; `taught` says of words in how many lessons they
-    were taught before. `types` are those of its theory, by default the packaged
-    one; rules that name types are bound to them.
+    were taught before, `kinds` which kinds of things are kinds of others. `types` are
+    those of its theory, by default the packaged one; rules that name types are bound
+    to them.
 
     >>> game = tutoring()
     >>> turn = game.take(game.begin(), game.hear("What is this?"))
@@ -61,13 +64,13 @@ def tutoring(
     ['I see nothing on the table.']
     """
     types = types or packaged_types()
-    deciding = strategy(mode, wording, language)
+    deciding, kinds = strategy(mode, wording, language), tuple(kinds)
     return Game(
         "tutoring",
         types.record_type("State"),
-        initial(signs, deciding, colours, taught),
+        initial(signs, deciding, colours, taught, kinds),
         bind(rules, types),
-        blank_model(types) if model is None else model,
+        under_kinds(blank_model(types) if model is None else model, kinds, types=types),
         agenda="private.agenda",
         hears=(types["Heard"], types["Seen"], types["Glance"]),
         act=act,

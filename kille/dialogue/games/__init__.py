@@ -14,6 +14,7 @@ from __future__ import annotations
 from kille.dialogue.games.acknowledging import ACKNOWLEDGING, EXEMPLIFYING
 from kille.dialogue.games.checking import CHECKING
 from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
+from kille.dialogue.games.classifying import CLASSIFYING, STILL_ANSWERED
 from kille.dialogue.games.colouring import COLOURING
 from kille.dialogue.games.confirming import CONFIRMING
 from kille.dialogue.games.correcting import CORRECTING
@@ -42,6 +43,7 @@ from ttr.updates import Algorithm, Rule, first, maybe, seq
 __all__ = ["TUTORING", "games_with"]
 
 ANSWERING = first(
+    CLASSIFYING,
     ACKNOWLEDGING,
     CONFIRMING,
     CORRECTING,
@@ -81,6 +83,7 @@ def games_with(*answers: Rule) -> Algorithm:
                 OFFER_ANSWERED,
                 VETTED,
                 ANSWERED,
+                STILL_ANSWERED,
                 SETTLING,
                 seq(maybe(CLARIFYING), maybe(first(VETTING, OFFERING))),
             ),

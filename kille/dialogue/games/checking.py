@@ -5,13 +5,20 @@ What it answers is a claim, which the tutor may confirm or deny.
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import Beliefs, beliefs_about, is_sure, knows
+from kille.dialogue.beliefs import (
+    Beliefs,
+    beliefs_about,
+    is_sure,
+    knows,
+    special_name,
+)
 from kille.dialogue.commitments import as_told
-from kille.dialogue.meanings import DialogueTypes, claims, denial
+from kille.dialogue.meanings import DialogueTypes, claims, denial, set_to
 from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
+from kille.dialogue.taxonomy import subsumption, without_related
 from ttr import Model, Record, RecordType, replace
 from ttr.updates import first, seq
 
@@ -42,13 +49,23 @@ def weigh(s: Record, *, model: Model) -> Record | None:
     if not things:
         return None
     beliefs = as_told(s, beliefs_about(s, model, _alternatives(s), *things))
+    if _asked_word(s).kind == "noun":
+        beliefs = without_related(s, _asked_word(s), beliefs)
     return replace(s, {"private.beliefs": beliefs})
 
 
 @rule(answers="AskWhether")
-def say_yes(s: Record, *, types: DialogueTypes) -> Record | None:
-    """It is sure that it is so."""
-    return _plan_claim(s, "SayYes", content_of(s), types=types) if _is_so(s) else None
+def say_yes(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """It is sure that it is so, by what it sees or by an axiom, which it then cites."""
+    if not _is_so(s):
+        return None
+    content, asked = content_of(s), _asked_word(s)
+    below = special_name(s, model, asked, *_things(s)) if asked.kind == "noun" else None
+    if below is None:
+        return _plan_claim(s, "SayYes", content, types=types)
+    cited = set_to(content, **dict(subsumption(below, asked).fields))
+    signs = (*s.shared.latest.signs, below)
+    return plan(s, "SayYes", cited, signs=signs, pending=[content], types=types)
 
 
 @rule(answers="AskWhether")

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from kille.dialogue.commitments import plan_learning, same, signs_for
 from kille.dialogue.games.correcting import CORRECTED
-from kille.dialogue.meanings import DialogueTypes, is_denial
+from kille.dialogue.meanings import DialogueTypes, claims, is_denial
 from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import in_view, phrase_at, thing_at
 from kille.dialogue.rules import rule
+from kille.dialogue.taxonomy import are_related
 from ttr import Record, RecordType, replace
 from ttr.updates import first
 
@@ -124,6 +125,7 @@ def _says(s: Record, content: RecordType) -> bool:
 def _other_name(s: Record, content: RecordType) -> RecordType | None:
     """What else the tutor has said that the thing is, since it came in view."""
     x = thing_at(content, "target")
+    said = [it for it in s.shared.latest.signs if claims(content, it)]
     names = [
         it.content
         for it in s.private.lessons
@@ -131,6 +133,7 @@ def _other_name(s: Record, content: RecordType) -> RecordType | None:
         and "c" in it.content
         and not is_denial(it.content)
         and thing_at(it.content, "target") == x
+        and (claims(content, it.sign) or not are_related(s, it.sign, said[0]))
     ]
     if any(same(it, content) for it in names):
         return None

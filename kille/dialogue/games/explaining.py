@@ -8,18 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.beliefs import about, has_rival, knows, thinks
+from kille.dialogue.beliefs import (
+    about,
+    beliefs_about,
+    has_rival,
+    knows,
+    special_name,
+    thinks,
+)
 from kille.dialogue.commitments import affirmation, as_told, kind_of, same, signs_for
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
     is_denial,
+    set_to,
     value_at,
 )
 from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
+from kille.dialogue.taxonomy import subsumption, without_related
 from ttr import Model, Rec, Record, RecordType, record
 from ttr.updates import first
 
@@ -46,6 +55,33 @@ def tell_certainty(s: Record, *, model: Model, types: DialogueTypes) -> Update |
 def miss_explained(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks why something is so in a word that was never learned."""
     return _plan_unknown_word(s, types=types)
+
+
+@rule(answers="AskWhy")
+def explain_kind(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """It thinks so as it takes the thing for another kind, which is a kind of that."""
+    claim = _claim_in_question(s)
+    if claim is None or kind_of(claim) != "c" or is_denial(claim):
+        return None
+    asked = next((it for it in s.private.nouns if claims(claim, it)), None)
+    x = thing_at(claim, "target")
+    if asked is None or x is None or x not in s.view.things:
+        return None
+    below = special_name(s, model, asked, x)
+    own = beliefs_about(s, model, [asked], x)
+    if below is None or not thinks(s, as_told(s, own)):
+        return None
+    cited = set_to(
+        instead(claim, below, types=types), **dict(subsumption(below, asked).fields)
+    )
+    return plan(
+        s,
+        "ExplainKind",
+        cited,
+        signs=[below, asked],
+        pending=_still_claimed(s, claim),
+        types=types,
+    )
 
 
 @rule(answers="AskWhy")
@@ -159,7 +195,10 @@ def _judge_claim(
     if sign.kind == "adjective":
         beliefs = as_told(s, beliefs)
     own = next(it for it in beliefs if it.sign == sign)
-    return own, next((it for it in beliefs if it is not own), None), model
+    others = [it for it in beliefs if it is not own]
+    if sign.kind == "noun":
+        others = [*without_related(s, sign, others)]
+    return own, next(iter(others), None), model
 
 
 def _situation(claim: RecordType) -> Record:
@@ -196,6 +235,7 @@ EXPLAINING = first(
     miss_certain,
     tell_certainty,
     miss_explained,
+    explain_kind,
     explain,
     doubt,
     be_sure_of_nothing,

@@ -74,7 +74,16 @@ def forget_word(s: Record, *, types: DialogueTypes) -> Record | None:
         if knows(known, said):
             sign = next(it for it in known if word_of(it) is word_of(said))
             act = FORGOT_WORD[sign.kind]
-            return plan(s, act, sign.meaning, signs=[sign], drops=[sign], types=types)
+            kinds = [it.key for it in s.private.kinds if knows(it.signs, sign)]
+            return plan(
+                s,
+                act,
+                sign.meaning,
+                signs=[sign],
+                drops=[sign],
+                forgets=kinds,
+                types=types,
+            )
     return None
 
 

@@ -12,7 +12,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from kille.dialogue.beliefs import beliefs_about, doubt, is_sure, knows, lead, thinks
+from kille.dialogue.beliefs import (
+    beliefs_about,
+    doubt,
+    is_sure,
+    knows,
+    lead,
+    names_of,
+    thinks,
+)
 from kille.dialogue.meanings import DialogueTypes, claims, set_at, set_to
 from kille.dialogue.moves import number_field, placement, plan, said_of
 from kille.dialogue.reference import thing_at
@@ -119,7 +127,7 @@ def _known_pair(s: Record, model: Model) -> tuple[Record, Record] | None:
     """The two nearest things with a place that it recognises as different things."""
     found: list[Record] = []
     for x in s.view.placed:
-        beliefs = beliefs_about(s, model, s.private.nouns, x)
+        beliefs = names_of(s, model, x)
         if not is_sure(s, beliefs) or knows([b.sign for b in found], beliefs[0].sign):
             continue
         found.append(beliefs[0])
@@ -133,7 +141,7 @@ def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initia
     if not _is_worth(s, "thing"):
         return
     for x in sorted(s.view.things, key=lambda it: it not in s.view.focus):
-        beliefs = beliefs_about(s, model, s.private.nouns, x)
+        beliefs = names_of(s, model, x)
         if thinks(s, beliefs) or _is_told(s, x):
             continue
         content = set_at(
@@ -182,7 +190,7 @@ def _lessons(
     if stake.right <= 0.0:
         return
     for x in s.view.things:
-        beliefs = beliefs_about(s, model, s.private.nouns, x)
+        beliefs = names_of(s, model, x)
         if not is_sure(s, beliefs) or _is_told(s, x):
             continue
         content, sign = said_of(s, beliefs[0].sign, x, types=types), beliefs[0].sign

@@ -25,6 +25,7 @@ from kille.dialogue.reading_weights import FAINTLY, weigh_readings
 from kille.dialogue.reference import things_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
+from kille.dialogue.taxonomy import nouns_in, under_kinds
 from ttr import Model, Pred, Record, RecordType, replace
 from ttr.updates import NBest, first, maybe, seq
 
@@ -138,22 +139,29 @@ def _repeatable_moves(
 
 
 @rule(when="State", on="Said")
-def keep(s: Record, said: Record) -> Record | None:
+def keep(
+    s: Record, said: Record, *, model: Model, types: DialogueTypes
+) -> tuple[Record, Model] | None:
     """What was learned is known and agreed on; what was unlearned is neither."""
     undone = said.undone if said.undoes else ()
-    if not (said.teaches or said.forgets or said.drops or undone):
+    learned = said.teaches or said.classifies
+    if not (learned or said.forgets or said.drops or undone):
         return None
     state = s
     keys = said.keys or _free_keys(s, len(said.teaches))
     for content, key in zip(said.teaches, keys, strict=True):
         state = _add_lesson(state, key, content, said.signs)
-    return _remove_lessons(state, said)
+    state = _remove_kinds(_remove_lessons(state, said), s, said)
+    keys = said.kinds or _free_keys(state, len(said.classifies), "kind")
+    for content, key in zip(said.classifies, keys, strict=True):
+        state = _add_kind(state, key, content, said.signs)
+    return state, under_kinds(model, state.private.kinds, types=types)
 
 
-def _free_keys(s: Record, number: int) -> list[str]:
+def _free_keys(s: Record, number: int, stem: str = "lesson") -> list[str]:
     """Keys that no lesson has, where no memory has given any."""
-    taken = {lesson.key for lesson in s.private.lessons}
-    free = (f"lesson{n}" for n in count(1) if f"lesson{n}" not in taken)
+    taken = {lesson.key for lesson in (*s.private.lessons, *s.private.kinds)}
+    free = (f"{stem}{n}" for n in count(1) if f"{stem}{n}" not in taken)
     return list(islice(free, number))
 
 
@@ -174,8 +182,59 @@ def _add_lesson(
     return replace(s, changes)
 
 
+def _add_kind(
+    s: Record, key: str, content: RecordType, signs: Sequence[Record]
+) -> Record:
+    """The state in which one kind of thing is a kind of another."""
+    nouns = nouns_in(content, signs)
+    new = [it for it in nouns if not knows(s.private.nouns, it)]
+    kind = {
+        "key": key,
+        "signs": nouns,
+        "content": content,
+        "new": new,
+        "after": float(len(s.private.lessons)),
+    }
+    changes = {
+        "private.kinds": (*s.private.kinds, kind),
+        "private.nouns": (*s.private.nouns, *new),
+    }
+    return replace(s, changes)
+
+
+def _remove_kinds(s: Record, before: Record, said: Record) -> Record:
+    """The state without the axioms that are taken back, and without their own words."""
+    if not s.private.kinds:
+        return s
+    gone = _keys_gone(said)
+    left = [it for it in s.private.kinds if it.key not in gone]
+    stay = [it.key not in gone for it in before.private.lessons]
+    kinds = [
+        replace(it, after=float(sum(stay[: int(it.after)]))) if it.after > 0.0 else it
+        for it in left
+    ]
+    used = [
+        *(sign for it in left for sign in it.signs),
+        *(it.sign for it in (*s.private.lessons, *s.private.taught)),
+    ]
+    lost = [
+        sign
+        for it in s.private.kinds
+        if it.key in gone
+        for sign in it.new
+        if not knows(used, sign)
+    ]
+    nouns = [it for it in s.private.nouns if not knows(lost, it)]
+    return replace(s, {"private.kinds": kinds, "private.nouns": nouns})
+
+
+def _keys_gone(said: Record) -> set[str]:
+    """The keys of all that a move unlearns."""
+    return {*said.forgets, *said.dropped, *(it.key for it in said.undone)}
+
+
 def _remove_lessons(s: Record, said: Record) -> Record:
-    gone = {*said.forgets, *said.dropped, *(it.key for it in said.undone)}
+    gone = _keys_gone(said)
     lessons = [it for it in s.private.lessons if it.key not in gone]
     kept = {it.content for it in lessons}
     unlearned = {it.content for it in s.private.lessons if it.key in gone} - kept
@@ -187,9 +246,13 @@ def _remove_lessons(s: Record, said: Record) -> Record:
         "private.taught": _earlier_lessons(s, said),
         "shared.here": [it for it in s.shared.here if it not in unlearned],
     }
-    for kind in {sign.kind for sign in said.lost}:
+    classified = [
+        sign for it in s.private.kinds if it.key not in gone for sign in it.signs
+    ]
+    lost = [it for it in said.lost if not knows(classified, it)]
+    for kind in {sign.kind for sign in lost}:
         known = s.private[f"{kind}s"]
-        changes[f"private.{kind}s"] = [it for it in known if not knows(said.lost, it)]
+        changes[f"private.{kind}s"] = [it for it in known if not knows(lost, it)]
     return replace(s, changes)
 
 

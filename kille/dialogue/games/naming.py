@@ -5,7 +5,7 @@ Source: Dobnik and de Graaf 2017, section 3.
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import beliefs_about, certainty
+from kille.dialogue.beliefs import certainty, names_of
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import thing_at
@@ -20,7 +20,7 @@ def recognise(s: Record, *, model: Model) -> Record | None:
     x = thing_at(content_of(s), "target")
     if x is None or not s.private.nouns:
         return None
-    beliefs = beliefs_about(s, model, s.private.nouns, x)
+    beliefs = names_of(s, model, x)
     return replace(s, {"private.beliefs": beliefs})
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import (
     Beliefs,
-    beliefs_about,
     certainty,
     knows,
+    names_of,
     relations_of,
     thinks,
 )
@@ -53,7 +53,7 @@ def asked_thing(s: Record, model: Model, x: str) -> Record | None:
     target = phrase_at(content_of(s), "target")
     for noun in nouns_said(s.shared.latest, target):
         return record(sit=record(x=x), sign=noun)
-    beliefs = beliefs_about(s, model, s.private.nouns, x)
+    beliefs = names_of(s, model, x)
     return beliefs[0] if beliefs else None
 
 
@@ -66,7 +66,7 @@ def landmark_for(s: Record, model: Model, thing: Record) -> Record | None:
     for y in s.view.placed:
         if y == thing.sit.x:
             continue
-        beliefs = beliefs_about(s, model, s.private.nouns, y)
+        beliefs = names_of(s, model, y)
         if not thinks(s, beliefs):
             continue
         if knows([thing.sign], beliefs[0].sign):

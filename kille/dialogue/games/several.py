@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kille.dialogue.beliefs import beliefs_about, is_sure, knows
+from kille.dialogue.beliefs import is_sure, knows, names_of
 from kille.dialogue.commitments import kind_of, opposite_lesson_keys
 from kille.dialogue.games.finding import plan_pointing
 from kille.dialogue.games.surveying import in_view
@@ -130,7 +130,7 @@ def _is_other(s: Record, model: Model, x: str, noun: Record) -> bool:
     """Whether a thing is known not to be what a noun says: it is something else."""
     if any(is_denial(it) == claims(it, noun) for it in _lessons_about(s, x)):
         return True
-    beliefs = beliefs_about(s, model, s.private.nouns, x)
+    beliefs = names_of(s, model, x)
     return is_sure(s, beliefs) and not knows([beliefs[0].sign], noun)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from kille.dialogue.beliefs import Beliefs, beliefs_about, is_sure, thinks
+from kille.dialogue.beliefs import Beliefs, is_sure, names_of, thinks
 from kille.dialogue.meanings import DialogueTypes, set_at, set_to
 from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule
@@ -24,7 +24,7 @@ def see_nothing(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="AskView")
 def list_view(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     """It says what it is sure of, what it thinks, and how much it does not know."""
-    beliefs = {x: beliefs_about(s, model, s.private.nouns, x) for x in s.view.things}
+    beliefs = {x: names_of(s, model, x) for x in s.view.things}
     sure = [it[0] for it in beliefs.values() if is_sure(s, it)]
     likely = [it[0] for it in beliefs.values() if thinks(s, it) and not is_sure(s, it)]
     unknown = [x for x, it in beliefs.items() if not thinks(s, it)]

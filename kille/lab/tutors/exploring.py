@@ -254,7 +254,9 @@ def _plain_answers(talk: WorldTalk, asked: str) -> Sayings:
     match asked:
         case "AskFrame":
             return perspectives_by_side(talk)
-        case "OfferWord" | "AskHeard" | "AskKind" | "AskHow" | "AskBoth":
+        case (
+            "OfferWord" | "AskHeard" | "AskKind" | "AskHow" | "AskBoth" | "AskKindStill"
+        ):
             return [it for act in _YES_OR_NO for it in _worldless_sayings(talk, act)]
     return talk.sayings("mention")
 

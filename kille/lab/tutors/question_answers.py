@@ -77,7 +77,10 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
     """Whether an event that is such a move answers a question, whatever is seen."""
     options = len(question.options)
     match question.ask, move:
-        case "OfferWord" | "AskKind" | "AskHow" | "AskBoth", "affirm" | "deny":
+        case (
+            ("OfferWord" | "AskKind" | "AskHow" | "AskBoth" | "AskKindStill"),
+            "affirm" | "deny",
+        ):
             return True
         case "AskHeard", "affirm":
             return options == 1

@@ -135,6 +135,7 @@ def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
         key, model = _learn(model, sign, content)
         keys.append(key)
     dropped = [key for sign in move.drops for key in keys_of(model, sign)]
+    model = with_known_words(model, move.signs if move.classifies else ())
     undone = _latest_lessons(model, len(move.undoes))
     keys_undone = [it.key for it in undone]
     lost, model = _unlearn(model, (*move.forgets, *dropped, *keys_undone))

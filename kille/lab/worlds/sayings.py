@@ -16,6 +16,7 @@ from string import Formatter
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes, denial, merge_of
 from kille.dialogue.reference import meant_by
+from kille.dialogue.taxonomy import LOWER, UPPER
 from kille.dialogue.wording import tell
 from kille.lab.worlds.vocabulary import Vocabulary
 from kille.lab.worlds.worlds import World
@@ -252,6 +253,9 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
             return map(word_matter, talk.words.all)
         case ["counted"]:
             return (Matter("", (("counted", it),)) for it in nouns)
+        case ["a_subkind", "superkind"]:
+            pairs = islice(permutations(nouns, 2), PAIRS)
+            return (subsumption_matter(lower, upper) for lower, upper in pairs)
         case ["front", "the_target"]:
             return _all_facing(talk)
         case ["the_landmark"]:
@@ -279,6 +283,11 @@ def perspective_matter(side: str, phrase: Phrase | None = None) -> Matter:
     """That places are as the `viewer` has them, or the `landmark` of a phrase."""
     landmark = () if phrase is None else (("landmark", phrase),)
     return Matter(f"By{side.capitalize()}", landmark)
+
+
+def subsumption_matter(lower: Record, upper: Record) -> Matter:
+    """That one kind of thing is a kind of another."""
+    return Matter("", ((LOWER, lower), (UPPER, upper)))
 
 
 def word_matter(sign: Record) -> Matter:

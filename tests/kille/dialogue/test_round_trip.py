@@ -67,6 +67,13 @@ WORD_SLOTS = {
 }
 """What a slot says of a word, as the type that the word has its place in."""
 
+KIND_SLOTS = {
+    "a_subkind": "subkind",
+    "superkind": "superkind",
+    "a_superkind": "superkind",
+}
+"""Slots of the two kinds of which one is a kind of the other, as their labels."""
+
 PHRASES = ("target", "landmark", "counted")
 
 OTHER = {"examples"}
@@ -226,6 +233,13 @@ def a_move(
                 rival = merge(rival, said)
             else:
                 content = merge(content, said)
+        elif slot in KIND_SLOTS:
+            label = KIND_SLOTS[slot]
+            while label not in content:
+                word = a_word(chance, language, "Noun")
+                if word not in WORDS:
+                    WORDS.append(word)
+                    content = merge(content, rectype({label: word.meaning}))
         elif slot == "number":
             content = merge(content, rectype(number=theory()["Text"] @ "12"))
         elif slot == "one":

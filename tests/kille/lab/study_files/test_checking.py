@@ -248,7 +248,7 @@ def test_meanings_that_the_games_cannot_be_made_of_are_told(
     fault, *more = found(tmp_path, "[theories.one]\nmeanings = 'own.ttr'\n")
     assert told in fault
     assert "\n" not in fault
-    assert len(more) == (5 if new == "Sing := [" else 0)
+    assert len(more) == (6 if new == "Sing := [" else 0)
 
 
 def test_people_may_type_to_a_theory_with_meanings(tmp_path: Path) -> None:

@@ -1,0 +1,324 @@
+"""A mug is a kind of cup: the tutor says that one kind of thing is a kind of another.
+
+That is an axiom, mug(x, look) <: cup(x, look): whatever the robot takes for a mug is a
+cup from then on. Of a noun that it does not know it asks first if it is a kind of
+thing. What would make two kinds one it does not learn; where it was told of a mug that
+it is not a cup, it asks which is so. "Forget that." or "No." takes the axiom back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from kille.dialogue.beliefs import knows
+from kille.dialogue.commitments import kind_of
+from kille.dialogue.games.vetting import KIND
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    is_denial,
+    predicate_at,
+    set_to,
+    value_at,
+)
+from kille.dialogue.moves import content_of, issue, plan
+from kille.dialogue.reference import thing_at
+from kille.dialogue.rules import rule
+from kille.dialogue.state import words
+from kille.dialogue.taxonomy import is_kind_of, nouns_in, subsumption
+from ttr import Record, RecordType, record, replace
+from ttr.updates import first
+
+STILL = "AskKindStill"
+"""The question whether it is a kind of the other, though a lesson says otherwise."""
+
+VETTED = "vetted"
+"""The label under which a move has a new noun that the tutor means as a word."""
+
+TOLD = ("learned_kind", "know_kind", "explain_kind", "same_kind")
+"""What the robot says of an axiom, which "Forget that." may take back."""
+
+
+# --- teaching -------------------------------------------------------------------------
+
+
+@rule(answers="Classify")
+def know_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """That the one is a kind of the other was taught, or follows from what was."""
+    lower, upper = _nouns(s)
+    if knows([lower], upper) or not is_kind_of(s, lower, upper):
+        return None
+    return _plan_answer(s, "KnowKind", lower, upper, types=types)
+
+
+@rule(answers="Classify")
+def refuse_same(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It would make two kinds one: it says that the reverse was taught."""
+    lower, upper = _nouns(s)
+    if knows([lower], upper):
+        return plan(s, "SameThing", types=types)
+    if not is_kind_of(s, upper, lower):
+        return None
+    return _plan_answer(s, "SameKind", upper, lower, types=types)
+
+
+@rule(answers="Classify")
+def need_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It knows neither of the two nouns: it asks to be shown one of them first."""
+    lower, upper = _nouns(s)
+    if knows(words(s), lower) or knows(words(s), upper):
+        return None
+    return _plan_answer(s, "NeedKind", lower, upper, types=types)
+
+
+@rule(answers="Classify")
+def ask_new_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It does not know one of the nouns: it asks whether that is a kind of thing."""
+    said = s.shared.latest
+    for sign in _nouns(s):
+        if knows(words(s), sign) or (VETTED in said and said[VETTED] == sign.form):
+            continue
+        meant = record({**{label: said[label] for label in said}, VETTED: sign.form})
+        asked = issue(KIND, [meant])
+        return plan(s, KIND, sign.meaning, signs=[sign], asks=[asked], types=types)
+    return None
+
+
+@rule(answers="Classify")
+def ask_still(s: Record, *, types: DialogueTypes) -> Record | None:
+    """Something here was said to be the one and not the other: it asks which is so."""
+    lower, upper = _nouns(s)
+    if not any(_exceptions(s, lower, upper)):
+        return None
+    asked = issue(STILL, [s.shared.latest])
+    return _plan_answer(s, STILL, lower, upper, asks=[asked], types=types)
+
+
+@rule(answers="Classify")
+def learn_kind(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor says that the one is a kind of the other: that is an axiom now."""
+    return _plan_axiom(s, types=types)
+
+
+@rule(answers="Affirm")
+def learn_still(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It is a kind of the other: what was said against it is unlearned."""
+    if not _asks_still(s):
+        return None
+    asked, *rest = s.shared.qud
+    said = replace(s, {"shared.qud": rest, "shared.latest": asked.options[0]})
+    lower, upper = _nouns(said)
+    against = [it.key for it in _exceptions(said, lower, upper)]
+    return _plan_axiom(said, forgets=against, types=types)
+
+
+@rule(answers=("Deny", "ForgetThat", "ForgetLast"))
+def leave_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It is no kind of the other: nothing is learned from that."""
+    if not _asks_still(s):
+        return None
+    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
+
+
+# --- asking ---------------------------------------------------------------------------
+
+
+@rule(answers="AskSubkind")
+def tell_kind(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor asks if the one is a kind of the other: only axioms say so."""
+    lower, upper = _nouns(s)
+    act = "KnowKind" if is_kind_of(s, lower, upper) else "UnknownKind"
+    return _plan_answer(s, act, lower, upper, types=types)
+
+
+# --- taking back ----------------------------------------------------------------------
+
+
+@rule(answers="Unclassify")
+def forget_kind(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor says that it is no kind of the other: the axiom is taken back."""
+    lower, upper = _nouns(s)
+    for it in s.private.kinds:
+        if it.content == subsumption(lower, upper):
+            return _plan_forgetting(s, it, types=types)
+    if is_kind_of(s, lower, upper):
+        return _plan_answer(s, "KnowKind", lower, upper, types=types)
+    return _plan_answer(s, "UnknownKind", lower, upper, types=types)
+
+
+@rule(answers="Deny")
+def take_kind_back(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor rejects what the robot has just said of two kinds: it is taken back."""
+    return _plan_taking_back(s, types=types)
+
+
+@rule(answers="ForgetThat")
+def forget_that_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor has the robot forget what it has just said of two kinds."""
+    return _plan_taking_back(s, types=types)
+
+
+def _plan_taking_back(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The plan to take back the axiom that the robot has just spoken of, if it has."""
+    if not s.private.kinds:
+        return None
+    if kind_of(content_of(s)) is not None or len(s.private.last) != 1:
+        return None
+    said = s.private.last[0]
+    if s.shared.pending or predicate_at(said, "e").name not in TOLD:
+        return None
+    told = value_at(said, "content")
+    for it in s.private.kinds:
+        if it.content == told:
+            return _plan_forgetting(s, it, types=types)
+    return None
+
+
+@rule(answers="ForgetLast")
+def forget_last_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """An axiom is the latest that was taught in this dialogue."""
+    own = [it for it in s.private.kinds if it.after >= 0.0]
+    if not own or own[-1].after < len(s.private.lessons):
+        return None
+    return _plan_forgetting(s, own[-1], types=types)
+
+
+# --- objecting ------------------------------------------------------------------------
+
+
+@rule(answers="Instruct")
+def object_to_name(s: Record, *, types: DialogueTypes) -> Record | None:
+    """A thing is said to be one kind, and was said not to be what that is a kind of."""
+    return _plan_objection(s, types=types)
+
+
+@rule(answers="Reject")
+def object_to_denial(s: Record, *, types: DialogueTypes) -> Record | None:
+    """A thing is said not to be of a kind, and was said to be of a kind of that."""
+    return _plan_objection(s, types=types)
+
+
+def _plan_objection(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The plan to say which axiom and which lesson the latest move is against."""
+    content = content_of(s)
+    for lower, upper, told in _conflicts(s, content):
+        said = set_to(told.content, **dict(subsumption(lower, upper).fields))
+        signs = (told.sign, lower, upper)
+        return plan(s, "ObjectKind", said, signs=signs, types=types)
+    return None
+
+
+def _nouns(s: Record) -> tuple[Record, Record]:
+    """The two nouns of the latest move: of which kind which kind is one."""
+    lower, upper = nouns_in(content_of(s), s.shared.latest.signs)
+    return lower, upper
+
+
+def _asks_still(s: Record) -> bool:
+    """Whether the question under discussion is if it is so all the same."""
+    return bool(s.shared.qud) and s.shared.qud[0].ask == STILL
+
+
+def _plan_answer(
+    s: Record,
+    act: str,
+    lower: Record,
+    upper: Record,
+    *,
+    asks: Sequence[Record] = (),
+    types: DialogueTypes,
+) -> Record:
+    """The plan to say this of two kinds."""
+    content = subsumption(lower, upper)
+    return plan(s, act, content, signs=[lower, upper], asks=asks, types=types)
+
+
+def _plan_axiom(
+    s: Record, *, forgets: Sequence[str] = (), types: DialogueTypes
+) -> Record:
+    """The plan to learn that the one kind is a kind of the other."""
+    lower, upper = _nouns(s)
+    content = subsumption(lower, upper)
+    return plan(
+        s,
+        "LearnedKind",
+        content,
+        signs=[lower, upper],
+        forgets=forgets,
+        classifies=[content],
+        types=types,
+    )
+
+
+def _plan_forgetting(s: Record, kind: Record, *, types: DialogueTypes) -> Record:
+    """The plan to take an axiom back."""
+    return plan(
+        s,
+        "ForgotKind",
+        kind.content,
+        signs=kind.signs,
+        forgets=[kind.key],
+        types=types,
+    )
+
+
+def _exceptions(s: Record, lower: Record, upper: Record) -> Iterator[Record]:
+    """The lessons that something in view is no `upper`, though it is a `lower`."""
+    names = [it for it in _lessons_here(s) if is_kind_of(s, it.sign, lower)]
+    called = {thing_at(it.content, "target") for it in names if _holds(it)}
+    for it in _lessons_here(s):
+        if _holds(it) or not is_kind_of(s, upper, it.sign):
+            continue
+        if thing_at(it.content, "target") in called:
+            yield it
+
+
+def _conflicts(
+    s: Record, content: RecordType
+) -> Iterator[tuple[Record, Record, Record]]:
+    """The axioms against a lesson in what something is: two kinds, and what was said.
+
+    What was said is the earlier lesson about the same thing that the axiom speaks of.
+    """
+    if not s.private.kinds:
+        return
+    denied, x = is_denial(content), thing_at(content, "target")
+    said = next((it for it in s.shared.latest.signs if claims(content, it)), None)
+    if said is None or kind_of(content) != "c":
+        return
+    for it in _lessons_here(s):
+        pair = (it.sign, said) if denied else (said, it.sign)
+        opposed = _holds(it) is denied and thing_at(it.content, "target") == x
+        if opposed and not knows([it.sign], said) and is_kind_of(s, *pair):
+            yield (*pair, it)
+
+
+def _lessons_here(s: Record) -> Iterator[Record]:
+    """What the tutor has taught of what the things in view are, or are not."""
+    for it in s.private.lessons:
+        if kind_of(it.content) == "c" and it.content in s.shared.here:
+            yield it
+
+
+def _holds(lesson: Record) -> bool:
+    """Whether a lesson says that its noun is true of its thing."""
+    return not is_denial(lesson.content)
+
+
+CLASSIFYING = first(
+    know_kind,
+    refuse_same,
+    need_kind,
+    ask_new_kind,
+    ask_still,
+    learn_kind,
+    tell_kind,
+    forget_kind,
+    take_kind_back,
+    forget_that_kind,
+    forget_last_kind,
+    object_to_name,
+    object_to_denial,
+)
+STILL_ANSWERED = first(learn_still, leave_kind)
+"""What answers whether one kind is a kind of another all the same."""

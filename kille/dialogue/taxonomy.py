@@ -1,0 +1,126 @@
+"""Kinds of things that are kinds of others: the axioms that a tutor teaches.
+
+"A mug is a kind of cup." puts mug(x, look) <: cup(x, look) into the theory in which the
+robot judges, as a theory file may: whatever is a mug is a cup, at least as probably. A
+content that says so has two parts, `subkind` and `superkind`, what a noun means each.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+
+from kille.dialogue.meanings import DialogueTypes, word_of
+from ttr import Model, Record, RecordType, rectype
+from ttr.signature.axioms import supertypes
+from ttr.signature.signature import Axiom
+from ttr.types import PType
+
+LOWER, UPPER = "subkind", "superkind"
+"""The labels of what the two nouns mean."""
+
+Beliefs = Sequence[Record]
+
+
+def subsumption(lower: Record, upper: Record) -> RecordType:
+    """The content that one noun is a kind of another.
+
+    >>> from kille.dialogue.meanings import noun
+    >>> print(subsumption(noun("mug"), noun("cup")))  # doctest: +NORMALIZE_WHITESPACE
+    [subkind : [look : Look, x : Ind, c : mug(x, look)],
+     superkind : [look : Look, x : Ind, c : cup(x, look)]]
+    """
+    return rectype({LOWER: lower.meaning, UPPER: upper.meaning})
+
+
+def axiom_of(content: RecordType) -> Axiom:
+    """The axiom of a content that says that one kind is a kind of another.
+
+    >>> from kille.dialogue.meanings import noun
+    >>> print(axiom_of(subsumption(noun("mug"), noun("cup"))))
+    mug(x, look) <: cup(x, look)
+    """
+    lower, upper = (_claim(content[label]) for label in (LOWER, UPPER))
+    return Axiom(lower, upper)
+
+
+def under_kinds(
+    model: Model, kinds: Sequence[Record], *, types: DialogueTypes
+) -> Model:
+    """The model under the axioms of the theory and of these kinds."""
+    axioms = (*types.theory.axioms, *(axiom_of(it.content) for it in kinds))
+    if axioms == model.theory.axioms:
+        return model
+    return model.under(dataclasses.replace(model.theory, axioms=axioms))
+
+
+def is_kind_of(s: Record, lower: Record, upper: Record) -> bool:
+    """Whether a noun is a kind of another one, by what was taught: itself, too."""
+    own = word_of(upper)
+    return word_of(lower) is own or any(T.pred is own for T in _above(s, lower))
+
+
+def are_related(s: Record, one: Record, other: Record) -> bool:
+    """Whether one of two nouns is a kind of the other, so that both may be true."""
+    return is_kind_of(s, one, other) or is_kind_of(s, other, one)
+
+
+def rank_names(s: Record, beliefs: Beliefs) -> Beliefs:
+    """The beliefs about what a thing is, without what the first one does not exclude.
+
+    Of nouns that are as probable the most special one is first: a mug is called a mug,
+    though it is a cup as well.
+    """
+    if not s.private.kinds or not beliefs:
+        return beliefs
+    best = beliefs[0].p
+    first = next(
+        it
+        for it in beliefs
+        if it.p == best
+        and not any(
+            other.p == best and other is not it and is_kind_of(s, other.sign, it.sign)
+            for other in beliefs
+        )
+    )
+    rest = without_related(s, first.sign, beliefs)
+    return [first, *(it for it in rest if it is not first)]
+
+
+def without_related(s: Record, noun: Record, beliefs: Beliefs) -> Beliefs:
+    """The beliefs in a noun and in its rivals.
+
+    Left out are the nouns that it is a kind of, and those that are kinds of it.
+    """
+    if not s.private.kinds:
+        return beliefs
+    own = word_of(noun)
+    return [
+        it
+        for it in beliefs
+        if word_of(it.sign) is own or not are_related(s, it.sign, noun)
+    ]
+
+
+def _above(s: Record, noun: Record) -> Iterator[PType]:
+    axioms = tuple(axiom_of(it.content) for it in s.private.kinds)
+    for _, upper in supertypes(_claim(noun.meaning), axioms):
+        assert isinstance(upper, PType)
+        yield upper
+
+
+def _claim(meaning: object) -> PType:
+    """What a noun claims of its thing."""
+    assert isinstance(meaning, RecordType)
+    claim = meaning["c"]
+    assert isinstance(claim, PType)
+    return claim
+
+
+def nouns_in(content: RecordType, signs: Sequence[Record]) -> tuple[Record, Record]:
+    """The two nouns of a content that says which kind is a kind of which."""
+    lower, upper = (
+        next(it for it in signs if it.meaning == content[label])
+        for label in (LOWER, UPPER)
+    )
+    return lower, upper
