@@ -19,6 +19,12 @@ from kille.dialogue.games.clarifying import asks_which
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes, set_to, types_of, word_of
+from kille.dialogue.robust_reading import (
+    Situation,
+    hear_in_parts,
+    needs_parts,
+    situation_of,
+)
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.dialogue.wording import did_not_understand
@@ -280,11 +286,47 @@ class Agent:
                 return self._look_around()
             words = self._lexicon.pointing
         exchange, now = Exchange(text, None, (), ()), self._now_at
-        for said in self._sentences(words, text if len(numbers) == 1 else ""):
-            sentence = self._in_full(said, now.state)
+        sentences = self._sentences(words, text if len(numbers) == 1 else "")
+        full = [self._in_full(it, now.state) for it in sentences]
+        situation = situation_of(now.state)
+        if needs_parts(full, situation, self.language):
+            return self._hear_in_parts(full, situation, exchange, now)
+        for sentence in sentences:
+            sentence = self._in_full(sentence, now.state)
             exchange, now = self._answer(
                 sentence, hear_sentences(sentence), exchange, now
             )
+        return exchange, now
+
+    def _hear_in_parts(
+        self,
+        sentences: Sequence[Sentence],
+        situation: Situation,
+        exchange: Exchange,
+        now: Run,
+    ) -> TurnResult:
+        """Take in what is understood of sentences, and say what is not.
+
+        A question of the robot's ends the turn: what follows would drop it.
+        """
+        heard = hear_in_parts(sentences, situation, self.language, types=self.types)
+        for sentence, found in heard.missed:
+            self._log.record_heard(sentence.text)
+            sorry = did_not_understand(
+                self._lexicon,
+                sentence.text,
+                found.parts,
+                beside=bool(heard.moves),
+                types=self.types,
+            )
+            self._log.record_said(sorry)
+            exchange = exchange.then(None, (), (RobotSentence(sorry, None),))
+        for sentence in heard.moves:
+            exchange, now = self._answer(
+                sentence, hear_sentences(sentence), exchange, now
+            )
+            if now.state.shared.qud:
+                break
         return exchange, now
 
     def _hear_alternatives(self, texts: Sequence[tuple[str, float]]) -> TurnResult:

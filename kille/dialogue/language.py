@@ -14,11 +14,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from itertools import islice, product, zip_longest
 
-from kille.dialogue.language_files import FILES, last_change, source
+from kille.dialogue.grammars import GrammarError
+from kille.dialogue.language_files import FILES, ISLANDS, last_change, source
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.lookalikes import replace_lookalikes
 from kille.dialogue.meanings import (
@@ -32,7 +33,7 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.parsing import Grammar, Token, Tree, parts, words
 from kille.dialogue.robot_grammar import CLOSELY, LOOSELY, robot_rules
-from kille.dialogue.word_lists import SAYING, plain_text, word_lists
+from kille.dialogue.word_lists import DOUBTFUL, REMARK, SAYING, plain_text, word_lists
 from ttr import Rec, Record, RecordType, RecType, rectype
 from ttr.types import TypeNode
 
@@ -57,7 +58,7 @@ _REMEMBERED = 1024
 _READINGS = 16
 """How many readings a sentence has at most: the simplest ones."""
 
-_LESSONS = ("instruct", "instruct_several", "describe", "correct", "reject")
+LESSONS = ("instruct", "instruct_several", "describe", "correct", "reject")
 """The moves that say what a thing is, or how: for them words are vetted."""
 
 _FORMS = 3
@@ -95,11 +96,13 @@ class Utterance:
 class Sentence:
     """A move of the tutor's: the text, and how it can be read, the simplest way first.
 
-    Without any reading it was not understood.
+    Without any reading it was not understood. How probable each is says `weights`;
+    without any they are equally so.
     """
 
     text: str
     readings: tuple[Utterance, ...]
+    weights: tuple[float, ...] = field(default=(), repr=False)
 
 
 def understand(
@@ -114,11 +117,11 @@ def understand(
     >>> understand("Colourless green ideas.")
     (Sentence(text='Colourless green ideas.', readings=()),)
     """
-    reader = (types or packaged_types()).derive(_reader, language, _changes(language))
+    reads = reader(language, types or packaged_types())
     found: list[Sentence] = []
     for part in _SENTENCE.findall(replace_lookalikes(text)):
         if re.search(r"\w", part):
-            found += reader.sentences(part.strip())
+            found += reads.sentences(part.strip())
     return tuple(found) or (Sentence(text, ()),)
 
 
@@ -134,11 +137,11 @@ def overhear(
     >>> print(learned.content)  # doctest: +NORMALIZE_WHITESPACE
     [look : Look, target : [look = ^.look : Look, x : Ind], c : cup(target.x, look)]
     """
-    reader = (types or packaged_types()).derive(_reader, language, _changes(language))
+    reads = reader(language, types or packaged_types())
     grammar = _robots_grammar(language, _changes(language))
     trees = grammar.parse(text.strip(), CLOSELY) or grammar.parse(text.strip(), LOOSELY)
     found = (
-        T for tree in trees for move in parts(tree) for T in reader.said_types(move)
+        T for tree in trees for move in parts(tree) for T in reads.said_types(move)
     )
     return tuple(Utterance(text, T) for T in dict.fromkeys(found))
 
@@ -146,6 +149,15 @@ def overhear(
 @lru_cache
 def _grammar(language: str, _: _Changes) -> Grammar:
     return Grammar(grammar_text(language))
+
+
+@lru_cache
+def _island_grammar(language: str, _: _Changes) -> Grammar | None:
+    """The grammar of islands; None where it does not fit a grammar of one's own."""
+    try:
+        return Grammar(grammar_text(language) + source(ISLANDS, language), "island")
+    except GrammarError:
+        return None
 
 
 @lru_cache
@@ -159,8 +171,13 @@ def grammar_text(language: str) -> str:
     return source("tutor.{}.lark", language)
 
 
-def _reader(types: DialogueTypes, language: str, changes: _Changes) -> _Reader:
-    return _Reader(types, lexicon(language), _grammar(language, changes))
+def reader(language: str, types: DialogueTypes) -> Reader:
+    """What reads the sentences of a language as moves of a theory."""
+    return types.derive(_reader, language, _changes(language))
+
+
+def _reader(types: DialogueTypes, language: str, changes: _Changes) -> Reader:
+    return Reader(types, lexicon(language), _grammar(language, changes))
 
 
 def _changes(language: str) -> _Changes:
@@ -171,7 +188,7 @@ Meant = tuple[tuple[Record, ...], RecordType]
 """The words of a part, in the order in which they were said, and what it means."""
 
 
-class _Reader:
+class Reader:
     """From trees to types, with the words of one language."""
 
     def __init__(
@@ -179,6 +196,7 @@ class _Reader:
     ) -> None:
         self._types, self._lexicon, self._grammar = types, lexicon_, grammar
         self._lists = word_lists(lexicon_.language)
+        self._changes = _changes(lexicon_.language)
         self._meanings = lru_cache(4 * _REMEMBERED)(self._meanings_anew)
         self.sentences = lru_cache(_REMEMBERED)(self._sentences_anew)
 
@@ -196,17 +214,26 @@ class _Reader:
             for moves in zip(*alike, strict=True)
         )
 
-    def readings(self, text: str, moves: Iterable[Tree]) -> tuple[Utterance, ...]:
-        """The different readings of a move."""
-        each = [self._heard_types(text, move) for move in moves]
+    @property
+    def island_grammar(self) -> Grammar | None:
+        """The grammar of what may be understood in the middle of a sentence, if any."""
+        return _island_grammar(self._lexicon.language, self._changes)
+
+    def readings(
+        self, text: str, moves: Iterable[Tree], doubt: str = ""
+    ) -> tuple[Utterance, ...]:
+        """The different readings of a move; a lesson is doubted for this reason."""
+        each = [self._heard_types(text, move, doubt) for move in moves]
         types = (T for them in zip_longest(*each) for T in them if T is not None)
         return tuple(
             Utterance(text, T) for T in islice(dict.fromkeys(types), _READINGS)
         )
 
-    def _heard_types(self, text: str, move: Tree) -> Iterator[RecordType]:
+    def _heard_types(
+        self, text: str, move: Tree, partly: str = ""
+    ) -> Iterator[RecordType]:
         """The types of the event: who speaks to whom, its move, words and content."""
-        is_lesson = move.rule in _LESSONS
+        is_lesson = move.rule in LESSONS
         is_saying = is_lesson and self._lexicon.is_saying(plain_text(text))
         for signs, content in self._together(move):
             heard = set_to(
@@ -216,6 +243,7 @@ class _Reader:
                 content=RecType @ content,
             )
             doubt = SAYING if is_saying else is_lesson and self._doubt(signs, content)
+            doubt = REMARK if doubt == DOUBTFUL and partly else doubt or partly
             yield set_to(heard, doubt=self._types["Text"] @ doubt) if doubt else heard
 
     def _doubt(self, signs: Iterable[Record], content: RecordType) -> str:

@@ -21,6 +21,12 @@ WORDS = "words.{}.toml"
 A language may do without.
 """
 
+ISLANDS = "islands.{}.lark"
+"""The file of a language with what is understood in the middle of a sentence.
+
+It extends the grammar of the language.
+"""
+
 STRATEGIES = "strategies.toml"
 """The file of what the robot decides by, which is the same for all languages."""
 

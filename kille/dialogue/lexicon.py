@@ -48,6 +48,8 @@ class Lexicon:
     tells: Wordings
     examples: tuple[str, ...]
     not_understood: tuple[str, ...]
+    not_understood_beside: tuple[str, ...]
+    """The same of a sentence beside others that were understood."""
     pointing: str
     answering: str
     articles: Articles
@@ -151,6 +153,9 @@ def _lexicon(language: str, wording: str, _: int) -> Lexicon:
         tells={act: _several(it) for act, it in data["tutor"].items()},
         examples=tuple(understands["examples"]),
         not_understood=_several(understands["not_understood"]),
+        not_understood_beside=_several(
+            understands.get("not_understood_beside", understands["not_understood"])
+        ),
         pointing=understands["pointing"],
         answering=understands["answering"],
         articles=Articles(

@@ -99,6 +99,27 @@ class Grammar:
             raise GrammarError("its rules nest too deep to be looked for") from None
         return [tree for row in rows for tree in row if isinstance(tree, Tree)]
 
+    def parse_stretches(
+        self, text: str, start: str, places: Iterable[int]
+    ) -> dict[int, Mapping[int, list[Tree]]]:
+        """Every way to read a stretch of the text that begins at one of the places.
+
+        By where a stretch begins, and where the next word after it does. What several
+        stretches have in common is parsed once.
+
+        >>> g = Grammar('start: A+' + chr(10) + 'A: "a"' + chr(10) + '%ignore " "')
+        >>> found = g.parse_stretches("a a b", "start", [0, 2, 4])
+        >>> {begin: list(ends) for begin, ends in found.items()}
+        {0: [2, 4], 2: [4], 4: []}
+        """
+        if len(text.split()) > _MOST_WORDS:
+            return {}
+        chart = _Chart(self, text)
+        try:
+            return {at: _trees_by_end(chart.rule(start, at)) for at in places}
+        except RecursionError:
+            raise GrammarError("its rules nest too deep to be looked for") from None
+
     def check_terminals(self) -> None:
         """Raise `GrammarError` for a terminal whose expression is wrong.
 
@@ -235,6 +256,13 @@ class _Chart:
         expression = self._grammar.expression(name)
         found = expression.match(self._text, at, self._until)
         return (self.after(found.end()), found.group()) if found else None
+
+
+def _trees_by_end(found: Found) -> dict[int, list[Tree]]:
+    return {
+        end: [tree for row in rows for tree in row if isinstance(tree, Tree)]
+        for end, rows in found.items()
+    }
 
 
 def _build_trees(production: Production, rows: list[Row]) -> Iterable[Row]:

@@ -86,11 +86,15 @@ def _best(
     types: DialogueTypes,
 ) -> WeighedMove:
     """The likeliest reading of a text, and the weight of the text."""
+    likely = max(p for _, p in readings)
     fits = [
         WeighedMove(
-            said, _word_weight(known, said) * _scene_weight(s, model, said, types=types)
+            said,
+            _word_weight(known, said)
+            * _scene_weight(s, model, said, types=types)
+            * (p / likely),
         )
-        for said, _ in readings
+        for said, p in readings
     ]
     best = max(fits, key=lambda it: it.p)
     return WeighedMove(best.said, best.p * sum(p for _, p in readings))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from kille.dialogue.language import understand
 from kille.dialogue.lexicon import Lexicon
@@ -16,12 +17,13 @@ _LONGEST = 200
 
 
 def suggest_sentence(
-    lexicon: Lexicon, text: str, *, types: DialogueTypes
+    lexicon: Lexicon, text: str, *, anyhow: bool = False, types: DialogueTypes
 ) -> str | None:
     """The nearest sentence to a text that is not understood, if any is near.
 
     It is the text with its typos corrected, if that is understood, or else the most
-    similar example, if one is similar enough.
+    similar example, if one is similar enough, or `anyhow`: then it may only have some
+    words in common with the text, or else as little as that it is a question too.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> from kille.dialogue.meanings import packaged_types
@@ -32,9 +34,19 @@ def suggest_sentence(
     'Vad är det här?'
     >>> suggest_sentence(lexicon(), "Xyzzy!", types=types)
     """
-    return _mend_slips(lexicon, text, types=types) or nearest_sentence(
-        text, lexicon.examples
+    return (
+        _mend_slips(lexicon, text, types=types)
+        or nearest_sentence(text, lexicon.examples)
+        or (_most_in_common(text, lexicon.examples) if anyhow else None)
     )
+
+
+def _most_in_common(text: str, examples: Sequence[str]) -> str | None:
+    """The example with most words of a text in it, a question for a question."""
+    said = set(_WORD.findall(text.lower()))
+    alike = [it for it in examples if it.endswith("?") == text.endswith("?")]
+    shared = {it: len(said & set(_WORD.findall(it.lower()))) for it in alike}
+    return max(shared, key=lambda it: shared[it], default=None)
 
 
 def _mend_slips(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str | None:

@@ -98,9 +98,9 @@ def hear_sentences(
     Its alternatives are all the ways in which they can be read.
     """
     weighed = [
-        (reading.type, q / len(said.readings))
+        (reading.type, q * share)
         for said, q in zip(sentences, p, strict=True)
-        for reading in said.readings
+        for reading, share in zip(said.readings, shares(said), strict=True)
     ]
     match weighed:
         case []:
@@ -108,6 +108,17 @@ def hear_sentences(
         case [(said, 1.0)]:
             return said
     return nbest(*weighed)
+
+
+def shares(said: Sentence) -> tuple[float, ...]:
+    """How probable each reading of a sentence is; together they are certain.
+
+    >>> [said] = understand("The red.")
+    >>> sum(shares(said))
+    1.0
+    """
+    weights = said.weights or (1.0,) * len(said.readings)
+    return tuple(it / sum(weights) for it in weights)
 
 
 def say(move: Judgement, language: str = "en", wording: str = "paper") -> str:

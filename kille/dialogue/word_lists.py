@@ -7,17 +7,18 @@ robot knows is never asked about: the lists are only for new ones.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 from kille.dialogue.language_files import WORDS, last_change, source
 from ttr.safety.inputs import parse_toml
 
-REMARK, DOUBTFUL, SAYING = "remark", "doubtful", "saying"
+REMARK, DOUBTFUL, SAYING, PARTIAL = "remark", "doubtful", "saying", "partial"
 """What a new word of a lesson may be: no word for a thing at all, or perhaps none.
 
-A saying is one as a whole, whatever its words are.
+A saying is one as a whole, whatever its words are. What is partial is read from a part
+of a sentence.
 """
 
 _PLAIN = re.compile(r"[^\w'’-]+")
@@ -31,6 +32,44 @@ class WordLists:
     doubtful: frozenset[str] = frozenset()
     qualities: frozenset[str] = frozenset()
     endings: tuple[str, ...] = ()
+    harmless: frozenset[tuple[str, ...]] = frozenset()
+    """Words and phrases that may be left out of a sentence without a change."""
+    fillers: frozenset[str] = frozenset()
+    """Words that are never learned, and harmless everywhere: hesitation, "sorry"."""
+    joining: frozenset[str] = frozenset()
+    """Words that join clauses: "and", "but"."""
+    closed: frozenset[str] = frozenset()
+    """Words that are no nouns or adjectives where only a part of a sentence is read."""
+    unreal: frozenset[tuple[str, ...]] = frozenset()
+    """Words and phrases beside which nothing is claimed: "if", "looks like"."""
+    repairs: frozenset[tuple[str, ...]] = frozenset()
+    """Words between what is said by mistake, and what is said instead."""
+    articles: frozenset[str] = frozenset()
+    negations: frozenset[str] = frozenset()
+    spoken: Mapping[str, str] = field(default_factory=dict)
+    """Forms that are written as they are spoken, and those of the grammar for them."""
+
+    def harmless_runs(self, forms: Sequence[str]) -> Iterator[range]:
+        """Where harmless words and phrases stand among these words."""
+        return _runs(self.harmless, forms)
+
+    def repair_runs(self, forms: Sequence[str]) -> Iterator[range]:
+        """Where among these words their speaker sets right what they have said."""
+        return _runs(self.repairs, forms)
+
+    def is_unreal(self, forms: Sequence[str]) -> bool:
+        """Whether a sentence of these words says what is not, or not for certain."""
+        return any(True for _ in _runs(self.unreal, forms))
+
+    def write_out(self, text: str) -> str:
+        """The text with forms of the grammar in place of those that are spoken.
+
+        >>> word_lists("sv").write_out("va e dettahär?")
+        'vad är det här?'
+        """
+        for said, written in self.spoken.items():
+            text = re.sub(rf"(?i)(?<![\w'’])(?:{said})(?![\w'’])", written, text)
+        return text
 
     def judge_noun(self, form: str, complements: Iterable[str] = ()) -> str:
         """`REMARK` or `DOUBTFUL` for a noun that may be no word for a thing, or "".
@@ -73,6 +112,18 @@ class WordLists:
         return any(it in self.qualities for it in (word, *word.split("-")[-1:]))
 
 
+_LONGEST_PHRASE = 8
+
+
+def _runs(phrases: Set[tuple[str, ...]], forms: Sequence[str]) -> Iterator[range]:
+    """Where phrases stand among words, the longest from each word on."""
+    for at in range(len(forms)):
+        for end in range(min(len(forms), at + _LONGEST_PHRASE), at, -1):
+            if tuple(forms[at:end]) in phrases:
+                yield range(at, end)
+                break
+
+
 def plain_text(text: str) -> str:
     """A text in small letters without punctuation, as sayings are looked for in it.
 
@@ -98,4 +149,18 @@ def _word_lists(language: str, _: int) -> WordLists:
         doubtful=frozenset(data.get("doubtful", "").split()),
         qualities=frozenset(data.get("qualities", "").split()),
         endings=tuple(data.get("abstract_endings", "").split()),
+        harmless=_phrases(data.get("harmless", "") + " " + data.get("fillers", "")),
+        fillers=frozenset(data.get("fillers", "").split()),
+        joining=frozenset(data.get("joining", "").split()),
+        closed=frozenset(data.get("closed", "").split()),
+        unreal=_phrases(data.get("unreal", "")),
+        repairs=_phrases(data.get("repairs", "")),
+        articles=frozenset(data.get("articles", "").split()),
+        negations=frozenset(data.get("negations", "").split()),
+        spoken=data.get("spoken", {}),
     )
+
+
+def _phrases(listed: str) -> frozenset[tuple[str, ...]]:
+    """Phrases of a list, with underlines for their spaces."""
+    return frozenset(tuple(it.split("_")) for it in listed.split())

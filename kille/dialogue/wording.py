@@ -18,6 +18,7 @@ from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.phrases import Words, claimed_predicates, noun_phrase, phrase
 from kille.dialogue.sentence_suggestions import suggest_sentence
 from kille.dialogue.view_lists import either, list_slots
+from kille.dialogue.word_lists import plain_text
 from ttr import Rec, Record, RecordType
 from ttr.escapes import terminal_text
 from ttr.types import Join, Negation, Singleton
@@ -53,10 +54,19 @@ def tell(lexicon: Lexicon, act: str, move: Record) -> str:
     return _fill_wording(lexicon, lexicon.tells, act, move)
 
 
-def did_not_understand(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str:
+def did_not_understand(
+    lexicon: Lexicon,
+    text: str,
+    understood: Iterable[str] | None = None,
+    *,
+    beside: bool = False,
+    types: DialogueTypes,
+) -> str:
     """The sentence that says what was not understood, and what could be said instead.
 
-    That is the text with its typos corrected, or a similar example.
+    That is the text with its typos corrected, or a similar example. `understood` are
+    the phrases in it that were understood: where they are given, some example is
+    offered in any case. `beside` other sentences that were understood, none is.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> from kille.dialogue.meanings import packaged_types
@@ -67,9 +77,14 @@ def did_not_understand(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> 
     """
     shown = terminal_text(re.sub(r"\s+", " ", text).strip())
     shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "…"
-    nearest = suggest_sentence(lexicon, shown, types=types)
+    anyhow = understood is not None
+    nearest = suggest_sentence(lexicon, shown, anyhow=anyhow, types=types)
     slots = {"text": shown} | ({} if nearest is None else {"nearest": nearest})
-    return _choose_wording(lexicon.not_understood, slots).format_map(slots)
+    parts = " … ".join(terminal_text(it) for it in understood or ())
+    if parts and parts.lower() != plain_text(shown):
+        slots["parts"] = parts
+    wordings = lexicon.not_understood_beside if beside else lexicon.not_understood
+    return _choose_wording(wordings, slots).format_map(slots)
 
 
 def _fill_wording(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) -> str:

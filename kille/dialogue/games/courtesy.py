@@ -27,5 +27,7 @@ COURTESY = first(
     reply("Greet", "GreetBack", "A greeting is returned."),
     reply("Thank", "Welcome", "Thanks are acknowledged."),
     reply("Okay", "Noted", "The tutor has taken something in, or lets it be."),
+    reply("AskDeed", "TellAbilities", "What it cannot do it says, and what it can."),
+    reply("Remark", "TakeAsRemark", "What is said of no thing in view is a remark."),
     reply("Leave", "Part", "The tutor takes leave, and so does the robot."),
 )

@@ -16,7 +16,7 @@ from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import in_view
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from kille.dialogue.word_lists import DOUBTFUL, SAYING
+from kille.dialogue.word_lists import DOUBTFUL, PARTIAL, SAYING
 from ttr import Model, Record, RecType, rectype, replace
 from ttr.updates import first
 
@@ -26,14 +26,28 @@ KIND = "AskKind"
 HOW = "AskHow"
 """The question whether a word says how a thing is."""
 
+MEANT = "AskMeant"
+"""The question whether the tutor means what was understood of a sentence."""
+
 Update = tuple[Record, Model]
+
+
+@rule(answers="Doubted")
+def ask_meant(s: Record, *, types: DialogueTypes) -> Record | None:
+    """Only a part of the sentence was understood: it asks whether that is meant."""
+    said = s.shared.latest
+    if said.doubt != PARTIAL or not s.view.things:
+        return None
+    content = in_view(s, said.content, types=types)
+    asked = issue(MEANT, [replace(said, content=content, doubt="")])
+    return plan(s, MEANT, said.content, signs=said.signs, asks=[asked], types=types)
 
 
 @rule(answers="Doubted")
 def take_as_remark(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what cannot be a lesson: a saying, or a word for no thing."""
     doubt, sign = s.shared.latest.doubt, _doubted_sign(s)
-    if not doubt or (doubt != SAYING and sign is None):
+    if doubt in ("", PARTIAL) or (doubt != SAYING and sign is None):
         return None
     if doubt == DOUBTFUL and not is_denial(content_of(s)):
         return None
@@ -58,7 +72,7 @@ def ask_kind(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
 @rule(answers="Affirm")
 def take_vetted(s: Record) -> Record | None:
     """The tutor means it as a word: that is what was said."""
-    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW):
+    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, MEANT):
         return None
     asked, *rest = s.shared.qud
     return replace(s, {"shared.qud": rest, "shared.latest": asked.options[0]})
@@ -82,7 +96,7 @@ def ask_how(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Deny")
 def let_be(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor did not mean it as a word: nothing is learned."""
-    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW):
+    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, MEANT):
         return None
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
 
@@ -90,7 +104,7 @@ def let_be(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers=("ForgetThat", "ForgetLast"))
 def let_go(s: Record, *, types: DialogueTypes) -> Record | None:
     """What the tutor takes back has not been learned yet: the robot lets it be."""
-    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, BOTH):
+    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, BOTH, MEANT):
         return None
     if kind_of(content_of(s)) is not None:
         return None
@@ -132,6 +146,6 @@ def _as_naming(
     return model.create(move)
 
 
-VETTING = first(take_as_remark, ask_kind)
+VETTING = first(ask_meant, take_as_remark, ask_kind)
 VETTED = first(take_vetted, ask_how, let_be, let_go)
 """What answers the questions that vetting asks, or takes the lesson back."""

@@ -1,0 +1,507 @@
+"""Read what the grammar does not read as a whole: by its islands, and by the state.
+
+The grammar stays the reference: each reading of an island is the type of a move, as if
+it had been said alone. How well an island fits depends on what the talk is about: "yes"
+where the robot has claimed something, "the red one" where it has asked which. What
+would teach something, and leaves out words that are not harmless, is doubted: the robot
+asks whether it is meant, and learns from a yes. Beside "if" and "looks like" nothing is
+claimed, and no claim is made of a sentence whose "not" would be left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence, Set
+from functools import partial
+from typing import NamedTuple
+
+from kille.dialogue.islands import (
+    START,
+    Cover,
+    Island,
+    Word,
+    best_covers,
+    repair,
+    words_of,
+)
+from kille.dialogue.language import LESSONS, Reader, Sentence, reader
+from kille.dialogue.lookalikes import replace_lookalikes
+from kille.dialogue.meanings import DialogueTypes, packaged_types, predicate_at
+from kille.dialogue.parsing import Tree, parts
+from kille.dialogue.state import words as words_in
+from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists, plain_text, word_lists
+from ttr import Record
+
+WHOLE = frozenset(
+    {"affirm", "deny", "okay", "ask_repeat", "ask_help", "leave", "alone"}
+)
+"""The moves beside which nothing of their clause may be left out."""
+
+STRICT = frozenset(
+    {
+        "mention",
+        "take_frame",
+        "about",
+        "forget_that",
+        "forget_last",
+        "forget_word",
+        "orient",
+    }
+)
+"""The moves beside which nothing of the sentence may be left out."""
+
+ANYWHERE = frozenset(
+    {"greet", "thank", "okay", "affirm", "deny", "mention", "take_frame"}
+)
+"""The moves other than claims that need not begin a clause."""
+
+FALLBACK = frozenset({"remark", "other_deed"})
+"""What is taken so only where nothing else is understood."""
+
+VAGUE = FALLBACK | {"alone", "named", "ask_deed"}
+"""What may be read of almost any words, so that they are not understood thereby."""
+
+CLAIMS = frozenset((*LESSONS, "relate", "named", "alone"))
+"""The moves that say how things are."""
+
+OVER_BREAKS = frozenset({"correct", "reject", "named"})
+"""The claims that may go on after a comma: "It is not a cup, it is a mug"."""
+
+NEW = 0.8
+"""The factor for every word of an island that the robot does not know."""
+
+
+ASKED = 0.3
+"""The factor for a claim in a sentence that ends with a question mark."""
+
+
+class Situation(NamedTuple):
+    """What readings are weighed by: what the talk is about, and what is in view."""
+
+    asks_name: bool = False
+    """The robot has asked what a thing is."""
+    asks_which: bool = False
+    """It has asked which thing is meant."""
+    asks_whether: bool = False
+    """It has claimed something, or asked something that yes and no answer."""
+    things: int = 0
+    """How many things are in view."""
+    known: frozenset[str] = frozenset()
+    """The words that it knows."""
+
+
+class Understanding(NamedTuple):
+    """What was understood of a sentence: moves in order, and the words it misses."""
+
+    moves: tuple[Sentence, ...]
+    parts: tuple[str, ...]
+    missed: tuple[str, ...]
+    is_remark: bool = False
+    """Whether it only is taken as a remark."""
+
+
+class Hearing(NamedTuple):
+    """What is heard of a text: the moves in it, in order, and what is not understood.
+
+    A lesson that the robot asks about comes last, so that the question stays open.
+    """
+
+    moves: tuple[Sentence, ...]
+    missed: tuple[tuple[Sentence, Understanding], ...]
+
+
+def hear_in_parts(
+    sentences: Iterable[Sentence],
+    situation: Situation,
+    language: str = "en",
+    *,
+    types: DialogueTypes | None = None,
+) -> Hearing:
+    """What is heard of the sentences of a text, some of them only in part.
+
+    >>> from kille.dialogue.language import understand
+    >>> text = "Hang on. I have found a whisk! What is this?"
+    >>> heard = hear_in_parts(understand(text), Situation(things=1))
+    >>> [it.readings[0].type["e"].pred.name for it in heard.moves]
+    ['okay', 'ask_name', 'instruct']
+    """
+    lists = word_lists(language)
+    done: list[Sentence] = []
+    asked: list[Sentence] = []
+    remarks: list[Sentence] = []
+    missed: list[tuple[Sentence, Understanding]] = []
+    for said in sentences:
+        if said.readings and not _is_weak(said, situation, lists.fillers):
+            done.append(said)
+            continue
+        found = read_robustly(said.text, situation, language, types=types)
+        if said.readings and not _is_better(said, found, lists.fillers):
+            done.append(said)
+            continue
+        if not found.moves:
+            missed.append((said, found))
+        for move in found.moves:
+            kind = asked if _is_doubted(move) else remarks if found.is_remark else done
+            kind.append(move)
+    asked = asked if not any(map(_teaches, done)) else []
+    done = list({_content(it): it for it in reversed(done)}.values())[::-1]
+    moves = (*done, *asked[:1]) or tuple(remarks[:1])
+    if moves:
+        missed = [it for it in missed if len(it[1].missed) > 1]
+    return Hearing(moves, tuple(missed))
+
+
+def situation_of(s: Record) -> Situation:
+    """What the readings of a sentence are weighed by, in a state.
+
+    >>> from kille.dialogue.state import initial
+    >>> situation_of(initial()).things
+    0
+    """
+    open_ = s.shared.qud[0].ask if s.shared.qud else ""
+    said = s.private.last[-1:]
+    acts = {_act(move) for move in said}
+    return Situation(
+        asks_name=bool(acts & ASKING_NAME),
+        asks_which=open_ in ("AskReferent", "AskReferentAgain"),
+        asks_whether=bool(s.shared.pending)
+        or bool(open_ and open_ not in ("AskReferent", "AskReferentAgain")),
+        things=len(s.view.things),
+        known=frozenset(it.form for it in words_in(s)),
+    )
+
+
+ASKING_NAME = frozenset({"admit_name", "ask_thing", "ask_again", "ask_which"})
+"""What the robot says when it wants to be told what a thing is."""
+
+
+def _act(move: object) -> str:
+    return predicate_at(move, "e").name  # type: ignore[arg-type]
+
+
+def read_robustly(
+    text: str,
+    situation: Situation,
+    language: str = "en",
+    *,
+    types: DialogueTypes | None = None,
+) -> Understanding:
+    """What is understood of a sentence that the grammar does not read as a whole.
+
+    >>> said = read_robustly("Umm, well, I've found a whisk!", Situation(things=1))
+    >>> [move] = said.moves
+    >>> move.readings[0].type["doubt"].value, said.missed
+    ('partial', ("I've", 'found'))
+    """
+    lists = word_lists(language)
+    reads = reader(language, types or packaged_types())
+    plain = lists.write_out(" ".join(replace_lookalikes(text).split()))
+    plain, is_sure = repair(plain, lists)
+    said = words_of(plain, lists)
+    grammar = reads.island_grammar
+    if grammar is None:
+        return Understanding((), (), ())
+    is_question = plain.rstrip().endswith("?")
+    weigh = partial(_weight, situation, is_question)
+    found = best_covers(plain, said, grammar, weigh, lists)
+    covers = [_keep_sound(it, said, situation, is_question) for it in found]
+    covers = [it for it in covers if it.islands]
+    if not covers:
+        return _nothing(plain, said, found)
+    ranked = sorted(covers, key=lambda it: (_is_fallback(it), -it.weight))
+    for n, best in enumerate(ranked):
+        read = [
+            _read_island(reads, text, best, island, said, lists, is_question, is_sure)
+            for island in best.islands
+        ]
+        moves = {it.readings[0].type: it for it in reversed(read) if it.readings}
+        if not moves:
+            continue
+        found_moves = tuple(reversed(moves.values()))
+        if len(found_moves) == len(best.islands) == 1:
+            rivals = [
+                (it.weight, other)
+                for it in ranked[n + 1 :]
+                if _are_rivals(it, best)
+                for other in [
+                    _read_island(
+                        reads,
+                        text,
+                        it,
+                        it.islands[0],
+                        said,
+                        lists,
+                        is_question,
+                        is_sure,
+                    )
+                ]
+            ]
+            found_moves = (_with_rivals(found_moves[0], best.weight, rivals),)
+        return Understanding(
+            found_moves,
+            tuple(_text(plain, said, it) for it in best.islands),
+            tuple(plain[it.begin : it.end] for it in best.missed),
+            _is_fallback(best),
+        )
+    return _nothing(plain, said, found)
+
+
+def _are_rivals(cover: Cover, best: Cover) -> bool:
+    """Whether a cover is another way to take a sentence as a move of the same sort."""
+    if len(cover.islands) > 1 or cover.weight < RIVAL * best.weight:
+        return False
+    one, other = cover.islands[0].rule, best.islands[0].rule
+    return not {one, other} & FALLBACK and (one in CLAIMS) == (other in CLAIMS)
+
+
+RIVAL = 0.5
+"""From which share of the best cover's weight on others count as well."""
+
+
+def _with_rivals(
+    best: Sentence, weight: float, rivals: Iterable[tuple[float, Sentence]]
+) -> Sentence:
+    """A move with other readings of the sentence, each as probable as its cover."""
+    weighed = {it.type: (it, weight) for it in best.readings}
+    for share, rival in rivals:
+        for it in rival.readings:
+            weighed.setdefault(it.type, (it, share))
+    readings, weights = zip(*weighed.values(), strict=True)
+    return Sentence(best.text, tuple(readings), tuple(weights))
+
+
+def _nothing(plain: str, said: Sequence[Word], found: Sequence[Cover]) -> Understanding:
+    """No move, but perhaps phrases that are understood."""
+    phrases = [
+        _text(plain, said, it)
+        for cover in found[:1]
+        for it in cover.islands
+        if it.after - it.first > 1 and it.rule not in VAGUE
+    ]
+    missed = tuple(plain[it.begin : it.end] for it in said if not it.is_harmless)
+    return Understanding((), tuple(phrases), missed)
+
+
+def _keep_sound(
+    cover: Cover, said: Sequence[Word], situation: Situation, is_question: bool
+) -> Cover:
+    """The cover without islands that may not stand in it as they do: those it misses.
+
+    A yes that answers nothing is not missed beside what is claimed.
+    """
+    for n, island in enumerate(cover.islands):
+        if _may_stand(island, cover, said, situation, is_question):
+            continue
+        inside = said[island.first : island.after]
+        idle = island.rule == "affirm"
+        gone = () if idle else tuple(it for it in inside if not it.is_harmless)
+        less = Cover(
+            (*cover.islands[:n], *cover.islands[n + 1 :]),
+            tuple(sorted((*cover.missed, *gone))),
+            cover.weight * UNSOUND,
+        )
+        return _keep_sound(less, said, situation, is_question)
+    return cover
+
+
+UNSOUND = 0.05
+"""The factor for an island that cannot be taken as what it could be alone."""
+
+
+def _may_stand(
+    island: Island,
+    cover: Cover,
+    said: Sequence[Word],
+    situation: Situation,
+    is_question: bool,
+) -> bool:
+    """Whether an island may be taken as the move that it would be alone."""
+    rule, first = island.rule, said[island.first]
+    inside = said[island.first : island.after]
+    is_claim = rule in CLAIMS
+    near = cover.missed_near(island, said)
+    others = [it for it in cover.islands if it != island and it.rule in CLAIMS]
+    match rule:
+        case _ if rule in FALLBACK and len(cover.islands) > 1:
+            return False
+        case _ if (rule in STRICT and cover.missed) or (rule in WHOLE and near):
+            return False
+        case "mention":
+            return situation.asks_which
+        case "ask_repeat" if len(cover.islands) > 1:
+            return False
+        case "affirm" | "deny" if others or is_question:
+            return False
+        case "affirm" | "deny" if cover.missed:
+            begins = all(it.is_harmless for it in said[: island.first])
+            return situation.asks_whether and begins
+        case "alone":
+            if any(it.is_harmless for it in inside) or len(inside) > LONGEST_NAME:
+                return False
+            babble = len({it.form for it in inside}) < len(inside)
+            if others or babble or len(cover.missed) > LONGEST_NAME:
+                return False
+        case "instruct" if _is_bare(island) and any(map(_has_target, others)):
+            return False
+        case "ask_deed" if any(it < first for it in cover.missed):
+            return False
+        case _ if rule.startswith("ask_") and len(near) > len(inside):
+            return False
+    if is_claim and rule not in OVER_BREAKS and inside[-1].clause > first.clause:
+        return False
+    ends = all(it.is_harmless for it in said[island.after :])
+    if is_claim and is_question and ends and (rule == "alone" or _is_bare(island)):
+        return False
+    before = [it for it in said[: island.first] if it.clause == first.clause]
+    begins = all(it.is_harmless for it in before)
+    return begins or rule in ANYWHERE or is_claim
+
+
+LONGEST_NAME = 3
+"""How many words a name alone has at most, and what stands beside it."""
+
+
+def _is_bare(island: Island) -> bool:
+    """Whether a lesson only names, without saying what: "a cup"."""
+    return len(parts(parts(island.trees[0])[0])) == 1
+
+
+def _has_target(island: Island) -> bool:
+    return not _is_bare(island)
+
+
+def _read_island(
+    reads: Reader,
+    text: str,
+    cover: Cover,
+    island: Island,
+    said: Sequence[Word],
+    lists: WordLists,
+    is_question: bool,
+    is_sure: bool,
+) -> Sentence:
+    """How an island can be read as a move, doubted where it must be."""
+    doubt = _doubt(cover, island, said, lists, is_question, is_sure)
+    moves = dict.fromkeys(part for tree in island.trees for part in parts(tree))
+    return Sentence(text, reads.readings(text, moves, doubt))
+
+
+def _doubt(
+    cover: Cover,
+    island: Island,
+    said: Sequence[Word],
+    lists: WordLists,
+    is_question: bool,
+    is_sure: bool,
+) -> str:
+    """Why what an island claims is not learned at once, or nothing."""
+    rule = island.rule
+    if rule not in CLAIMS:
+        return ""
+    forms = [it.form for it in said]
+    if lists.is_unreal(forms):
+        return SAYING
+    near = {it.form for it in cover.missed_near(island, said)}
+    if near & lists.negations:
+        return SAYING
+    asks = is_question and all(it.is_harmless for it in said[island.after :])
+    unsure = rule in ("named", "alone") or asks or bool(cover.missed) or not is_sure
+    return PARTIAL if unsure else ""
+
+
+def _weight(situation: Situation, is_question: bool, tree: Tree) -> float:
+    """How well a reading of an island fits what the talk is about."""
+    move = parts(tree)[0]
+    rule = move.rule if tree.rule == START else tree.rule
+    weight = NEW ** sum(it not in situation.known for it in _new_words(move))
+    if is_question and rule in CLAIMS:
+        weight *= ASKED
+    match rule:
+        case "affirm" | "deny":
+            return weight * (1.0 if situation.asks_whether else 0.2)
+        case "mention":
+            return weight * (1.0 if situation.asks_which else 0.02)
+        case "take_frame":
+            return weight * 0.02
+        case "alone":
+            return weight * (0.5 if situation.asks_name else 0.25)
+        case "remark":
+            return weight * 0.02
+        case "ask_deed":
+            return weight * 0.5
+        case "choice":
+            return weight * 2.0
+        case "instruct" if len(parts(move)) == 1:
+            return weight * 0.6
+    return weight
+
+
+def _new_words(tree: Tree) -> Iterable[str]:
+    """The words in a part that may be learned, part by part."""
+    for child in tree.children:
+        if isinstance(child, Tree):
+            yield from _new_words(child)
+        elif child.terminal not in ("A", "PREP", "OF", "SIDE", "ARTICLE"):
+            yield child.text.lower()
+
+
+def _is_fallback(cover: Cover) -> bool:
+    return all(it.rule in FALLBACK for it in cover.islands)
+
+
+def _is_doubted(it: Sentence) -> bool:
+    """Whether the best reading of a sentence is in doubt."""
+    return "doubt" in it.readings[0].type
+
+
+def needs_parts(
+    sentences: Iterable[Sentence], situation: Situation, language: str = "en"
+) -> bool:
+    """Whether some sentence is none, or may better be read by its parts.
+
+    The grammar may read what is no sentence of its own by unknown words: "No worries."
+    as a correction, and "This is, uh, a cup." as how two things stand.
+    """
+    lists = word_lists(language)
+    return any(
+        not it.readings or _is_weak(it, situation, lists.fillers) for it in sentences
+    )
+
+
+def _is_weak(it: Sentence, situation: Situation, fillers: Set[str]) -> bool:
+    """Whether a sentence answers what nobody asked, or is in doubt, or has fillers."""
+    for one in it.readings:
+        act = predicate_at(one.type, "e").name
+        if act != "mention" or situation.asks_which:
+            break
+    else:
+        return True
+    return all(
+        "doubt" in one.type
+        or any(not fillers.isdisjoint(sign.form.split()) for sign in one.signs)
+        for one in it.readings
+    )
+
+
+def _is_better(said: Sentence, found: Understanding, fillers: Set[str]) -> bool:
+    """Whether the parts of a sentence are a better reading than that of the whole."""
+    if not found.moves or found.is_remark:
+        return False
+    mentions = all(predicate_at(it.type, "e").name == "mention" for it in said.readings)
+    fills = not fillers.isdisjoint(plain_text(said.text).split())
+    return mentions or fills or not (found.missed or any(map(_is_doubted, found.moves)))
+
+
+def _content(it: Sentence) -> object:
+    """What a sentence says, whatever its words are: thanks twice are thanks."""
+    first = it.readings[0].type
+    return first["e"], first["content"]
+
+
+def _teaches(it: Sentence) -> bool:
+    """Whether a sentence says how things are, by the name of its move."""
+    return any(predicate_at(one.type, "e").name in CLAIMS for one in it.readings)
+
+
+def _text(plain: str, said: Sequence[Word], island: Island) -> str:
+    """The stretch of the text that an island is."""
+    return plain[said[island.first].begin : said[island.after - 1].end]
