@@ -31,6 +31,9 @@ APART = 0.8
 ACROSS = 0.7
 """The factor for an island that goes on after a comma."""
 
+BLANKED = 0.9
+"""The factor for an island that leaves out harmless words within."""
+
 COVERS = 12
 """How many covers of the rest of a sentence are kept: the best ones."""
 
@@ -86,7 +89,7 @@ Weigh = Callable[[Tree], float]
 def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
     """The words of a text, with those that are harmless marked.
 
-    A mark beside a harmless word ends no clause.
+    The commas around an aside end no clause.
 
     >>> from kille.dialogue.word_lists import word_lists
     >>> text = "Hello, this is, you know, a cup and"
@@ -99,15 +102,19 @@ def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
     found = [(it.start(), it.end(), it[0]) for it in _WORD.finditer(text)]
     forms = [it.lower().replace("’", "'").replace("´", "'") for _, _, it in found]
     harmless = {at for run in lists.harmless_runs(forms) for at in run}
+    breaks = {
+        at
+        for at in range(1, len(found))
+        if _BREAK.search(text, found[at - 1][1], found[at][0])
+    }
+    for run in lists.harmless_runs(forms):
+        if {run.start, run.stop} <= breaks:
+            breaks -= {run.start, run.stop}
     words: list[Word] = []
+    clause = 0
     for at, ((begin, end, _), form) in enumerate(zip(found, forms, strict=True)):
         joins = form in lists.joining
-        before = words[-1] if words else None
-        clause = before.clause if before else 0
-        if joins and before:
-            clause += 1
-        elif before and not (before.is_harmless or at in harmless):
-            clause += bool(_BREAK.search(text, before.end, begin))
+        clause += at > 0 and (joins or at in breaks)
         words.append(Word(begin, end, form, clause, joins or at in harmless, joins))
     return tuple(words)
 
@@ -144,9 +151,12 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
     words = words_of(text, lists)
     for run in lists.repair_runs([it.form for it in words]):
         before, after = words[: run.start], words[run.stop :]
+        if not after:
+            before, after = _last_clause_apart(before)
         if not before or not after:
             continue
-        if not _BREAK.search(text, before[-1].end, words[run.start].begin):
+        between = min(words[run.start].begin, after[0].begin)
+        if not _BREAK.search(text, before[-1].end, between):
             continue
         same = {after[0].form}
         if same <= lists.articles:
@@ -157,16 +167,26 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
     return text, True
 
 
+def _last_clause_apart(words: Sequence[Word]) -> tuple[tuple[Word, ...], ...]:
+    """The words before the last clause, and those in it: "a cub, a cup I mean"."""
+    before = tuple(it for it in words if it.clause < words[-1].clause)
+    return before, tuple(words[len(before) :])
+
+
 def best_covers(
     text: str, words: Sequence[Word], grammar: Grammar, weigh: Weigh, lists: WordLists
 ) -> list[Cover]:
     """The best covers of a text by the islands of a grammar, the best one first."""
     if not words or len(words) > _MOST:
         return []
-    texts = dict.fromkeys((text, blank_harmless(text, words)))
-    islands = [
-        it for one in texts for it in _islands(one, words, grammar, weigh, lists)
-    ]
+    islands = _islands(text, words, grammar, weigh, lists)
+    before = _before_last_aside(words)
+    if before:
+        blank = blank_harmless(text, words)
+        islands += [
+            it._replace(weight=BLANKED * it.weight)
+            for it in _islands(blank, words, grammar, weigh, lists, before)
+        ]
     by_first: dict[int, list[Island]] = {}
     for island in islands:
         by_first.setdefault(island.first, []).append(island)
@@ -174,6 +194,13 @@ def best_covers(
     for at in reversed(range(len(words))):
         rest[at] = _covers_from(at, words[at], by_first.get(at, ()), rest)
     return [it for it in rest[0] if it.islands]
+
+
+def _before_last_aside(words: Sequence[Word]) -> int:
+    """How many words stand before the last harmless one that others surround."""
+    said = [n for n, it in enumerate(words) if not it.is_harmless]
+    inner = range(said[0], said[-1]) if said else range(0)
+    return max((n for n in inner if words[n].is_harmless), default=0)
 
 
 def _covers_from(
@@ -205,11 +232,16 @@ def _covers_from(
 
 
 def _islands(
-    text: str, words: Sequence[Word], grammar: Grammar, weigh: Weigh, lists: WordLists
+    text: str,
+    words: Sequence[Word],
+    grammar: Grammar,
+    weigh: Weigh,
+    lists: WordLists,
+    before: int | None = None,
 ) -> list[Island]:
-    """The islands of a text that begin and end with words of it."""
+    """The islands of a text that begin with one of its words, before that number."""
     begins = {it.begin: n for n, it in enumerate(words)}
-    places = [it.begin for it in words if text[it.begin] != " "]
+    places = [it.begin for it in words[:before] if text[it.begin] != " "]
     found: list[Island] = []
     for begin, ends in grammar.parse_stretches(text, START, places).items():
         first = begins[begin]
@@ -217,6 +249,8 @@ def _islands(
             after = _word_at(end, words)
             if after is None or after <= first:
                 continue
+            while before and after > first + 1 and _is_aside(words[after - 1]):
+                after -= 1
             by_rule: dict[str, list[tuple[float, Tree]]] = {}
             for tree in trees:
                 if _is_sound(tree, lists):
@@ -235,6 +269,10 @@ def _rule(tree: Tree) -> str:
     return parts(tree)[0].rule if tree.rule == START else tree.rule
 
 
+def _is_aside(word: Word) -> bool:
+    return word.is_harmless and not word.joins
+
+
 def _word_at(end: int, words: Sequence[Word]) -> int | None:
     """The number of the word before which a stretch ends; None within a word."""
     for n, it in enumerate(words):
@@ -251,7 +289,7 @@ def _is_sound(tree: Tree, lists: WordLists) -> bool:
         if isinstance(child, Tree):
             if not _is_sound(child, lists):
                 return False
-        elif child.terminal in OPEN and child.text.lower() in lists.closed:
+        elif child.terminal in OPEN and lists.is_closed(child.text.lower()):
             return False
     return True
 

@@ -216,9 +216,20 @@ class _Chart:
     def _by_rule(self, name: str, at: int) -> Found:
         found: dict[int, list[Row]] = {}
         for production in self._grammar._productions[name]:
+            if not self._may_begin(production, at):
+                continue
             for end, rows in self._by_production(production, at).items():
                 found.setdefault(end, []).extend(_build_trees(production, rows))
         return {end: _simplest(rows) for end, rows in found.items()}
+
+    def _may_begin(self, production: Production, at: int) -> bool:
+        """Whether what a production begins with is here; most are ruled out by that."""
+        if not production.symbols:
+            return True
+        first = production.symbols[0]
+        if first.is_term:
+            return self._terminal(first.name, at) is not None
+        return bool(self.rule(first.name, at))
 
     def _by_production(self, production: Production, at: int) -> Found:
         so_far: Found = {at: [()]}

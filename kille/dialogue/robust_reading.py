@@ -10,7 +10,7 @@ claimed, and no claim is made of a sentence whose "not" would be left out.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence, Set
+from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -40,9 +40,14 @@ STRICT = frozenset(
     {
         "mention",
         "take_frame",
-        "about",
+        "about_name",
+        "about_quality",
+        "about_place",
+        "ask_repeat",
         "forget_that",
         "forget_last",
+        "forget_all",
+        "reject_several",
         "forget_word",
         "orient",
     }
@@ -54,16 +59,27 @@ ANYWHERE = frozenset(
 )
 """The moves other than claims that need not begin a clause."""
 
-FALLBACK = frozenset({"remark", "other_deed"})
+COURTESY = frozenset({"greet", "thank", "leave", "okay", "affirm", "deny"})
+"""The moves after which another may begin."""
+
+HEDGING = frozenset({"okay", "affirm", "deny", "ask_deed"})
+"""The moves beside which a claim is asked about: "Maybe, this is a cup."."""
+
+FALLBACK = frozenset({"remark", "other_deed", "presumed"})
 """What is taken so only where nothing else is understood."""
 
 VAGUE = FALLBACK | {"alone", "named", "ask_deed"}
 """What may be read of almost any words, so that they are not understood thereby."""
 
-CLAIMS = frozenset((*LESSONS, "relate", "named", "alone"))
+CLAIMS = frozenset(
+    (*LESSONS, "relate", "named", "alone", "presumed", "meant", "placed")
+)
 """The moves that say how things are."""
 
-OVER_BREAKS = frozenset({"correct", "reject", "named"})
+INDIRECT = frozenset({"named", "alone", "presumed", "meant", "placed"})
+"""The claims that are always asked about."""
+
+OVER_BREAKS = frozenset({"correct", "reject", "named", "meant"})
 """The claims that may go on after a comma: "It is not a cup, it is a mug"."""
 
 NEW = 0.8
@@ -79,6 +95,8 @@ class Situation(NamedTuple):
 
     asks_name: bool = False
     """The robot has asked what a thing is."""
+    asked: str = "name"
+    """What the tutor has asked of a thing last: its name, quality or place."""
     asks_which: bool = False
     """It has asked which thing is meant."""
     asks_whether: bool = False
@@ -130,11 +148,11 @@ def hear_in_parts(
     remarks: list[Sentence] = []
     missed: list[tuple[Sentence, Understanding]] = []
     for said in sentences:
-        if said.readings and not _is_weak(said, situation, lists.fillers):
+        if said.readings and not _is_weak(said, situation, lists):
             done.append(said)
             continue
         found = read_robustly(said.text, situation, language, types=types)
-        if said.readings and not _is_better(said, found, lists.fillers):
+        if said.readings and not _is_better(said, found, lists):
             done.append(said)
             continue
         if not found.moves:
@@ -162,6 +180,7 @@ def situation_of(s: Record) -> Situation:
     acts = {_act(move) for move in said}
     return Situation(
         asks_name=bool(acts & ASKING_NAME),
+        asked=next((what for what, it in ANSWERS.items() if acts & it), "name"),
         asks_which=open_ in ("AskReferent", "AskReferentAgain"),
         asks_whether=bool(s.shared.pending)
         or bool(open_ and open_ not in ("AskReferent", "AskReferentAgain")),
@@ -169,6 +188,18 @@ def situation_of(s: Record) -> Situation:
         known=frozenset(it.form for it in words_in(s)),
     )
 
+
+ANSWERS = {
+    "quality": {
+        "assert_quality", "hedge_quality", "guess_quality", "doubt_quality",
+        "admit_quality",
+    },
+    "place": {
+        "assert_place", "hedge_place", "guess_place", "doubt_place", "admit_place",
+        "need_landmark",
+    },
+}  # fmt: skip
+"""What the robot says to a question for a quality or a place."""
 
 ASKING_NAME = frozenset({"admit_name", "ask_thing", "ask_again", "ask_which"})
 """What the robot says when it wants to be told what a thing is."""
@@ -325,8 +356,15 @@ def _may_stand(
             return False
         case _ if (rule in STRICT and cover.missed) or (rule in WHOLE and near):
             return False
+        case _ if inside[-1].joins:
+            return False
+        case "placed" if len(cover.islands) > 1 or cover.missed:
+            return False
         case "mention":
             return situation.asks_which
+        case "presumed":
+            begins = all(it.is_harmless for it in said[: island.first])
+            return begins and situation.things == 1 and not is_question
         case "ask_repeat" if len(cover.islands) > 1:
             return False
         case "affirm" | "deny" if others or is_question:
@@ -351,8 +389,12 @@ def _may_stand(
     ends = all(it.is_harmless for it in said[island.after :])
     if is_claim and is_question and ends and (rule == "alone" or _is_bare(island)):
         return False
-    before = [it for it in said[: island.first] if it.clause == first.clause]
-    begins = all(it.is_harmless for it in before)
+    courteous = [it for it in cover.islands if it.rule in COURTESY]
+    polite = {at for it in courteous for at in range(it.first, it.after)}
+    begins = all(
+        it.is_harmless or it.clause < first.clause or at in polite
+        for at, it in enumerate(said[: island.first])
+    )
     return begins or rule in ANYWHERE or is_claim
 
 
@@ -404,7 +446,8 @@ def _doubt(
     if near & lists.negations:
         return SAYING
     asks = is_question and all(it.is_harmless for it in said[island.after :])
-    unsure = rule in ("named", "alone") or asks or bool(cover.missed) or not is_sure
+    hedged = any(it.rule in HEDGING for it in cover.islands)
+    unsure = rule in INDIRECT or hedged or asks or bool(cover.missed) or not is_sure
     return PARTIAL if unsure else ""
 
 
@@ -426,6 +469,13 @@ def _weight(situation: Situation, is_question: bool, tree: Tree) -> float:
             return weight * (0.5 if situation.asks_name else 0.25)
         case "remark":
             return weight * 0.02
+        case "presumed":
+            new = any(it not in situation.known for it in _new_words(move))
+            return weight * (0.05 if new else 0.0)
+        case "about_name" | "about_quality" | "about_place":
+            return weight * (1.0 if rule == f"about_{situation.asked}" else 0.1)
+        case "okay" if situation.asks_whether:
+            return weight * 0.9
         case "ask_deed":
             return weight * 0.5
         case "choice":
@@ -462,13 +512,13 @@ def needs_parts(
     as a correction, and "This is, uh, a cup." as how two things stand.
     """
     lists = word_lists(language)
-    return any(
-        not it.readings or _is_weak(it, situation, lists.fillers) for it in sentences
-    )
+    return any(not it.readings or _is_weak(it, situation, lists) for it in sentences)
 
 
-def _is_weak(it: Sentence, situation: Situation, fillers: Set[str]) -> bool:
+def _is_weak(it: Sentence, situation: Situation, lists: WordLists) -> bool:
     """Whether a sentence answers what nobody asked, or is in doubt, or has fillers."""
+    if lists.write_out(it.text) != it.text:
+        return True
     for one in it.readings:
         act = predicate_at(one.type, "e").name
         if act != "mention" or situation.asks_which:
@@ -477,17 +527,18 @@ def _is_weak(it: Sentence, situation: Situation, fillers: Set[str]) -> bool:
         return True
     return all(
         "doubt" in one.type
-        or any(not fillers.isdisjoint(sign.form.split()) for sign in one.signs)
+        or any(not lists.fillers.isdisjoint(sign.form.split()) for sign in one.signs)
         for one in it.readings
     )
 
 
-def _is_better(said: Sentence, found: Understanding, fillers: Set[str]) -> bool:
+def _is_better(said: Sentence, found: Understanding, lists: WordLists) -> bool:
     """Whether the parts of a sentence are a better reading than that of the whole."""
     if not found.moves or found.is_remark:
         return False
     mentions = all(predicate_at(it.type, "e").name == "mention" for it in said.readings)
-    fills = not fillers.isdisjoint(plain_text(said.text).split())
+    fills = not lists.fillers.isdisjoint(plain_text(said.text).split())
+    fills = fills or lists.write_out(said.text) != said.text
     return mentions or fills or not (found.missed or any(map(_is_doubted, found.moves)))
 
 

@@ -41,7 +41,10 @@ class WordLists:
     closed: frozenset[str] = frozenset()
     """Words that are no nouns or adjectives where only a part of a sentence is read."""
     unreal: frozenset[tuple[str, ...]] = frozenset()
-    """Words and phrases beside which nothing is claimed: "if", "looks like"."""
+    """Words and phrases beside which nothing is claimed: "if", "looks like".
+
+    A word with a ^ before it is one only at the beginning of a sentence.
+    """
     repairs: frozenset[tuple[str, ...]] = frozenset()
     """Words between what is said by mistake, and what is said instead."""
     articles: frozenset[str] = frozenset()
@@ -57,9 +60,14 @@ class WordLists:
         """Where among these words their speaker sets right what they have said."""
         return _runs(self.repairs, forms)
 
+    def is_closed(self, form: str) -> bool:
+        """Whether a word is no noun or adjective in a part of a sentence."""
+        return form in self.closed or form in self.fillers
+
     def is_unreal(self, forms: Sequence[str]) -> bool:
         """Whether a sentence of these words says what is not, or not for certain."""
-        return any(True for _ in _runs(self.unreal, forms))
+        begins = (f"^{forms[0]}",) if forms else ()
+        return begins in self.unreal or any(True for _ in _runs(self.unreal, forms))
 
     def write_out(self, text: str) -> str:
         """The text with forms of the grammar in place of those that are spoken.

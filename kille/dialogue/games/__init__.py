@@ -24,7 +24,7 @@ from kille.dialogue.games.distinguishing import DISTINGUISHING
 from kille.dialogue.games.doubling import ANSWERED, DOUBLING
 from kille.dialogue.games.explaining import EXPLAINING
 from kille.dialogue.games.finding import FINDING
-from kille.dialogue.games.forgetting import FORGETTING
+from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
 from kille.dialogue.games.framing import ASKING_FRAME, FRAMING, SETTLING
 from kille.dialogue.games.initiating import IDLING, INITIATING, STAYING
 from kille.dialogue.games.instructing import INSTRUCTING
@@ -82,6 +82,7 @@ def games_with(*answers: Rule) -> Algorithm:
                 MISHEARD,
                 OFFER_ANSWERED,
                 VETTED,
+                FORGET_ANSWERED,
                 ANSWERED,
                 STILL_ANSWERED,
                 SETTLING,

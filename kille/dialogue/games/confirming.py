@@ -11,7 +11,8 @@ from kille.dialogue.commitments import (
     plan_learning,
     signs_for,
 )
-from kille.dialogue.meanings import DialogueTypes, is_denial
+from kille.dialogue.games.forgetting import plan_forgetting
+from kille.dialogue.meanings import DialogueTypes, is_denial, predicate_at, value_at
 from kille.dialogue.moves import plan, words_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
@@ -71,11 +72,34 @@ def ask_again(s: Record, *, types: DialogueTypes) -> Record | None:
 
 
 @rule(answers="Deny")
+def take_back(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The robot has just learned something, and the tutor says no: it unlearns that."""
+    if s.shared.pending or not s.private.last or not s.private.lessons:
+        return None
+    said, lesson = s.private.last[-1], s.private.lessons[-1]
+    if predicate_at(said, "e").name not in JUST_LEARNED:
+        return None
+    if lesson.content not in value_at(said, "teaches"):
+        return None
+    return plan_forgetting(s, lesson, types=types)
+
+
+JUST_LEARNED = ("learned", "learned_quality", "learned_relation")
+"""What the robot says when it has learned what the tutor said, or confirmed."""
+
+
+@rule(answers="Deny")
 def wonder_why(s: Record, *, types: DialogueTypes) -> Record:
     """The robot has claimed nothing to reject."""
     return plan(s, "Wonder", types=types)
 
 
 CONFIRMING = first(
-    learn_confirmed, ask_which, wonder_what, learn_after_all, ask_again, wonder_why
+    learn_confirmed,
+    ask_which,
+    wonder_what,
+    learn_after_all,
+    ask_again,
+    take_back,
+    wonder_why,
 )

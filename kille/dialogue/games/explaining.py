@@ -21,6 +21,7 @@ from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
     is_denial,
+    predicate_at,
     set_to,
     value_at,
 )
@@ -113,6 +114,19 @@ def doubt(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It does not think so: it says how certain it is instead."""
     claim = _claim_in_question(s)
     return None if claim is None else _plan_certainty(s, model, claim, types=types)
+
+
+@rule(answers="AskWhy")
+def lack_lessons(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor asks why it does not know: it has not been taught that well enough."""
+    said = [predicate_at(move, "e").name for move in s.private.last]
+    if not any(it.startswith(IGNORANCE) for it in said):
+        return None
+    return plan(s, "LackLessons", types=types)
+
+
+IGNORANCE = ("admit_", "unknown_", "doubt_", "guess_")
+"""How the names of the acts begin by which the robot says that it does not know."""
 
 
 @rule(answers="AskCertainty")
@@ -239,5 +253,6 @@ EXPLAINING = first(
     explain,
     doubt,
     be_sure_of_nothing,
+    lack_lessons,
     explain_nothing,
 )

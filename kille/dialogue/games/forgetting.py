@@ -1,4 +1,4 @@
-"""The tutor has the robot forget: a lesson, or a word with all its lessons.
+"""The tutor has the robot forget: a lesson, a word with all its lessons, or everything.
 
 What is unlearned is as if it had never been taught. A word of which no lesson is left
 is no longer known.
@@ -9,11 +9,11 @@ from __future__ import annotations
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import kind_of, lessons_in
 from kille.dialogue.meanings import DialogueTypes, is_denial, word_of
-from kille.dialogue.moves import content_of, plan
+from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import things_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Record
+from ttr import Record, replace
 from ttr.updates import first
 
 FORGOT = {"c": "Forgot", "a": "ForgotQuality", "rel": "ForgotRelation"}
@@ -30,6 +30,10 @@ FORGOT_WORD = {
 """What it says when it has forgotten a word of a kind."""
 
 
+ALL = "AskForgetAll"
+"""The question whether everything is to be forgotten."""
+
+
 @rule(answers="ForgetThat")
 def forget_claim(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what is to be forgotten: all lessons that say so are unlearned."""
@@ -38,7 +42,7 @@ def forget_claim(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     lessons = lessons_in(s, content, types=types)
     return (
-        _plan_forgetting(s, *lessons, types=types)
+        plan_forgetting(s, *lessons, types=types)
         if lessons
         else plan(s, "ForgetNothing", types=types)
     )
@@ -53,17 +57,47 @@ def forget_that(s: Record, *, types: DialogueTypes) -> Record | None:
         for it in s.private.lessons
         if it.content in s.shared.here and talked_of & set(things_in(it.content))
     ]
-    return _plan_forgetting(s, lessons[-1], types=types) if lessons else None
+    return plan_forgetting(s, lessons[-1], types=types) if lessons else None
 
 
 @rule(answers="ForgetLast")
 def forget_last(s: Record, *, types: DialogueTypes) -> Record | None:
     """The latest lesson is unlearned."""
     return (
-        _plan_forgetting(s, s.private.lessons[-1], types=types)
+        plan_forgetting(s, s.private.lessons[-1], types=types)
         if s.private.lessons
         else None
     )
+
+
+@rule(answers="ForgetAll")
+def ask_forget_all(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor wants everything forgotten: that cannot be undone, so it asks."""
+    return plan(s, ALL, asks=[issue(ALL, [s.shared.latest])], types=types)
+
+
+@rule(answers="Affirm")
+def forget_all(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor means it: every word that was taught is forgotten."""
+    if not _asks_all(s):
+        return None
+    known = [it for it in words(s) if not knows(s.private.colours, it)]
+    left = replace(s, {"shared.qud": s.shared.qud[1:]})
+    if not known:
+        return plan(left, "ForgetNothing", types=types)
+    return plan(left, "ForgotAll", signs=known, drops=known, types=types)
+
+
+@rule(answers="Deny")
+def forget_none(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor does not mean it: nothing is forgotten."""
+    if not _asks_all(s):
+        return None
+    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Noted", types=types)
+
+
+def _asks_all(s: Record) -> bool:
+    return bool(s.shared.qud) and s.shared.qud[0].ask == ALL
 
 
 @rule(answers="ForgetWord")
@@ -106,7 +140,7 @@ def forget_earlier(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "ForgotLast", undoes=["latest"], types=types)
 
 
-def _plan_forgetting(s: Record, *lessons: Record, types: DialogueTypes) -> Record:
+def plan_forgetting(s: Record, *lessons: Record, types: DialogueTypes) -> Record:
     """The plan to unlearn lessons that say the same."""
     lesson = lessons[-1]
     acts = FORGOT_NOT if is_denial(lesson.content) else FORGOT
@@ -124,8 +158,12 @@ FORGETTING = first(
     forget_claim,
     forget_that,
     forget_last,
+    ask_forget_all,
     forget_word,
     miss_forgotten,
     forget_no_such,
     forget_earlier,
 )
+
+FORGET_ANSWERED = first(forget_all, forget_none)
+"""What answers whether everything is to be forgotten."""

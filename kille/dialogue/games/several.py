@@ -2,7 +2,8 @@
 
 "These are cups." is said of all that is in view: a lesson about each thing there, but
 for those that the robot knows to be something else. Where fewer than two are left it
-is not plain which ones are meant, and the robot asks to be shown one at a time.
+is not plain which ones are meant, and the robot asks to be shown one at a time. "None
+of these is a cup." is a lesson about each thing there, too.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from kille.dialogue.games.surveying import in_view
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
+    denial,
     is_denial,
     set_at,
     set_to,
@@ -54,7 +56,28 @@ def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | 
     )
 
 
-@rule(answers="InstructSeveral")
+@rule(answers="RejectSeveral")
+def reject_several(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says what nothing in view is: it is a lesson about each thing."""
+    if not s.view.things:
+        return None
+    sign = _noun(s)
+    teaches = [denial(said_of(s, sign, x, types=types)) for x in s.view.things]
+    forgets = [
+        key for it in teaches for key in opposite_lesson_keys(s, it, types=types)
+    ]
+    return plan(
+        s,
+        "RejectedSeveral",
+        sign.meaning,
+        signs=[sign],
+        teaches=teaches,
+        forgets=forgets,
+        types=types,
+    )
+
+
+@rule(answers=("InstructSeveral", "RejectSeveral"))
 def see_none(s: Record, *, types: DialogueTypes) -> Record | None:
     """Nothing is in view that could be meant."""
     return None if s.view.things else plan(s, "SeeNothing", types=types)
@@ -144,5 +167,11 @@ def _lessons_about(s: Record, x: str) -> Iterator[RecordType]:
 
 
 SEVERAL = first(
-    learn_several, see_none, need_single, miss_several, tell_places, miss_them
+    learn_several,
+    reject_several,
+    see_none,
+    need_single,
+    miss_several,
+    tell_places,
+    miss_them,
 )

@@ -268,3 +268,9 @@ def test_what_it_may_take_a_word_for(
 
 def test_what_a_word_means_that_was_never_learned(table: Any) -> None:
     assert table.hear("What is a unicorn?") == "I have not learned what a unicorn is."
+
+
+def test_why_it_does_not_know(scene: Callable[..., Any]) -> None:
+    robot = scene(1)
+    assert robot.acts("What is this?") == ["admit_name"]
+    assert robot.acts("Why?") == ["lack_lessons"]

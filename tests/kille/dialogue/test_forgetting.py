@@ -129,3 +129,37 @@ def test_a_word_goes_with_its_lessons(scene: Callable[..., Any]) -> None:
     assert taught(one.state) == ["red"]
     assert [it.form for it in one.state.private.nouns] == ["book"]
     assert len(one.state.shared.commitments) == 1
+
+
+@pytest.mark.parametrize("no", ["No.", "That's wrong.", "No, it isn't."])
+def test_a_no_straight_after_a_lesson_takes_it_back(table: Any, no: str) -> None:
+    table.hear("This is red.")
+    table.hear("The book is blue.")
+    assert table.hear(no).startswith("OK, I forgot that")
+    assert taught(table.state) == ["red"]
+    assert table.acts(no) == ["wonder"]
+    assert taught(table.state) == ["red"]
+
+
+def test_a_no_later_on_takes_nothing_back(table: Any) -> None:
+    table.hear("The book is blue.")
+    table.hear("Thanks.")
+    assert table.acts("No.") == ["wonder"]
+    assert taught(table.state) == ["blue"]
+
+
+@pytest.mark.parametrize("text", ["Forget everything.", "Forget all that you know."])
+def test_all_that_was_taught_is_forgotten_after_a_yes(table: Any, text: str) -> None:
+    table.hear("This is red.")
+    assert table.acts(text) == ["ask_forget_all"]
+    assert table.acts("Yes.") == ["forgot_all"]
+    assert not table.state.shared.qud
+
+
+@pytest.mark.parametrize("text", ["No.", "Hello.", "What is this?"])
+def test_without_a_yes_nothing_is_forgotten(table: Any, text: str) -> None:
+    table.hear("This is red.")
+    table.hear("Forget everything.")
+    table.hear(text)
+    assert taught(table.state) == ["red"]
+    assert not table.state.shared.qud

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from kille.dialogue.meanings import is_denial
 from kille.dialogue.reference import thing_at
 
 Scenes = Callable[..., Any]
@@ -94,3 +95,23 @@ def test_the_one_that_there_is_may_be_confirmed(scene: Scenes) -> None:
 def test_what_is_not_there(scene: Scenes, text: str, act: str) -> None:
     robot = scene(2, nouns=["cup", "book"], known=CUPS)
     assert robot.acts(text) == [act]
+
+
+def test_none_of_them_is_one(scene: Scenes) -> None:
+    robot = scene(2)
+    robot.hear("These are cups.")
+    assert robot.hear("None of these is a mug.") == "OK, none of these is a mug."
+    denied = [it.content for it in robot.state.private.lessons if it.sign.form == "mug"]
+    assert [thing_at(it, "target") for it in denied] == ["o1", "o2"]
+    assert all(map(is_denial, denied))
+
+
+def test_what_none_of_them_is_was_a_mistake(scene: Scenes) -> None:
+    robot = scene(2)
+    robot.hear("These are cups.")
+    robot.hear("None of them are cups.")
+    assert all(is_denial(it.content) for it in robot.state.private.lessons)
+
+
+def test_without_anything_in_view_none_of_them_is_nothing(scene: Scenes) -> None:
+    assert scene(0).acts("None of these is a cup.") == ["see_nothing"]
