@@ -339,8 +339,6 @@ class Assignment:
         """The degree within the bounds that axioms set; `RefusedError` if it is
         outside.
         """
-        if lower is _NO_LOWER and upper is _NO_UPPER:
-            return p
         lo, hi = max(p.lo, lower[0]), min(p.hi, upper[0])
         if lo > hi:
             raise RefusedError(
