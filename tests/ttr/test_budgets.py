@@ -192,6 +192,7 @@ RAISED: dict[str, Callable[[], object]] = {
     "list witnesses": lambda: friends(9)[0].witnesses(
         rectype({f"x{i}": Ind for i in range(9)})
     ),
+    "reduce": lambda: Model().reduce(deep_record(40)),
     "a normal form": lambda: ttr.computing.join_normal_form(_negated(30)),
 }
 
@@ -210,7 +211,18 @@ def _negated(times: int) -> TypeNode:
     return T
 
 
-ENDED = {"create": "`create`", "merge": "`subtype`", "print": "printing"}
+ENDED = {
+    "create": "`create`",
+    "give": "`given`",
+    "list witnesses": "`witnesses`",
+    "reduce": "`reduce`",
+    "merge": "`subtype`",
+    "flatten": "`flatten`",
+    "a normal form": "`join_normal_form`",
+    "print": "printing",
+    "box": "`box`",
+    "latex": "`latex`",
+}
 """What was being asked when the budget ended."""
 
 

@@ -120,6 +120,16 @@ def test_one_certain_way_is_enough_among_more_than_can_be_told():
     assert (found.p, len(found.parts)) == ((1, 1), 1)
 
 
+def test_more_ways_than_can_be_told_are_open_where_a_part_is_asked_as_a_whole():
+    word = [f"u{number}" for number in range(10)]
+    model = Model().given(EventString(*word), C, 0.5)
+    for event in word:
+        model = model.given(event, A).given(event, B, 0.5)
+    found = why(word, Plus((Plus(A) & C) | Str(B) | Str(B, B)), model)
+    assert found.p == (0, 1)
+    assert "more than 64 ways" in found.rule
+
+
 def test_what_is_open_leaves_a_string_open():
     opened = M.given("x", A, 0.5)
     assert why(("a", "new"), Plus(A), opened).p == (0, 1)

@@ -215,6 +215,14 @@ NO = {
         rectype(f=A >> RecType, x=A, y=A, z=RecType @ this.f(this.y)),
     ),
     "a record that is empty": (Rec, Rec @ {}),
+    "a denied record type with a field that need not be": (
+        rectype(x=A) & ~rectype(x=B, y=C),
+        rectype(x=~B),
+    ),
+    "a list that a function gives": (
+        rectype(f=A >> ListOf(A), a=A, l=(NonEmpty(C) & ListOf(A)) @ this.f(this.a)),
+        rectype(l=ListOf(B)),
+    ),
     "levels back": (Universe("Type", 1), Type),
 }
 
@@ -244,6 +252,12 @@ def test_the_rest_of_a_list_that_may_be_empty_need_not_be_there():
     rest = fun(l=ListOf(A))(rst(this.l))
     assert subtype((A >> B) @ rest, NonEmpty(A) >> ListOf(A)).yes
     assert not subtype((A >> B) @ rest, ListOf(A) >> ListOf(A)).yes
+
+
+def test_a_list_that_may_be_empty_need_have_no_first():
+    first = fun(l=ListOf(A))(fst(this.l))
+    assert subtype((A >> B) @ first, NonEmpty(A) >> A).yes
+    assert not subtype((A >> B) @ first, ListOf(A) >> A).yes
 
 
 def test_functions_are_put_together_only_where_each_part_of_the_domain_is_covered():
