@@ -162,6 +162,22 @@ COUNTEREXAMPLES = [
         "[l : nelist(A), s : str(p(fst(l)))]",
         "{l = [a1], s = <s2 s3>}",
     ),
+    (
+        r"C /\ [k = 'b' : A, l : list(A)]",
+        "[k : ~(A@a), l : list(~B)]",
+        "{k = b, l = [a1]}",
+    ),
+    (
+        r"C /\ [k = 'b' : A, s : str(A, A)]",
+        "[k : ~(A@a), s : str(A, ~B)]",
+        "{k = b, s = <a1 a2>}",
+    ),
+    (
+        r"C /\ [k = 'b' : A, l : list([x : A])]",
+        "[k : ~(A@a), l : list([x : ~B])]",
+        "{k = b, l = [{x = a1}]}",
+    ),
+    ("[k = 'b' : A, l : list(A)]", "[k : ~(A@a), l : list(~B)]", "{k = b, l = [a1]}"),
     ("[f : (A -> A)]", "[f : (A -> ~B)]", r"{f = \x:A. a1}"),
     ("(A -> [x : A])", "(A -> [x : ~B])", r"\x:A. {x = a1}"),
 ]
