@@ -259,6 +259,8 @@ def _islands(
             across = ACROSS ** (inner[-1].clause - inner[0].clause)
             for rule, fits in by_rule.items():
                 likely = max(fit for fit, _ in fits)
+                if likely <= 0.0:
+                    continue
                 best = tuple(tree for fit, tree in fits if fit > likely / 2)
                 found.append(Island(first, after, rule, best, likely * across))
     return found

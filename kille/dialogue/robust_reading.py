@@ -71,13 +71,13 @@ FALLBACK = frozenset({"remark", "other_deed", "presumed"})
 VAGUE = FALLBACK | {"alone", "named", "ask_deed"}
 """What may be read of almost any words, so that they are not understood thereby."""
 
-CLAIMS = frozenset(
-    (*LESSONS, "relate", "named", "alone", "presumed", "meant", "placed")
+INDIRECT = frozenset(
+    {"named", "alone", "presumed", "meant", "placed", "identity", "quality_alone"}
 )
-"""The moves that say how things are."""
-
-INDIRECT = frozenset({"named", "alone", "presumed", "meant", "placed"})
 """The claims that are always asked about."""
+
+CLAIMS = frozenset((*LESSONS, "relate", *INDIRECT))
+"""The moves that say how things are."""
 
 OVER_BREAKS = frozenset({"correct", "reject", "named", "meant"})
 """The claims that may go on after a comma: "It is not a cup, it is a mug"."""
@@ -105,6 +105,8 @@ class Situation(NamedTuple):
     """How many things are in view."""
     known: frozenset[str] = frozenset()
     """The words that it knows."""
+    qualities: frozenset[str] = frozenset()
+    """Those of them that say how things are."""
 
 
 class Understanding(NamedTuple):
@@ -186,6 +188,7 @@ def situation_of(s: Record) -> Situation:
         or bool(open_ and open_ not in ("AskReferent", "AskReferentAgain")),
         things=len(s.view.things),
         known=frozenset(it.form for it in words_in(s)),
+        qualities=frozenset(it.form for it in s.private.adjectives),
     )
 
 
@@ -238,7 +241,10 @@ def read_robustly(
     covers = [it for it in covers if it.islands]
     if not covers:
         return _nothing(plain, said, found)
-    ranked = sorted(covers, key=lambda it: (_is_fallback(it), -it.weight))
+    ranked = sorted(
+        covers,
+        key=lambda it: (_is_fallback(it), -it.weight, it.islands[0].first),
+    )
     for n, best in enumerate(ranked):
         read = [
             _read_island(reads, text, best, island, said, lists, is_question, is_sure)
@@ -317,13 +323,14 @@ def _keep_sound(
 ) -> Cover:
     """The cover without islands that may not stand in it as they do: those it misses.
 
-    A yes that answers nothing is not missed beside what is claimed.
+    A yes that answers nothing, and what is said again, is not missed.
     """
     for n, island in enumerate(cover.islands):
         if _may_stand(island, cover, said, situation, is_question):
             continue
         inside = said[island.first : island.after]
-        idle = island.rule == "affirm"
+        again = any(it.rule == island.rule for it in cover.islands[:n])
+        idle = island.rule == "affirm" or (again and island.rule in STRICT)
         gone = () if idle else tuple(it for it in inside if not it.is_harmless)
         less = Cover(
             (*cover.islands[:n], *cover.islands[n + 1 :]),
@@ -350,6 +357,7 @@ def _may_stand(
     inside = said[island.first : island.after]
     is_claim = rule in CLAIMS
     near = cover.missed_near(island, said)
+    earlier = [it for it in cover.islands if it.first < island.first]
     others = [it for it in cover.islands if it != island and it.rule in CLAIMS]
     match rule:
         case _ if rule in FALLBACK and len(cover.islands) > 1:
@@ -358,7 +366,11 @@ def _may_stand(
             return False
         case _ if inside[-1].joins:
             return False
-        case "placed" if len(cover.islands) > 1 or cover.missed:
+        case _ if rule in STRICT and any(it.rule == rule for it in earlier):
+            return False
+        case "placed" | "identity" | "quality_alone" if (
+            len(cover.islands) > 1 or cover.missed
+        ):
             return False
         case "mention":
             return situation.asks_which
@@ -376,7 +388,9 @@ def _may_stand(
             if any(it.is_harmless for it in inside) or len(inside) > LONGEST_NAME:
                 return False
             babble = len({it.form for it in inside}) < len(inside)
-            if others or babble or len(cover.missed) > LONGEST_NAME:
+            after = not any(it < first for it in cover.missed)
+            aside = LONGEST_ASIDE if after else LONGEST_NAME
+            if is_question or others or babble or len(cover.missed) > aside:
                 return False
         case "instruct" if _is_bare(island) and any(map(_has_target, others)):
             return False
@@ -399,7 +413,10 @@ def _may_stand(
 
 
 LONGEST_NAME = 3
-"""How many words a name alone has at most, and what stands beside it."""
+"""How many words a name alone has at most."""
+
+LONGEST_ASIDE = 8
+"""How many words may stand after a name alone; before it, no more than it may have."""
 
 
 def _is_bare(island: Island) -> bool:
@@ -469,6 +486,9 @@ def _weight(situation: Situation, is_question: bool, tree: Tree) -> float:
             return weight * (0.5 if situation.asks_name else 0.25)
         case "remark":
             return weight * 0.02
+        case "quality_alone":
+            known = all(it in situation.qualities for it in _new_words(move))
+            return weight * (0.5 if known or situation.asked == "quality" else 0.0)
         case "presumed":
             new = any(it not in situation.known for it in _new_words(move))
             return weight * (0.05 if new else 0.0)
@@ -476,7 +496,7 @@ def _weight(situation: Situation, is_question: bool, tree: Tree) -> float:
             return weight * (1.0 if rule == f"about_{situation.asked}" else 0.1)
         case "okay" if situation.asks_whether:
             return weight * 0.9
-        case "ask_deed":
+        case "ask_deed" | "count_sort":
             return weight * 0.5
         case "choice":
             return weight * 2.0
@@ -526,10 +546,17 @@ def _is_weak(it: Sentence, situation: Situation, lists: WordLists) -> bool:
     else:
         return True
     return all(
-        "doubt" in one.type
-        or any(not lists.fillers.isdisjoint(sign.form.split()) for sign in one.signs)
+        "doubt" in one.type or any(_is_odd(sign, lists) for sign in one.signs)
         for one in it.readings
     )
+
+
+def _is_odd(sign: Record, lists: WordLists) -> bool:
+    """Whether what was read as a word has a part that is none of such words'."""
+    parts = sign.form.split()
+    if sign.kind == "relation":
+        return not lists.fillers.isdisjoint(parts)
+    return any(map(lists.is_closed, parts))
 
 
 def _is_better(said: Sentence, found: Understanding, lists: WordLists) -> bool:

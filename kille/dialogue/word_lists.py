@@ -75,8 +75,10 @@ class WordLists:
         >>> word_lists("sv").write_out("va e dettahär?")
         'vad är det här?'
         """
+        if not _any_spoken(tuple(self.spoken)).search(text):
+            return text
         for said, written in self.spoken.items():
-            text = re.sub(rf"(?i)(?<![\w'’])(?:{said})(?![\w'’])", written, text)
+            text = re.sub(_spoken(said), written, text)
         return text
 
     def judge_noun(self, form: str, complements: Iterable[str] = ()) -> str:
@@ -118,6 +120,17 @@ class WordLists:
 
     def _is_quality(self, word: str) -> bool:
         return any(it in self.qualities for it in (word, *word.split("-")[-1:]))
+
+
+def _spoken(pattern: str) -> str:
+    """The expression of a form as it is spoken, as whole words in any letters."""
+    return rf"(?i:(?<![\w'’])(?:{pattern})(?![\w'’]))"
+
+
+@lru_cache
+def _any_spoken(patterns: tuple[str, ...]) -> re.Pattern[str]:
+    """One expression for any of the forms; without any, one that fits nothing."""
+    return re.compile("|".join(map(_spoken, patterns)) or r"(?!)")
 
 
 _LONGEST_PHRASE = 8

@@ -77,13 +77,13 @@ def reject_several(s: Record, *, types: DialogueTypes) -> Record | None:
     )
 
 
-@rule(answers=("InstructSeveral", "RejectSeveral"))
+@rule(answers=("InstructSeveral", "InstructSome", "RejectSeveral"))
 def see_none(s: Record, *, types: DialogueTypes) -> Record | None:
     """Nothing is in view that could be meant."""
     return None if s.view.things else plan(s, "SeeNothing", types=types)
 
 
-@rule(answers="InstructSeveral")
+@rule(answers=("InstructSeveral", "InstructSome"))
 def need_single(s: Record, *, types: DialogueTypes) -> Record:
     """It is not plain which things are meant: it asks to be shown one at a time."""
     return plan(s, "NeedSingle", types=types)
