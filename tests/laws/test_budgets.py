@@ -67,7 +67,8 @@ def test_a_normal_form_costs_the_same_whatever_was_asked_before(words):
         steps(theory, part)
     # Which paths lead out of a type is kept with it.
     assert fresh * 0.9 <= steps(theory, whole) <= fresh * 1.1
-    assert steps(theory, whole) == steps(theory, whole)
+    again = steps(theory, whole)
+    assert again == steps(theory, whole) >= fresh * 0.9
 
 
 @given(st.lists(st.sampled_from(WORDS), max_size=3), st.integers(1, 900))
