@@ -8,7 +8,12 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import kind_of, lessons_in
-from kille.dialogue.meanings import DialogueTypes, is_denial, word_of
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    is_denial,
+    word_of,
+)
 from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import things_in
 from kille.dialogue.rules import rule
@@ -32,6 +37,9 @@ FORGOT_WORD = {
 
 ALL = "AskForgetAll"
 """The question whether everything is to be forgotten."""
+
+FORGET = "AskForget"
+"""The question whether a word of another dialogue is to be forgotten."""
 
 
 @rule(answers="ForgetThat")
@@ -58,6 +66,47 @@ def forget_that(s: Record, *, types: DialogueTypes) -> Record | None:
         if it.content in s.shared.here and talked_of & set(things_in(it.content))
     ]
     return plan_forgetting(s, lessons[-1], types=types) if lessons else None
+
+
+@rule(answers="ForgetThat")
+def ask_forget(s: Record, *, types: DialogueTypes) -> Record | None:
+    """What it has claimed was taught in another dialogue: shall it forget the word?"""
+    known = [it.sign for it in s.private.taught]
+    claims_ = s.shared.pending[:1]
+    for sign in words(s):
+        if knows(known, sign) and any(claims(it, sign) for it in claims_):
+            asked = issue(FORGET, [replace(s.shared.latest, signs=[sign])])
+            return plan(
+                s, FORGET, sign.meaning, signs=[sign], asks=[asked], types=types
+            )
+    return None
+
+
+@rule(answers="Affirm")
+def forget_asked(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor wants it to forget the word."""
+    if not _asks_to_forget(s):
+        return None
+    asked, *rest = s.shared.qud
+    [sign] = asked.options[0].signs
+    return _plan_forgetting_word(replace(s, {"shared.qud": rest}), sign, types=types)
+
+
+@rule(answers="Deny")
+def keep_asked(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor wants it to keep the word."""
+    if not _asks_to_forget(s):
+        return None
+    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Noted", types=types)
+
+
+@rule(answers="ForgetThat")
+def forget_that_earlier(s: Record, *, types: DialogueTypes) -> Record | None:
+    """Nothing was taught or said in this dialogue: the latest lesson is unlearned."""
+    before = s.private.taught or s.private.kinds
+    if not before or s.private.lessons or s.private.last:
+        return None
+    return plan(s, "ForgotLast", undoes=["latest"], types=types)
 
 
 @rule(answers="ForgetLast")
@@ -107,17 +156,7 @@ def forget_word(s: Record, *, types: DialogueTypes) -> Record | None:
     for said in s.shared.latest.signs:
         if knows(known, said):
             sign = next(it for it in known if word_of(it) is word_of(said))
-            act = FORGOT_WORD[sign.kind]
-            kinds = [it.key for it in s.private.kinds if knows(it.signs, sign)]
-            return plan(
-                s,
-                act,
-                sign.meaning,
-                signs=[sign],
-                drops=[sign],
-                forgets=kinds,
-                types=types,
-            )
+            return _plan_forgetting_word(s, sign, types=types)
     return None
 
 
@@ -140,6 +179,25 @@ def forget_earlier(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "ForgotLast", undoes=["latest"], types=types)
 
 
+def _asks_to_forget(s: Record) -> bool:
+    """Whether the question under discussion is if a word is to be forgotten."""
+    return bool(s.shared.qud) and s.shared.qud[0].ask == FORGET
+
+
+def _plan_forgetting_word(s: Record, sign: Record, *, types: DialogueTypes) -> Record:
+    """The plan to forget a word, with all its lessons and what was said of its kind."""
+    kinds = [it.key for it in s.private.kinds if knows(it.signs, sign)]
+    return plan(
+        s,
+        FORGOT_WORD[sign.kind],
+        sign.meaning,
+        signs=[sign],
+        drops=[sign],
+        forgets=kinds,
+        types=types,
+    )
+
+
 def plan_forgetting(s: Record, *lessons: Record, types: DialogueTypes) -> Record:
     """The plan to unlearn lessons that say the same."""
     lesson = lessons[-1]
@@ -157,6 +215,8 @@ def plan_forgetting(s: Record, *lessons: Record, types: DialogueTypes) -> Record
 FORGETTING = first(
     forget_claim,
     forget_that,
+    ask_forget,
+    forget_that_earlier,
     forget_last,
     ask_forget_all,
     forget_word,
@@ -165,5 +225,5 @@ FORGETTING = first(
     forget_earlier,
 )
 
-FORGET_ANSWERED = first(forget_all, forget_none)
-"""What answers whether everything is to be forgotten."""
+FORGET_ANSWERED = first(forget_all, forget_none, forget_asked, keep_asked)
+"""What answers whether a word, or everything, is to be forgotten."""

@@ -255,7 +255,13 @@ def _plain_answers(talk: WorldTalk, asked: str) -> Sayings:
         case "AskFrame":
             return perspectives_by_side(talk)
         case (
-            "OfferWord" | "AskHeard" | "AskKind" | "AskHow" | "AskBoth" | "AskKindStill"
+            "OfferWord"
+            | "AskHeard"
+            | "AskKind"
+            | "AskHow"
+            | "AskBoth"
+            | "AskKindStill"
+            | "AskForget"
         ):
             return [it for act in _YES_OR_NO for it in _worldless_sayings(talk, act)]
     return talk.sayings("mention")

@@ -78,7 +78,14 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
     options = len(question.options)
     match question.ask, move:
         case (
-            ("OfferWord" | "AskKind" | "AskHow" | "AskBoth" | "AskKindStill"),
+            (
+                "OfferWord"
+                | "AskKind"
+                | "AskHow"
+                | "AskBoth"
+                | "AskKindStill"
+                | "AskForget"
+            ),
             "affirm" | "deny",
         ):
             return True
