@@ -7,8 +7,7 @@ look holds of it in the next; `shared.here` is what was said of things since the
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from itertools import product
+from collections.abc import Collection, Iterable, Sequence
 
 from kille.dialogue.beliefs import Beliefs
 from kille.dialogue.meanings import (
@@ -21,8 +20,8 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.moves import plan
 from kille.dialogue.reference import PARTS, thing_at, things_in
+from kille.dialogue.reference.resolving import taught_words
 from kille.dialogue.state import words
-from kille.dialogue.taxonomy import is_kind_of
 from ttr import Pred, Record, RecordType, replace
 
 LEARNED = {"c": "Learned", "a": "LearnedQuality", "rel": "LearnedRelation"}
@@ -109,31 +108,10 @@ def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
     The tutor decides what words mean: the robot does not deny that a thing is red which
     the tutor has just called red, whatever most people would call it.
     """
-    told = {
-        (word_of(it.sign), thing_at(it.content, "target")): not is_denial(it.content)
-        for it in s.private.lessons
-        if it.content in s.shared.here and "rel" not in it.content
-    }
-    told = _follow_kinds(s, told)
+    told = taught_words(s)
     known = ((it, told.get((word_of(it.sign), it.sit.x))) for it in beliefs)
     certain = [it if so is None else replace(it, p=float(so)) for it, so in known]
     return sorted(certain, key=lambda it: (-it.p, it.sign.form))
-
-
-def _follow_kinds(
-    s: Record, told: Mapping[tuple[Pred, str | None], bool]
-) -> dict[tuple[Pred, str | None], bool]:
-    """What was told of things, and what follows by the axioms of kinds of things."""
-    found = dict(told)
-    for lower, upper in product(s.private.nouns, repeat=2) if s.private.kinds else ():
-        if not is_kind_of(s, lower, upper):
-            continue
-        for (word, x), so in told.items():
-            if so and word is word_of(lower):
-                found.setdefault((word_of(upper), x), True)
-            if not so and word is word_of(upper):
-                found.setdefault((word_of(lower), x), False)
-    return found
 
 
 def is_here(s: Record, claim: RecordType, *, types: DialogueTypes) -> bool:
@@ -167,6 +145,26 @@ def effects_of_rejection(
         forgets += (it.key for it in taught)
         if not taught or any(same(claim, it) for it in s.shared.pending):
             teaches.append(denial(claim))
+    return teaches, forgets
+
+
+def effects_of_denial(
+    s: Record, claims: Iterable[RecordType], *, types: DialogueTypes
+) -> tuple[list[RecordType], list[str]]:
+    """What is learned and which lessons are unlearned when the tutor only says no.
+
+    One no does not undo several lessons: of those that say what was claimed the last
+    one is unlearned. What was taught once, or never, is rejected.
+    """
+    teaches: list[RecordType] = []
+    forgets: list[str] = []
+    for claim in claims:
+        taught = lessons_in(s, claim, types=types)
+        if len(taught) > 1:
+            forgets.append(taught[-1].key)
+            continue
+        learned, unlearned = effects_of_rejection(s, [claim], types=types)
+        teaches, forgets = [*teaches, *learned], [*forgets, *unlearned]
     return teaches, forgets
 
 

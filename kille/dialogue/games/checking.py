@@ -13,9 +13,16 @@ from kille.dialogue.beliefs import (
     special_name,
 )
 from kille.dialogue.commitments import as_told
-from kille.dialogue.meanings import DialogueTypes, claims, denial, set_to
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    denial,
+    set_to,
+    word_of,
+)
 from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
+from kille.dialogue.reference.resolving import taught_words
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from kille.dialogue.taxonomy import subsumption, without_related
@@ -145,8 +152,10 @@ def _p(s: Record) -> float:
 
 
 def _is_so(s: Record) -> bool:
-    """Whether it is sure; of nouns there must be no near rival."""
+    """Whether it is sure; of nouns there must be no near rival, or it was told so."""
     if _asked_word(s).kind == "noun":
+        if taught_words(s).get((word_of(_asked_word(s)), _things(s)[0])):
+            return True
         return _sure_of_first(s) and knows([s.private.beliefs[0].sign], _asked_word(s))
     return bool(_p(s) >= s.private.strategy.bands.sure)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from kille.dialogue.commitments import (
     affirmation,
-    effects_of_rejection,
+    effects_of_denial,
     plan_learning,
     signs_for,
 )
@@ -61,10 +61,13 @@ def learn_after_all(s: Record, *, types: DialogueTypes) -> Record | None:
 
 @rule(answers="Deny")
 def ask_again(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The tutor rejects what the robot claimed: it learns that, and asks."""
+    """The tutor rejects what the robot claimed: it learns that, and asks.
+
+    Of what it was taught several times of this thing it takes back the last lesson.
+    """
     if not s.shared.pending:
         return None
-    teaches, forgets = effects_of_rejection(s, s.shared.pending, types=types)
+    teaches, forgets = effects_of_denial(s, s.shared.pending, types=types)
     signs = signs_for(s, *teaches)
     return plan(
         s, "AskAgain", signs=signs, teaches=teaches, forgets=forgets, types=types

@@ -159,11 +159,23 @@ def _plan_unknown_word(s: Record, *, types: DialogueTypes) -> Record | None:
 
 
 def _claim_in_question(s: Record) -> RecordType | None:
-    """The claim that a question is about: the one in it, or what was claimed last."""
+    """The claim that a question is about: the one in it, or what was claimed last.
+
+    What has just been confirmed, corrected, taught or explained is a claim too.
+    """
     asked = content_of(s)
     if kind_of(asked) is not None:
         return asked
-    return s.shared.pending[0] if s.shared.pending else None
+    if s.shared.pending:
+        claimed: RecordType = s.shared.pending[0]
+        return claimed
+    told = [
+        it
+        for move in s.private.last
+        for label in ("teaches", "explains")
+        for it in value_at(move, label)
+    ]
+    return told[-1] if told else None
 
 
 def _still_claimed(s: Record, claim: RecordType) -> Sequence[RecordType]:

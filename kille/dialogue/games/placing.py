@@ -22,7 +22,10 @@ Update = tuple[Record, Model]
 
 @rule(answers="AskPlace")
 def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
-    """The tutor asks where a thing is: say how it stands to the best-known other."""
+    """The tutor asks where a thing is: say how it stands to the best-known other.
+
+    Where it has no word for that, it says how the other one stands to it.
+    """
     x = thing_at(content_of(s), "target")
     if x is None or x not in s.view.placed:
         return None
@@ -35,6 +38,10 @@ def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None
             s, "NeedLandmark", thing.sign.meaning, signs=[thing.sign], types=types
         ), model
     relations, model = relations_of(s, model, x, landmark.sit.x)
+    if not thinks(s, relations):
+        converse, model = relations_of(s, model, landmark.sit.x, x)
+        if thinks(s, converse):
+            thing, landmark, relations = landmark, thing, converse
     believing = replace(s, {"private.beliefs": relations})
     return _plan_place(believing, thing, landmark, relations, types=types), model
 

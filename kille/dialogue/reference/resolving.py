@@ -11,9 +11,11 @@ from typing import NamedTuple, TypeVar
 
 from kille.dialogue.meanings import (
     DialogueTypes,
+    is_denial,
     packaged_types,
     set_at,
     set_to,
+    word_of,
 )
 from kille.dialogue.reference.parts import Claim, PhraseParts, take_apart
 from kille.dialogue.reference.perspectives import front_of
@@ -24,6 +26,7 @@ from kille.dialogue.reference.salience import (
     just_mentioned,
     shown_things,
 )
+from kille.dialogue.taxonomy import is_kind_of
 from ttr import Model, Pred, Record, RecordType, rectype
 from ttr.types import Singleton
 from ttr.types.objects import Object
@@ -102,6 +105,33 @@ def thing_at(content: RecordType, label: str) -> str | None:
     if isinstance(part, RecordType) and isinstance(part["x"], Singleton):
         return str(part["x"].value)
     return None
+
+
+def taught_words(s: Record) -> Mapping[tuple[Pred, str], bool]:
+    """The words that the tutor has said, or denied, of things in view.
+
+    So are those that follow from it by the axioms of kinds of things.
+    """
+    here = frozenset(s.shared.here)
+    told = {
+        (word_of(it.sign), x): not is_denial(it.content)
+        for it in s.private.lessons
+        if it.content in here and "rel" not in it.content
+        for x in (thing_at(it.content, "target"),)
+        if x is not None
+    }
+    if not s.private.kinds:
+        return told
+    found = dict(told)
+    for lower, upper in product(s.private.nouns, repeat=2):
+        if not is_kind_of(s, lower, upper):
+            continue
+        for (word, x), so in told.items():
+            if so and word is word_of(lower):
+                found.setdefault((word_of(upper), x), True)
+            if not so and word is word_of(upper):
+                found.setdefault((word_of(lower), x), False)
+    return found
 
 
 def phrase_at(content: RecordType, label: str) -> RecordType:
@@ -261,6 +291,7 @@ class PhraseJudge:
     ) -> None:
         self._types = types or packaged_types()
         self._s, self._model = s, in_talk(s, model, types=self._types)
+        self._taught = taught_words(s)
         self._degrees: dict[Claim, float] = {}
 
     def fits(
@@ -326,9 +357,16 @@ class PhraseJudge:
         )
 
     def degree(self, pred: Pred, *args: Object) -> float:
-        """How probable a claim is, by the witness function of its predicate."""
+        """How probable a claim is, by the witness function of its predicate.
+
+        What the tutor has said of a thing in view is certain.
+        """
         claim = pred, args
         known = self._degrees.get(claim)
+        if known is None and self._taught and len(args) == 2:
+            taught = self._taught.get((pred, str(args[0])))
+            if taught is not None:
+                known = self._degrees[claim] = float(taught)
         if known is None:
             seen = self._model.facts.perceive(None, pred(*args))
             known = self._degrees[claim] = 0.0 if seen is None else seen.lo

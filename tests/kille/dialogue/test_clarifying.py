@@ -87,6 +87,8 @@ def test_a_word_is_known_though_nothing_in_view_is_called_so(scene: Scenes) -> N
     robot = scene(1)
     assert robot.acts("Where is the mug?") == ["unknown_noun"]
     assert robot.acts("This is a mug.") == ["learned"]
+    assert robot.acts("Where is the mug?") == ["need_landmark"]
+    robot.look(kept=())
     assert robot.acts("Where is the mug?") == ["see_no_such"]
 
 
