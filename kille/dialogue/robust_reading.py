@@ -230,6 +230,10 @@ def read_robustly(
     reads = reader(language, types or packaged_types())
     plain = lists.write_out(" ".join(replace_lookalikes(text).split()))
     plain, is_sure = repair(plain, lists)
+    if is_sure and plain != text:
+        whole = reads.sentences(plain)
+        if all(it.readings and not _is_weak(it, situation, lists) for it in whole):
+            return Understanding(whole, (plain,), ())
     said = words_of(plain, lists)
     grammar = reads.island_grammar
     if grammar is None:
@@ -381,6 +385,8 @@ def _may_stand(
             return False
         case "affirm" | "deny" if others or is_question:
             return False
+        case "deny" if any(it.rule == "okay" for it in cover.islands):
+            return False
         case "affirm" | "deny" if cover.missed:
             begins = all(it.is_harmless for it in said[: island.first])
             return situation.asks_whether and begins
@@ -460,6 +466,8 @@ def _doubt(
     if lists.is_unreal(forms):
         return SAYING
     near = {it.form for it in cover.missed_near(island, said)}
+    if rule in INDIRECT:
+        near |= {it.form for it in said[island.first : island.after]}
     if near & lists.negations:
         return SAYING
     asks = is_question and all(it.is_harmless for it in said[island.after :])
@@ -477,7 +485,7 @@ def _weight(situation: Situation, is_question: bool, tree: Tree) -> float:
         weight *= ASKED
     match rule:
         case "affirm" | "deny":
-            return weight * (1.0 if situation.asks_whether else 0.2)
+            return weight * (1.0 if situation.asks_whether else 0.95)
         case "mention":
             return weight * (1.0 if situation.asks_which else 0.02)
         case "take_frame":
