@@ -222,6 +222,7 @@ def test_it_tells_what_it_was_taught_of_kinds(table: Any, text: str) -> None:
         "Forget that mugs are cups.",
         "A mug is not a kind of cup.",
         "No, mugs are not cups.",
+        "Mugs aren't cups.",
     ],
 )
 def test_it_is_taken_back(table: Any, text: str) -> None:
