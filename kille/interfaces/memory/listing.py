@@ -17,11 +17,15 @@ from ttr.escapes import terminal_word
 
 @dataclass(frozen=True)
 class _Entry:
-    """A word of the list."""
+    """A word of the list: in how many lessons it was said to hold, or not to.
+
+    The former is what the robot says when it is asked what it knows.
+    """
 
     word: str
     kind: str
     lessons: int
+    denied: int
     last_taught: str
 
 
@@ -60,20 +64,29 @@ def _entries(lessons: Sequence[Lesson]) -> list[_Entry]:
     taught: dict[tuple[str, str], list[Lesson]] = {}
     for lesson in lessons:
         word = lesson.word
-        taught.setdefault((word.surface, word.kind), []).append(lesson)
-    return [
-        _Entry(word, kind, len(some), some[-1].turn.time)
-        for (word, kind), some in sorted(taught.items())
-    ]
+        taught.setdefault((word.name, word.kind), []).append(lesson)
+    return sorted(map(_entry, taught.values()), key=lambda it: (it.word, it.kind))
+
+
+def _entry(lessons: Sequence[Lesson]) -> _Entry:
+    """The entry of a word, as it was said when it was first said to hold."""
+    holding = [it for it in lessons if it.holds]
+    word = (holding or lessons)[0].word
+    count = len(holding)
+    last = lessons[-1].turn.time
+    return _Entry(word.surface, word.kind, count, len(lessons) - count, last)
 
 
 def _table(path: Path, entries: Sequence[_Entry]) -> Table:
     title = terminal_word(str(path))
     table = Table(title=title, title_justify="left", box=None, pad_edge=False)
-    for heading in ("word", "kind", "lessons", "last taught"):
-        side: Literal["left", "right"] = "right" if heading == "lessons" else "left"
+    denied = ["denied"] if any(entry.denied for entry in entries) else []
+    for heading in ("word", "kind", "lessons", *denied, "last taught"):
+        counts = heading in ("lessons", "denied")
+        side: Literal["left", "right"] = "right" if counts else "left"
         table.add_column(heading, justify=side, overflow="fold")
     for entry in entries:
         word, last = terminal_word(entry.word), terminal_word(when(entry.last_taught))
-        table.add_row(word, entry.kind, str(entry.lessons), last)
+        numbers = [entry.lessons, entry.denied] if denied else [entry.lessons]
+        table.add_row(word, entry.kind, *map(str, numbers), last)
     return table

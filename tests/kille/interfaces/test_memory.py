@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 import pytest
 
+from kille.agent.agent import Agent
 from kille.interfaces.memory.half_blocks import half_blocks
 from kille.memory import Arrangement, Memory, Picture, Scan, Sighting, Turn, Word
 from kille.perception.thumbnails import evidence_of
@@ -100,6 +101,35 @@ def test_a_word_of_several_words_or_a_number_will_do(
     out = kille("memory", "show", *named).out
     assert out.startswith("can of paint (a thing), lesson 3\n")
     assert "no picture was kept" in out
+
+
+def test_words_are_counted_as_the_robot_counts_them(kille: Run, memory: Path) -> None:
+    with Agent("synthetic:empty?seed=43", memory, scans=2) as robot:
+        robot.do("show cup")
+        for text in ("This is a cup.", "This is a cup.", "This is not a mug."):
+            robot.hear(text)
+        robot.hear("This is striped.")
+        robot.do("show mug")
+        robot.hear("This is not a cup.")
+        said = robot.hear("What do you know?")
+    assert "cup (2 lessons)" in said
+    assert "striped (one lesson)" in said
+    assert "mug" not in said
+    listed = json.loads(kille("memory", "list", "--json").out)
+    told = {it["word"]: (it["lessons"], it["denied"]) for it in listed}
+    assert told == {"cup": (2, 1), "mug": (0, 1), "striped": (1, 0)}
+
+
+def test_what_does_not_hold_has_a_column_of_its_own(kille: Run, taught: Path) -> None:
+    assert "  denied  " not in kille("memory", "list").out
+    seen = Sighting("synthetic", 0.0, (), None)
+    with Memory.open(taught) as it:
+        dialogue = it.begin_dialogue("2026-02-01T12:00:00+00:00")
+        turn = Turn(dialogue, 1, "tutor", "Not a cup.", "", "2026-02-01T12:00")
+        it.learn_object(turn, "cup", "cup", seen, holds=False)
+    listed = kille("memory", "list").out
+    assert re.search(r"word +kind +lessons +denied +last taught", listed)
+    assert re.search(r"cup +object +2 +1 ", listed)
 
 
 def test_a_kind_of_a_kind_is_listed_and_shown(kille: Run, taught: Path) -> None:
