@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import product
 from math import prod
 from typing import NamedTuple, TypeVar
@@ -112,14 +112,14 @@ def taught_words(s: Record) -> Mapping[tuple[Pred, str], bool]:
 
     So are those that follow from it by the axioms of kinds of things.
     """
-    here = frozenset(s.shared.here)
-    told = {
-        (word_of(it.sign), x): not is_denial(it.content)
-        for it in s.private.lessons
-        if it.content in here and "rel" not in it.content
-        for x in (thing_at(it.content, "target"),)
-        if x is not None
-    }
+    here = frozenset(s.shared.here) if s.private.lessons else frozenset()
+    told: dict[tuple[Pred, str], bool] = {}
+    for it in s.private.lessons if here else ():
+        content = it.content
+        if content in here:
+            x, so = _taught_thing(content)
+            if x is not None:
+                told[word_of(it.sign), x] = so
     if not s.private.kinds:
         return told
     found = dict(told)
@@ -132,6 +132,13 @@ def taught_words(s: Record) -> Mapping[tuple[Pred, str], bool]:
             if not so and word is word_of(upper):
                 found.setdefault((word_of(lower), x), False)
     return found
+
+
+@lru_cache(4096)
+def _taught_thing(content: RecordType) -> tuple[str | None, bool]:
+    """The thing of which a lesson says a word, or denies it; None if there are two."""
+    x = None if "rel" in content else thing_at(content, "target")
+    return x, not is_denial(content)
 
 
 def phrase_at(content: RecordType, label: str) -> RecordType:
