@@ -10,6 +10,7 @@ claimed, and no claim is made of a sentence whose "not" would be left out.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import NamedTuple
@@ -81,6 +82,9 @@ CLAIMS = frozenset((*LESSONS, "relate", *INDIRECT))
 
 OVER_BREAKS = frozenset({"correct", "reject", "named", "meant"})
 """The claims that may go on after a comma: "It is not a cup, it is a mug"."""
+
+_UNSPEAKABLE = re.compile(r"[<>\[\]{}|\\^=@\x00-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e]")
+"""Signs of markup, of programs and of terminals: what has any is not talk."""
 
 NEW = 0.8
 """The factor for every word of an island that the robot does not know."""
@@ -236,7 +240,7 @@ def read_robustly(
             return Understanding(whole, (plain,), ())
     said = words_of(plain, lists)
     grammar = reads.island_grammar
-    if grammar is None:
+    if grammar is None or _UNSPEAKABLE.search(text):
         return Understanding((), (), ())
     is_question = plain.rstrip().endswith("?")
     weigh = partial(_weight, situation, is_question)

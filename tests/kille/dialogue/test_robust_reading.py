@@ -156,6 +156,11 @@ def test_a_long_text_is_not_read_by_its_parts() -> None:
     assert not read_robustly("so " * 60 + "a cup", Situation(things=1)).moves
 
 
+@pytest.mark.parametrize("text", ["<b>cup", "a cup = 1", "\x1b]0;cup\x07", "[cup]"])
+def test_what_is_no_talk_is_not_read(text: str) -> None:
+    assert not read_robustly(text, Situation(things=1)).moves
+
+
 def test_a_sentence_of_the_grammar_needs_no_parts() -> None:
     for text in ("This is a cup.", "What is this?", "Where is the book?"):
         assert not needs_parts(understand(text), Situation(things=1))
