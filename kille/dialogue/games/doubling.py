@@ -8,7 +8,12 @@ what it takes the thing for, the tutor knows that, and it does not ask.
 
 from __future__ import annotations
 
-from kille.dialogue.commitments import plan_learning, same, signs_for
+from kille.dialogue.commitments import (
+    opposite_lesson_keys,
+    plan_learning,
+    same,
+    signs_for,
+)
 from kille.dialogue.games.correcting import CORRECTED
 from kille.dialogue.meanings import DialogueTypes, claims, is_denial
 from kille.dialogue.moves import content_of, issue, plan
@@ -102,7 +107,7 @@ def _plan_either(s: Record, *, types: DialogueTypes) -> Record | None:
         old,
         signs=(*asked.options[0].signs, *signs_for(s, old, new)),
         teaches=[new],
-        forgets=before,
+        forgets=[*before, *opposite_lesson_keys(s, new, types=types)],
         types=types,
     )
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from kille.dialogue.commitments import lessons_in, same
@@ -289,6 +289,7 @@ def test_what_was_taught_in_an_earlier_look_is_unlearned(table: Any) -> None:
 
 
 @given(st.lists(SAID, max_size=8))
+@example(["This is a mug.", "This is not a cup.", "This is a cup.", "This is a cup."])
 def test_no_two_lessons_about_a_thing_contradict_each_other(
     scene: Callable[..., Any], texts: list[str]
 ) -> None:
