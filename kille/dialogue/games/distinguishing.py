@@ -35,9 +35,9 @@ def say_which(s: Record, *, model: Model, types: DialogueTypes) -> Record | None
     if len(s.view.things) < 2 or not s.private.agenda:
         return None
     planned, *others = s.private.agenda
-    content = value_at(planned, "content")
     if predicate_at(planned, "e").name not in LESSONS:
         return None
+    content = value_at(planned, "content")
     if not isinstance(content, RecordType):
         return None
     x = thing_at(content, "target")

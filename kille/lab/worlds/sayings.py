@@ -251,7 +251,7 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
             return [Matter()]
         case ["word"]:
             return map(word_matter, talk.words.all)
-        case ["counted"]:
+        case ["counted"] | ["a_counted"]:
             return (Matter("", (("counted", it),)) for it in nouns)
         case ["a_subkind", "superkind"]:
             pairs = islice(permutations(nouns, 2), PAIRS)

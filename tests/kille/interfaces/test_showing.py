@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from kille import Agent
 from kille.agent.attention import AttentiveSensor
-from kille.interfaces.formatting import claims, derivation, show_nothing, things_in_view
+from kille.interfaces.formatting import ACCOUNTS, claims, derivation, things_in_view
 from kille.interfaces.terminal import hang_text, hanging_type
 
 WIDTH = 100
@@ -52,7 +52,7 @@ def test_claims_are_what_was_heard_judged_and_said() -> None:
         told = dict(claims(turn))
         assert told["heard"].endswith(" : ask_name(tutor, robot)")
         assert ": cup(o1, look" in told["judged"]
-        assert list(show_nothing(turn)) == []
+        assert list(ACCOUNTS["none"](turn)) == []
 
 
 def test_a_derivation_names_each_rule_that_ran() -> None:
