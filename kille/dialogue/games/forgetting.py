@@ -121,7 +121,12 @@ def forget_last(s: Record, *, types: DialogueTypes) -> Record | None:
 
 @rule(answers="ForgetAll")
 def ask_forget_all(s: Record, *, types: DialogueTypes) -> Record:
-    """The tutor wants everything forgotten: that cannot be undone, so it asks."""
+    """The tutor wants everything forgotten: that cannot be undone, so it asks.
+
+    Where nothing was taught there is nothing to ask.
+    """
+    if not _taught_words(s):
+        return plan(s, "ForgetNothing", types=types)
     return plan(s, ALL, asks=[issue(ALL, [s.shared.latest])], types=types)
 
 
@@ -130,10 +135,8 @@ def forget_all(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor means it: every word that was taught is forgotten."""
     if not _asks_all(s):
         return None
-    known = [it for it in words(s) if not knows(s.private.colours, it)]
+    known = _taught_words(s)
     left = replace(s, {"shared.qud": s.shared.qud[1:]})
-    if not known:
-        return plan(left, "ForgetNothing", types=types)
     return plan(left, "ForgotAll", signs=known, drops=known, types=types)
 
 
@@ -143,6 +146,11 @@ def forget_none(s: Record, *, types: DialogueTypes) -> Record | None:
     if not _asks_all(s):
         return None
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Noted", types=types)
+
+
+def _taught_words(s: Record) -> list[Record]:
+    """The words that it knows, but for the colours that it came with."""
+    return [it for it in words(s) if not knows(s.private.colours, it)]
 
 
 def _asks_all(s: Record) -> bool:

@@ -156,6 +156,12 @@ def test_all_that_was_taught_is_forgotten_after_a_yes(table: Any, text: str) -> 
     assert not table.state.shared.qud
 
 
+def test_where_nothing_was_taught_nothing_is_asked(scene: Callable[..., Any]) -> None:
+    table = scene(things=1)
+    assert table.acts("Forget everything.") == ["forget_nothing"]
+    assert not table.state.shared.qud
+
+
 @pytest.mark.parametrize("text", ["No.", "Hello.", "What is this?"])
 def test_without_a_yes_nothing_is_forgotten(table: Any, text: str) -> None:
     table.hear("This is red.")
