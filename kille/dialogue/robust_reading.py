@@ -24,7 +24,7 @@ from kille.dialogue.islands import (
     repair,
     words_of,
 )
-from kille.dialogue.language import LESSONS, Reader, Sentence, reader
+from kille.dialogue.language import LESSONS, Sentence, reader
 from kille.dialogue.lookalikes import replace_lookalikes
 from kille.dialogue.meanings import DialogueTypes, packaged_types, predicate_at
 from kille.dialogue.parsing import Tree, parts
@@ -248,37 +248,29 @@ def read_robustly(
     covers = [_keep_sound(it, said, situation, is_question) for it in found]
     covers = [it for it in covers if it.islands]
     if not covers:
-        return _nothing(plain, said, found)
+        return _phrases(plain, said, found)
     ranked = sorted(
         covers,
         key=lambda it: (_is_fallback(it), -it.weight, it.islands[0].first),
     )
+
+    def read(cover: Cover, island: Island) -> Sentence:
+        """How an island can be read as a move, doubted where it must be."""
+        doubt = _doubt(cover, island, said, lists, is_question, is_sure)
+        moves = dict.fromkeys(part for tree in island.trees for part in parts(tree))
+        return Sentence(text, reads.readings(text, moves, doubt))
+
     for n, best in enumerate(ranked):
-        read = [
-            _read_island(reads, text, best, island, said, lists, is_question, is_sure)
-            for island in best.islands
-        ]
-        moves = {it.readings[0].type: it for it in reversed(read) if it.readings}
+        heard = [read(best, island) for island in best.islands]
+        moves = {it.readings[0].type: it for it in reversed(heard) if it.readings}
         if not moves:
             continue
         found_moves = tuple(reversed(moves.values()))
         if len(found_moves) == len(best.islands) == 1:
             rivals = [
-                (it.weight, other)
+                (it.weight, read(it, it.islands[0]))
                 for it in ranked[n + 1 :]
                 if _are_rivals(it, best)
-                for other in [
-                    _read_island(
-                        reads,
-                        text,
-                        it,
-                        it.islands[0],
-                        said,
-                        lists,
-                        is_question,
-                        is_sure,
-                    )
-                ]
             ]
             found_moves = (_with_rivals(found_moves[0], best.weight, rivals),)
         return Understanding(
@@ -287,7 +279,7 @@ def read_robustly(
             tuple(plain[it.begin : it.end] for it in best.missed),
             _is_fallback(best),
         )
-    return _nothing(plain, said, found)
+    return _phrases(plain, said, found)
 
 
 def _are_rivals(cover: Cover, best: Cover) -> bool:
@@ -314,7 +306,7 @@ def _with_rivals(
     return Sentence(best.text, tuple(readings), tuple(weights))
 
 
-def _nothing(plain: str, said: Sequence[Word], found: Sequence[Cover]) -> Understanding:
+def _phrases(plain: str, said: Sequence[Word], found: Sequence[Cover]) -> Understanding:
     """No move, but perhaps phrases that are understood."""
     phrases = [
         _text(plain, said, it)
@@ -436,22 +428,6 @@ def _is_bare(island: Island) -> bool:
 
 def _has_target(island: Island) -> bool:
     return not _is_bare(island)
-
-
-def _read_island(
-    reads: Reader,
-    text: str,
-    cover: Cover,
-    island: Island,
-    said: Sequence[Word],
-    lists: WordLists,
-    is_question: bool,
-    is_sure: bool,
-) -> Sentence:
-    """How an island can be read as a move, doubted where it must be."""
-    doubt = _doubt(cover, island, said, lists, is_question, is_sure)
-    moves = dict.fromkeys(part for tree in island.trees for part in parts(tree))
-    return Sentence(text, reads.readings(text, moves, doubt))
 
 
 def _doubt(

@@ -153,47 +153,49 @@ def test_whoever_says_what_is_not_so_means_all_lessons(
 
 
 @pytest.fixture
-def experienced(scene: Callable[..., Any]) -> Any:
+def taught_robot(scene: Callable[..., Any]) -> Any:
     """A robot that was taught the word cup in another dialogue."""
     known, cup = {("cup", "o1"): 0.9}, record(sign=noun("cup"), lessons=2.0)
     return scene(2, nouns=["cup"], known=known, taught=[cup])
 
 
-def test_it_asks_before_it_forgets_a_word_of_another_dialogue(experienced: Any) -> None:
-    experienced.hear("What is this?")
-    assert experienced.acts("Forget that.") == ["ask_forget"]
-    assert experienced.acts("Yes.") == ["forgot_noun"]
-    assert experienced.state.private.taught == ()
+def test_it_asks_before_it_forgets_a_word_of_another_dialogue(
+    taught_robot: Any,
+) -> None:
+    taught_robot.hear("What is this?")
+    assert taught_robot.acts("Forget that.") == ["ask_forget"]
+    assert taught_robot.acts("Yes.") == ["forgot_noun"]
+    assert taught_robot.state.private.taught == ()
 
 
-def test_it_keeps_the_word_if_the_tutor_says_no(experienced: Any) -> None:
-    experienced.hear("What is this?")
-    experienced.hear("Forget that.")
-    assert experienced.acts("No.") == ["noted"]
-    assert len(experienced.state.private.taught) == 1
-    assert experienced.acts("Yes.") == ["wonder"]
+def test_it_keeps_the_word_if_the_tutor_says_no(taught_robot: Any) -> None:
+    taught_robot.hear("What is this?")
+    taught_robot.hear("Forget that.")
+    assert taught_robot.acts("No.") == ["noted"]
+    assert len(taught_robot.state.private.taught) == 1
+    assert taught_robot.acts("Yes.") == ["wonder"]
 
 
-def test_anything_else_drops_the_question(experienced: Any) -> None:
-    experienced.hear("What is this?")
-    experienced.hear("Forget that.")
-    assert experienced.acts("What is this?") == ["assert_name"]
-    assert experienced.acts("Yes.") == ["learned"]
+def test_anything_else_drops_the_question(taught_robot: Any) -> None:
+    taught_robot.hear("What is this?")
+    taught_robot.hear("Forget that.")
+    assert taught_robot.acts("What is this?") == ["assert_name"]
+    assert taught_robot.acts("Yes.") == ["learned"]
 
 
-def test_a_lesson_of_this_dialogue_is_forgotten_first(experienced: Any) -> None:
-    experienced.hear("This is a cup.")
-    experienced.hear("What is this?")
-    assert experienced.acts("Forget that.") == ["forgot"]
-    experienced.hear("What is this?")
-    assert experienced.acts("Forget that.") == ["ask_forget"]
+def test_a_lesson_of_this_dialogue_is_forgotten_first(taught_robot: Any) -> None:
+    taught_robot.hear("This is a cup.")
+    taught_robot.hear("What is this?")
+    assert taught_robot.acts("Forget that.") == ["forgot"]
+    taught_robot.hear("What is this?")
+    assert taught_robot.acts("Forget that.") == ["ask_forget"]
 
 
 def test_where_nothing_was_said_the_latest_lesson_is_forgotten(
-    experienced: Any,
+    taught_robot: Any,
 ) -> None:
-    assert experienced.acts("Forget that.") == ["forgot_last"]
-    assert experienced.acts("Forget that.") == ["forget_nothing"]
+    assert taught_robot.acts("Forget that.") == ["forgot_last"]
+    assert taught_robot.acts("Forget that.") == ["forget_nothing"]
 
 
 # --- law: what was taught is affirmed -------------------------------------------------

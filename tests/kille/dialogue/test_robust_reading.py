@@ -42,7 +42,7 @@ def classes(language: str) -> Sequence[dict[str, Any]]:
     return listed
 
 
-def said() -> Iterator[tuple[str, Situation, str, str]]:
+def utterances() -> Iterator[tuple[str, Situation, str, str]]:
     for language in LANGUAGES:
         for kind in classes(language):
             situation = Situation(**kind["situation"], known=KNOWN[language])
@@ -62,7 +62,7 @@ def move_of(sentence: Sentence) -> str:
     return " ".join([predicate_at(best, "e").name + MARKS[doubt], *words])
 
 
-@pytest.mark.parametrize(("language", "situation", "text", "moves"), list(said()))
+@pytest.mark.parametrize(("language", "situation", "text", "moves"), list(utterances()))
 def test_what_is_understood(
     language: str, situation: Situation, text: str, moves: str
 ) -> None:
