@@ -475,6 +475,22 @@ def value_at(T: RecordType, label: str) -> Object:
     raise TypeError(f"the field {label} of {T} is not set to anything")
 
 
+def values_at(T: RecordType, label: str) -> tuple[Object, ...]:
+    """What a field for a list is set to; nothing where it is not set.
+
+    A rule of one's own may plan a move and leave open what the robot does thereby.
+
+    >>> from ttr import Ind, ListOf
+    >>> values_at(rectype(x=ListOf(Ind) @ ("o1", "o2")), "x")
+    ('o1', 'o2')
+    >>> values_at(rectype(x=ListOf(Ind)), "x")
+    ()
+    """
+    field = T[label]
+    found = field.value if isinstance(field, Singleton) else ()
+    return found if isinstance(found, tuple) else ()
+
+
 def predicate_at(T: RecordType, label: str) -> Pred:
     """The predicate of the ptype that a field has."""
     field = T[label]

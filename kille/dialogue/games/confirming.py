@@ -12,7 +12,7 @@ from kille.dialogue.commitments import (
     signs_for,
 )
 from kille.dialogue.games.forgetting import plan_forgetting
-from kille.dialogue.meanings import DialogueTypes, is_denial, predicate_at, value_at
+from kille.dialogue.meanings import DialogueTypes, is_denial, predicate_at, values_at
 from kille.dialogue.moves import plan, words_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
@@ -82,7 +82,7 @@ def take_back(s: Record, *, types: DialogueTypes) -> Record | None:
     said, lesson = s.private.last[-1], s.private.lessons[-1]
     if predicate_at(said, "e").name not in JUST_LEARNED:
         return None
-    if lesson.content not in value_at(said, "teaches"):
+    if lesson.content not in values_at(said, "teaches"):
         return None
     return plan_forgetting(s, lesson, types=types)
 

@@ -24,6 +24,7 @@ from kille.dialogue.meanings import (
     predicate_at,
     set_to,
     value_at,
+    values_at,
 )
 from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
@@ -173,7 +174,7 @@ def _claim_in_question(s: Record) -> RecordType | None:
         it
         for move in s.private.last
         for label in ("teaches", "explains")
-        for it in value_at(move, label)
+        for it in values_at(move, label)
     ]
     return told[-1] if told else None
 

@@ -287,3 +287,12 @@ def test_a_story_cannot_be_played_to_what_is_no_theory(
     done = kille("replay", str(story), "--theory", f"{study}:blod")
     assert (done.code, done.out) == (2, "")
     assert "has no theory blod: did you mean bold?" in done.complaint
+
+
+def test_a_move_that_leaves_open_what_is_done_can_be_asked_about(kille: Run) -> None:
+    # The rule `nod` plans to say something, and nothing else.
+    study = Path(__file__).parents[3] / "examples/studies/protocols/rules.toml"
+    said = ("@ show cup", "No, this is a mug.", "Why?", "How sure are you?", "No.")
+    found = answers(kille, f"{study}:nods", *said)
+    assert len(found) == 4
+    assert found[1:3] == ["I have not claimed anything."] * 2
