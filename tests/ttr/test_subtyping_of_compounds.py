@@ -35,6 +35,10 @@ YES = {
     "a join in a field": (rectype(x=A | B), rectype(x=A) | rectype(x=B)),
     "a join of record types": (rectype(x=A) | rectype(x=B), rectype(x=A | B)),
     "an equation in a circle": (self_equal, self_equal | A),
+    "an equation in a circle, seen from another field": (
+        rectype(x=ListOf(A) @ rst(this.x), z=ListOf(A) @ this.x),
+        rectype(x=ListOf(A), z=ListOf(A) @ rst(this.x)),
+    ),
     "excluded middle": (A, B | ~B),
     "a contradiction": (A & ~A, B),
     "double negation": (~~A, A),
