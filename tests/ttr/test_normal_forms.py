@@ -2,7 +2,7 @@
 
 import pytest
 
-from ttr import Basic, join, meet, rectype
+from ttr import Basic, Plus, Str, join, meet, rectype
 from ttr.computing.case_analysis import cases
 from ttr.computing.normal_forms import join_normal_form, meet_normal_form
 from ttr.errors import IllFormedError, UnsupportedError
@@ -69,6 +69,15 @@ def test_only_types_have_normal_forms():
         meet_normal_form("A")
     with pytest.raises(IllFormedError, match="expected a type"):
         join_normal_form("A")
+
+
+def test_there_is_a_case_for_each_way_to_choose_the_parts():
+    T = rectype(x=A | B, y=C | D, z=A)
+    some = [rectype(x=X, y=Y, z=A) for X in (A, B) for Y in (C, D)]
+    assert cases(T) == tuple(some)
+    assert cases(Str(A | B, Plus(A | B))) == (Str(A, Plus(A | B)), Str(B, Plus(A | B)))
+    assert cases((A | B) @ "a") == (A @ "a", B @ "a")
+    assert cases(~(A & B)) == (~A, ~B)
 
 
 def test_cases_that_are_too_many_are_not_left_out():

@@ -61,7 +61,7 @@ def _cycle_of(
     """The paths on a cycle among the fields that mention others in these values."""
     inner: dict[Address, list[Address]] = {}
     for leaf in leaves:
-        for length in range(1, len(leaf) + 1):
+        for length, _ in enumerate(leaf, start=1):
             inner.setdefault(leaf[:length], []).append(leaf)
     needs = {
         leaf: [

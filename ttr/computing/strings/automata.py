@@ -223,6 +223,6 @@ def _product(T: TypeNode, building: _Builder) -> Automaton | None:
     plain = [building.part(p) for p in T.parts if not isinstance(p, Negation)]
     denied = [automaton(p.body) for p in T.parts if isinstance(p, Negation)]
     asked = [one for one in plain if one is not None]
-    if len(asked) < len(plain) or any(any(one.wholes.values()) for one in denied):
+    if None in plain or any(any(one.wholes.values()) for one in denied):
         return None
     return intersect(asked, denied)
