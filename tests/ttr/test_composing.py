@@ -8,9 +8,11 @@ from ttr import (
     ListOf,
     Model,
     Pred,
+    Rec,
     RecType,
     SetOf,
     Theory,
+    budget,
     check,
     fun,
     outer,
@@ -18,6 +20,7 @@ from ttr import (
     this,
 )
 from ttr.computing import consistent, equal, normal_form, subtype
+from ttr.computing.kept_redexes import open_presupposition
 from ttr.errors import IllFormedError, RefusedError
 from ttr.types import Application, Function, merge_terms
 
@@ -330,6 +333,46 @@ def test_what_is_kept_is_unknown_and_says_what_it_presupposes():
             answer = ask(S, T)
             assert answer.unknown
             assert "it is not known that x is of Ind, in (" in answer.why
+
+
+OPEN_IN = {
+    "a list in a field": (lambda T: rectype(x=Rec, l=ListOf(T(this.x))), "x"),
+    "a record inside": (lambda T: rectype(x=Rec, n=rectype(r=T(outer.x))), "x"),
+    "a domain": (lambda T: rectype(x=Rec, f=T(this.x) >> Ind), "x"),
+    "the body of a function": (lambda T: fun(x=Rec)(T(this.x)), "r"),
+    "a list": (lambda T: ListOf(T("j")), "j"),
+}
+
+
+@pytest.mark.parametrize("name", OPEN_IN)
+def test_what_is_presupposed_inside_is_named_as_it_is_called_there(name):
+    make, called = OPEN_IN[name]
+    value = make(lambda argument: Application(Man, argument))
+    said = open_presupposition(value)
+    assert said.startswith(f"it is not known that {called} is of Ind, in (")
+
+
+def test_nothing_is_presupposed_where_nothing_is_kept():
+    assert open_presupposition(rectype(x=Ind), ListOf(Ind)) == ""
+
+
+def test_a_path_leads_through_the_parts_of_a_meet():
+    run = Pred("run", Ind)
+    n = rectype(m=rectype(x=Ind @ "a") & rectype(y=Ind)) & rectype(z=Ind)
+    T = rectype(n=n, c=run(this.n.m.x), d=run(this.n.m.y), e=run(this.n.z))
+    assert normal_form(T) is rectype(
+        n=n, c=run("a"), d=run(this.n.m.y), e=run(this.n.z)
+    )
+
+
+def test_whether_two_are_equal_is_unknown_where_the_budget_ends():
+    large = Ind
+    for _ in range(12):
+        large = rectype(l=large, r=large)
+    with budget(steps=100):
+        answer = equal(rectype(x=large, y=Application(Man, "j")), large)
+    assert answer.unknown
+    assert answer.why.startswith("too large: it takes more than 100 steps")
 
 
 def test_a_failed_presupposition_names_the_argument_its_type_and_the_domain():

@@ -16,6 +16,7 @@ from ttr import (
     Type,
     consistent,
     fun,
+    join,
     rectype,
     subtype,
     this,
@@ -197,6 +198,15 @@ YES = {
         A >> B,
         Pi(x=A)(Application(fun(y=A)(B), this.x)),
     ),
+    "a set that a function gives, after something else is known of it": (
+        rectype(f=A >> C, a=A, b=C @ this.f(this.a), s=SetOf(A & B) @ this.f(this.a)),
+        rectype(s=SetOf(A)),
+    ),
+    "an object of a join": ((A | B) @ "a", (A @ "a") | (B @ "a")),
+    "a join of many wide record types": (
+        rectype({f"{x}{i}": A for i in range(5) for x in "ab"}),
+        join(*[rectype({f"{x}{i}": A for i in range(5)}) for x in "abc"]),
+    ),
     "levels": (RecType, Type | A),
     "lower levels": (Type, Universe("Type", 2)),
 }
@@ -228,7 +238,37 @@ NO = {
         rectype(l=ListOf(B)),
     ),
     "levels back": (Universe("Type", 1), Type),
+    "an object of one part of a join": ((A | B) @ "a", A @ "a"),
+    "a join of many wide record types": (
+        rectype(x=A),
+        join(*[rectype({f"{x}{i}": A for i in range(5)}) for x in "abc"]),
+    ),
+    "a concatenation of lists that may be empty": (
+        rectype(l=ListOf(A), m=ListOf(A), n=ListOf(A) @ (this.l + this.m)),
+        rectype(n=NonEmpty(A)),
+    ),
+    "a concatenation is no set": (
+        rectype(l=ListOf(A), n=ListOf(A) @ (this.l + this.l)),
+        rectype(n=SetOf(A)),
+    ),
+    "a set that a function gives": (
+        rectype(f=A >> SetOf(A), a=A, s=SetOf(A) @ this.f(this.a)),
+        rectype(s=SetOf(B)),
+    ),
 }
+
+
+def test_a_type_with_very_many_clauses_is_named():
+    many = join(*[Basic(f"P{i}") & Basic(f"Q{i}") for i in range(9)])
+    found = subtype(rectype(x=A), rectype(x=many))
+    assert found.no
+    assert found.why == f"in the field x, {many} has too many cases"
+
+
+def test_an_answer_is_equal_to_answers_only():
+    assert subtype(A, A) == subtype(A, A)
+    assert subtype(A, A) != subtype(A, B)
+    assert subtype(A, A) != "yes"
 
 
 @pytest.mark.parametrize("name", YES)
