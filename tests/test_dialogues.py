@@ -12,8 +12,10 @@ from typing import Any
 
 import pytest
 
+from kille.agent.agent import Agent
 from kille.agent.story_replay import play
 from kille.dialogue.meanings import record_type
+from kille.interfaces.formatting import short_account
 from kille.perception.look import look
 from kille.scene import Look
 from kille.sensors.sensor import Sensor
@@ -91,8 +93,19 @@ def shared_look(sensor: Sensor, scans: int, pointed: Any = None) -> Look:
 
 @pytest.mark.parametrize("story", stories(FOLDER))
 def test_synthetic(story: Story) -> None:
-    mismatch = play(story)
+    robots: list[Agent] = []
+
+    def make(*given: Any, **named: Any) -> Agent:
+        robots.append(Agent(*given, **named))
+        return robots[-1]
+
+    mismatch = play(story, make=make)
     assert mismatch is None, f"\n{mismatch}"
+    [robot] = robots
+    for turn in robot.exchanges:
+        account = list(short_account(turn))
+        assert len(account) <= 10, "`kille talk --trace` tells a turn in ten lines"
+        assert all(len(it) <= 100 and "\n" not in it for it in account)
 
 
 @pytest.mark.parametrize("story", stories(FOLDER / "captures"))

@@ -17,8 +17,6 @@ from typing import IO
 import numpy as np
 import pytest
 
-from kille.agent.agent import Agent
-from kille.interfaces.formatting import short_account
 from kille.memory import Memory, MemoryFileError
 
 from .conftest import COMMAND, Run
@@ -175,21 +173,6 @@ def test_the_latest_turn_is_shown_in_full_when_asked_for(kille: Run) -> None:
     text = re.sub(r"\s+", " ", " ".join(said))
     assert "rule learn_word: The tutor names a thing in view" in text
     assert "private.agenda: +" in text
-
-
-@pytest.mark.parametrize("story", ["paper.dlg", "false_lessons.dlg", "explaining.dlg"])
-def test_a_short_trace_has_at_most_ten_lines(story: str) -> None:
-    lines = (STORIES / story).read_text("utf-8").splitlines()
-    with Agent(sensor=EMPTY) as robot:
-        for line in lines:
-            if line.startswith("@"):
-                robot.do(line[1:].strip())
-            elif line.startswith("U>"):
-                robot.hear(line[2:].strip())
-        accounts = [list(short_account(turn)) for turn in robot.exchanges]
-    assert len(accounts) > 5
-    assert all(len(told) <= 10 for told in accounts)
-    assert all(len(it) <= 100 and "\n" not in it for told in accounts for it in told)
 
 
 # --- at a terminal -------------------------------------------------------------------
