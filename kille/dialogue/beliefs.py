@@ -19,18 +19,8 @@ Beliefs = Sequence[Record]
 
 
 def relations_of(s: Record, model: Model, x: str, y: str) -> tuple[Beliefs, Model]:
-    """How probably x stands in each relation to y, the most probable first.
-
-    They are judged in the perspective that the talk has settled on.
-    """
-    look = s.view.look
-    sit = record(
-        look=look,
-        frame=front_of(s, y),
-        target=record(x=x, look=look),
-        landmark=record(x=y, look=look),
-    )
-    return about(model, sit, s.private.relations)
+    """How probably x stands in each relation to y, the most probable first."""
+    return about(model, _pair(s, x, y), s.private.relations)
 
 
 def about(model: Model, sit: Record, signs: Iterable[Record]) -> tuple[Beliefs, Model]:
@@ -49,7 +39,7 @@ def beliefs_about(
     """How probably words are true of x, or of x beside y, the most probable first."""
     look = s.view.look
     front = [front_of(s, y) for y in beside]
-    sit = record(dict(zip(("x", "landmark"), (x, *beside), strict=False)), look=look)
+    sit = _pair(s, x, *beside) if beside else record(x=x, look=look)
     beliefs = [
         record(
             sit=sit, sign=sign, p=degree(model, word_of(sign)(x, *beside, look, *front))
@@ -57,6 +47,17 @@ def beliefs_about(
         for sign in signs
     ]
     return sorted(beliefs, key=lambda b: (-b.p, b.sign.form))
+
+
+def _pair(s: Record, x: str, y: str) -> Record:
+    """The situation of two things, in the perspective that the talk has settled on."""
+    look = s.view.look
+    return record(
+        look=look,
+        frame=front_of(s, y),
+        target=record(x=x, look=look),
+        landmark=record(x=y, look=look),
+    )
 
 
 def names_of(s: Record, model: Model, x: str) -> Beliefs:

@@ -109,8 +109,10 @@ def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
     the tutor has just called red, whatever most people would call it.
     """
     told = taught_words(s)
-    known = ((it, told.get((word_of(it.sign), it.sit.x))) for it in beliefs)
-    certain = [it if so is None else replace(it, p=float(so)) for it, so in known]
+    certain = []
+    for it in beliefs:
+        so = told.get((word_of(it.sign), it.sit.x)) if "x" in it.sit else None
+        certain.append(it if so is None else replace(it, p=float(so)))
     return sorted(certain, key=lambda it: (-it.p, it.sign.form))
 
 
