@@ -26,6 +26,9 @@ from ttr import (
     this,
 )
 from ttr.errors import IllFormedError, RefusedError, UndecidedError, UnsupportedError
+from ttr.judging.assignments import Assignment
+from ttr.judging.certainty import is_certain
+from ttr.judging.creation import create_witness
 from ttr.judging.witnesses import candidates, listed_type, some_witnesses
 from ttr.probability import Degree
 from ttr.signature.signature import Axiom, Expected, Given, Signature
@@ -889,3 +892,33 @@ def test_a_model_under_another_theory_keeps_what_was_judged():
     assert not model.judge("s1", animal("o1")).holds
     assert model.under(KINDS).judge("s1", animal("o1")).holds
     assert not model.under(KINDS).under(Signature()).judge("s1", animal("o1")).holds
+
+
+# --- what assignments remember and find ----------------------------------------------
+
+
+def test_what_is_certain_by_a_fact_is_not_so_where_the_fact_is_not_given() -> None:
+    dog = Pred("dog", Ind)
+    T, sit = rectype(x=Ind, c=dog(this.x)), record(x="fido", c="e")
+    before = Model().given("fido", Ind)
+    after = before.given("e", dog("fido"))
+    assert is_certain(after.facts, sit, T)
+    assert not is_certain(before.facts, sit, T)
+
+
+def test_objects_are_in_the_order_of_the_first_fact_about_each() -> None:
+    A, B = Basic("A"), Basic("B")
+    model = Model().given("c", A).given("a", B).given("b", A).given("a", A)
+    assert model.facts.objects() == ["c", "a", "b"]
+
+
+@pytest.mark.parametrize(
+    ("size", "made"),
+    [(0, r"\x:A. []"), (1, r"\x:A. [a1]"), (2, r"\x:A. [a1, a2]")],
+)
+def test_lists_that_a_function_gives_are_of_the_length_asked_for(
+    size: int, made: str
+) -> None:
+    T = FunType(Basic("A"), ListOf(Basic("B")))
+    sit, _ = create_witness(Assignment(Signature()), T, size)
+    assert str(sit) == made
