@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from datetime import UTC, datetime
+from decimal import Decimal
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -13,7 +14,7 @@ from typing import Self
 from kille.agent.actions import MoveExecutor
 from kille.agent.attention import AttentiveSensor, NumberedLook
 from kille.agent.dialogue_log import DialogueLog
-from kille.agent.exchanges import Exchange, RobotSentence
+from kille.agent.exchanges import Event, Exchange, RobotSentence
 from kille.agent.explanations import kind_of_lesson, sign_of
 from kille.dialogue.games.clarifying import asks_which
 from kille.dialogue.language import Sentence, understand
@@ -75,17 +76,21 @@ class Agent:
         learners: Learners | None = None,
         theory: Theory | DialogueTypes | None = None,
         change: Callable[[Game], Game] | None = None,
+        record_event: Callable[[Event], None] | None = None,
     ) -> None:
         """A robot that is awake; other `learners` may judge its words.
 
         Its games, its language and its meanings follow from the `theory`, by default
         the packaged one. `change` gives the game that it plays instead of its own.
+        `now` is its clock, which it reads once for each event; `record_event` is given
+        every event after it has happened.
         """
         self.types = types_of(theory)
         self.gaze = AttentiveSensor(sensor, scans)
         self.language, self._mode, self._wording = language, mode, wording
-        self._now = now
+        self._now, self._record_event = now, record_event
         self._learners, self._change = learners, change
+        self._time = self._read_clock()
         self._lexicon = lexicon(language)
         self.exchanges: list[Exchange] = []
         with ExitStack() as failing:
@@ -119,9 +124,9 @@ class Agent:
         known = list({word_of(it): it for it in signs}.values())
         self._looks = 0
         self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
-        self._log = DialogueLog(memory, self._now)
+        self._log = DialogueLog(memory, lambda: self._time)
         executor = MoveExecutor(
-            knowledge, witnesses, self.gaze, self._log, self._now, self.types
+            knowledge, witnesses, self.gaze, self._log, lambda: self._time, self.types
         )
         game = tutoring(
             known,
@@ -156,6 +161,11 @@ class Agent:
         """The model in which its judgements are made."""
         return self._now_at.model
 
+    @property
+    def time(self) -> datetime:
+        """When the latest event happened: at first, that the robot woke."""
+        return self._time
+
     # --- what a user does ------------------------------------------------------------
 
     def hear(self, text: str) -> str:
@@ -164,7 +174,10 @@ class Agent:
         `#2` in the text points at the thing with that number. An empty text leaves the
         floor to the robot. A text that is not understood leaves the state as it was.
         """
-        return self._take_turn(lambda: self._hear_text(_legible(text)))
+        text = _legible(text)
+        return self._happen(
+            f"U> {text}", lambda: self._take_turn(lambda: self._hear_text(text))
+        )
 
     def hear_perhaps(self, *texts: tuple[str, float]) -> str:
         """Take in what the tutor perhaps says: one of these texts, each so probable.
@@ -173,26 +186,36 @@ class Agent:
         `UpdateError` for invalid probabilities, or if they sum to more than 1.
         """
         _check_probable(texts)
-        return self._take_turn(lambda: self._hear_alternatives(texts))
+        alternatives = (f"{_legible(text)} {_decimal(p)}" for text, p in texts)
+        return self._happen(
+            f"U~ {' | '.join(alternatives)}",
+            lambda: self._take_turn(lambda: self._hear_alternatives(texts)),
+        )
 
     def look(self) -> str:
         """Look at the scene unasked; returns what the robot then says, if anything.
 
         It may ask about what it sees.
         """
-        return self._take_turn(self._look_around)
+        return self._happen("@ look", lambda: self._take_turn(self._look_around))
 
     def do(self, command: str) -> str:
         """Change the scene, and look; returns what the robot then says, if anything.
 
         Commands are those of `kille.sensors.stage_commands`, and `look`, `point 2`,
-        `point 320 240`, `scene SENSOR`, `restart`. Pointing and restarting take no
-        look.
+        `point 320 240`, `scene SENSOR`, `restart`, `glimpse`. Pointing and restarting
+        take no look; a glimpse is a look that is no turn, as for a picture.
         """
+        return self._happen(f"@ {command.strip()}", lambda: self._do(command))
+
+    def _do(self, command: str) -> str:
         verb, _, rest = command.strip().partition(" ")
         match verb:
             case "point":
                 self.gaze.point(rest)
+                return ""
+            case "glimpse":
+                self.gaze.look()
                 return ""
             case "restart":
                 self._wake(self.memory)
@@ -203,7 +226,7 @@ class Agent:
                 pass
             case _:
                 self.gaze.change(command)
-        return self.look()
+        return self._take_turn(self._look_around)
 
     def words(self) -> Speaker:
         """Its words as perceptual meanings, as it knows them now.
@@ -255,6 +278,20 @@ class Agent:
 
     # --- taking turns ----------------------------------------------------------------
 
+    def _happen(self, line: str, event: Callable[[], str]) -> str:
+        """Let an event happen now, and record it; returns what the robot then says."""
+        self._time = self._read_clock()
+        answer = event()
+        if self._record_event is not None:
+            said = tuple(answer.split("\n")) if answer else ()
+            self._record_event(Event(self._time, line, said))
+        return answer
+
+    def _read_clock(self) -> datetime:
+        """What time it is, in whole milliseconds, as logs and memories keep it."""
+        now = self._now()
+        return now.replace(microsecond=now.microsecond // 1000 * 1000)
+
     def _take_turn(self, turn: Callable[[], TurnResult]) -> str:
         """Take a turn and keep it for good, or none of it if anything fails.
 
@@ -285,7 +322,7 @@ class Agent:
             if not numbers or not self.state.shared.qud:
                 return self._look_around()
             words = self._lexicon.pointing
-        exchange, now = Exchange(text, None, (), ()), self._now_at
+        exchange, now = Exchange(text, None, (), (), self._time), self._now_at
         sentences = self._sentences(words, text if len(numbers) == 1 else "")
         full = [self._in_full(it, now.state) for it in sentences]
         situation = situation_of(now.state)
@@ -339,7 +376,7 @@ class Agent:
         text = " | ".join(f"{text} {p:g}" for text, p in texts)
         text = text if ways else max(texts, key=lambda it: it[1])[0]
         event = hear_sentences(*sentences, p=[p for _, p in texts])
-        so_far = Exchange(text, None, (), ())
+        so_far = Exchange(text, None, (), (), self._time)
         return self._answer(Sentence(text, ways), event, so_far, self._now_at)
 
     def _answer(
@@ -373,7 +410,7 @@ class Agent:
         said = tuple(RobotSentence(self.game.say(move), move) for move in turn.said)
         for it in said:
             self._log.record_said(it.text, str(it.judgement))
-        return Exchange("", None, turn.trace, said), turn.run
+        return Exchange("", None, turn.trace, said, self._time), turn.run
 
     def _sentences(self, words: str, numbered: str) -> tuple[Sentence, ...]:
         """The sentences of a text; in "What is #2?" the number counts as "this"."""
@@ -473,6 +510,11 @@ def _check_probable(texts: Sequence[tuple[str, float]]) -> None:
                 f"what was perhaps said has a probability above 0 and at most 1, but "
                 f"{text[:40]!r} has {p}"
             )
+
+
+def _decimal(p: float) -> str:
+    """A probability to its last digit, without an exponent."""
+    return format(Decimal(repr(float(p))), "f")
 
 
 def _legible(text: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from datetime import datetime
 
 from ttr.judging import Judgement
 from ttr.updates import Step
@@ -22,16 +23,17 @@ class RobotSentence:
 
 @dataclass(frozen=True)
 class Exchange:
-    """What one turn did: what was heard, the rules that ran, what was said.
+    """What one turn did: what was heard, the rules that ran, what was said, and when.
 
     `heard` is the last move of the tutor's in it; None where the robot only looked, or
-    did not understand.
+    did not understand. All of a turn has the time of the event that it begins with.
     """
 
     text: str
     heard: Judgement | None
     steps: tuple[Step, ...]
     said: tuple[RobotSentence, ...]
+    time: datetime
 
     def then(
         self,
@@ -45,9 +47,22 @@ class Exchange:
             self.heard if heard is None else heard,
             (*self.steps, *steps),
             (*self.said, *said),
+            self.time,
         )
 
     @property
     def answer(self) -> str:
         """What was said, one sentence a line; empty for silence."""
         return "\n".join(said.text for said in self.said)
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened to the robot, when, and what the robot said to it.
+
+    `line` is the line of a story that lets it happen: `U> This is a cup.`, `@ look`.
+    """
+
+    time: datetime
+    line: str
+    said: tuple[str, ...] = ()

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from kille.agent.agent import Agent
 from kille.dialogue.language import LANGUAGES
-from kille.memory import Memory
+from kille.dialogue.strategies import MODES, WORDINGS
+from kille.memory import Memory, MemoryFileError
 from kille.sensors.sensor import SensorError
 from ttr import Theory, TTRError
 from ttr.dialogues.stories import (
@@ -28,9 +31,24 @@ from ttr.types import TypeNode
 Echo = Callable[[str], None]
 
 Make = Callable[..., Agent]
-"""Makes a robot of a sensor and a memory; `language` is that of the story."""
+"""Makes a robot of a sensor and a memory; `language` is that of the story.
+
+If the story says so, also of a `mode`, a `wording`, and a clock, `now`.
+"""
 
 _DEFAULT_SCENE = "synthetic:empty"
+
+_OPENING = ("sensor", "strategy", "memory", "time")
+"""The verbs of the `@` lines that say how a story begins, before anything happens."""
+
+_CHOICES = {"mode": MODES, "wording": WORDINGS}
+"""What an `@ strategy` line may choose, by the words that it has for it."""
+
+_TIMES = frozenset({"time"})
+"""The verbs of the `@` lines that say when something happens."""
+
+_NOON = datetime(2026, 1, 1, 12, tzinfo=UTC)
+"""When a story with times begins, unless it says so."""
 
 
 def play(
@@ -47,31 +65,119 @@ def play(
     """
     if story.game is not None:
         raise story.game.wrong("a story that names its game is played by `ttr play`")
+    opening = _read_opening(story)
+    clock = StoryClock(opening.begins)
+    settings = {**opening.settings, **({"now": clock} if _is_timed(story) else {})}
     try:
-        robot = make(_first_scene(story), memory, language=story_language(story))
-    except SensorError as error:
+        if opening.memory is not None:
+            memory = Memory.copy_of(opening.memory)
+        robot = make(opening.scene, memory, language=story_language(story), **settings)
+    except (SensorError, MemoryFileError) as error:
         raise story.lines[0].wrong(str(error)) from error
     with robot:
-        return _StoryPlayer(robot, echo).play(story)
+        return _StoryPlayer(robot, echo, clock).play(story.lines[opening.lines :])
+
+
+class StoryClock:
+    """The clock of a story, which goes on when the story says so."""
+
+    def __init__(self, begins: datetime = _NOON) -> None:
+        self._begins = self._now = begins
+
+    def __call__(self) -> datetime:
+        """What time it is in the story."""
+        return self._now
+
+    def set(self, seconds: float) -> None:
+        """Go on to so many seconds after the beginning; ValueError to go back."""
+        then = self._begins + timedelta(seconds=seconds)
+        if then < self._now:
+            raise ValueError("time only goes on: it is later than that already")
+        self._now = then
+
+
+@dataclass(frozen=True)
+class _Opening:
+    """How a story begins, and how many lines say so."""
+
+    scene: str = _DEFAULT_SCENE
+    memory: Path | None = None
+    settings: Mapping[str, str] = field(default_factory=dict)
+    begins: datetime = _NOON
+    lines: int = 0
+
+
+def _read_opening(story: Story) -> _Opening:
+    """How a story begins; a first `@ scene` is opened at once, so that no other is."""
+    opening, first = _Opening(), story.lines[0]
+    if first.mark == "@" and first.text.startswith("scene "):
+        return replace(opening, scene=_sensor_of_line(first, "scene"))
+    for line in story.lines:
+        verb, _, rest = line.text.partition(" ")
+        if line.mark != "@" or verb not in _OPENING or _is_seconds(line):
+            break
+        match verb:
+            case "sensor":
+                opening = replace(opening, scene=_sensor_of_line(line, verb))
+            case "memory":
+                opening = replace(opening, memory=Path(line.file).parent / rest.strip())
+            case "strategy":
+                opening = replace(opening, settings=_read_strategy(line))
+            case _:
+                opening = replace(opening, begins=_read_date(line))
+        opening = replace(opening, lines=opening.lines + 1)
+    return opening
+
+
+def _is_timed(story: Story) -> bool:
+    """Whether a story says when something happens."""
+    verbs = (it.text.partition(" ")[0] for it in story.lines if it.mark == "@")
+    return not _TIMES.isdisjoint(verbs)
+
+
+def _is_seconds(line: Line) -> bool:
+    """Whether a line says how many seconds after the beginning something happens."""
+    return re.fullmatch(r"time +\d+(\.\d+)?", line.text) is not None
+
+
+def _read_date(line: Line) -> datetime:
+    """When a story begins, as its line says; without a zone, in universal time."""
+    try:
+        date = datetime.fromisoformat(line.text.partition(" ")[2].strip())
+    except ValueError:
+        raise line.wrong(
+            "a time is seconds since the beginning, `@ time 3.2`, or a date at the "
+            "beginning, `@ time 2026-11-23T15:24:18+00:00`"
+        ) from None
+    return date if date.tzinfo is not None else date.replace(tzinfo=UTC)
+
+
+def _read_strategy(line: Line) -> dict[str, str]:
+    """The settings that an `@ strategy` line chooses, each by one of its words."""
+    chosen = {}
+    for word in line.text.split()[1:]:
+        about = next((it for it, words in _CHOICES.items() if word in words), None)
+        if about is None:
+            words = ", ".join(it for words in _CHOICES.values() for it in words)
+            raise line.wrong(f"there is no strategy {word!r}: choose of {words}")
+        chosen[about] = word
+    return chosen
 
 
 def story_language(story: Story) -> str:
     """The language of a story, by the name of its file, as in `naming.sv.dlg`."""
-    suffixes = [suffix.lstrip(".") for suffix in Path(story.lines[0].file).suffixes]
+    return language_of_file(Path(story.lines[0].file))
+
+
+def language_of_file(path: Path) -> str:
+    """The language of the stories in a file of this name."""
+    suffixes = [suffix.lstrip(".") for suffix in path.suffixes]
     return next((it for it in suffixes if it in LANGUAGES), LANGUAGES[0])
 
 
-def _first_scene(story: Story) -> str:
-    """The scene that the story begins with, so that no other is opened first."""
-    first = story.lines[0]
-    if first.mark == "@" and first.text.startswith("scene "):
-        return _sensor_of_line(first)
-    return _DEFAULT_SCENE
-
-
-def _sensor_of_line(line: Line) -> str:
-    """The sensor that an `@ scene` line names; a path is from the story's folder."""
-    name = os.path.expandvars(line.text.removeprefix("scene ").strip())
+def _sensor_of_line(line: Line, verb: str = "scene") -> str:
+    """The sensor that an `@` line names; a path is from the story's folder."""
+    name = os.path.expandvars(line.text.removeprefix(verb).strip())
     if unset := re.search(r"\$\{?(\w+)", name):
         raise line.wrong(f"set the variable {unset[1]} before")
     beside = Path(line.file).parent / name
@@ -81,17 +187,17 @@ def _sensor_of_line(line: Line) -> str:
 class _StoryPlayer:
     """Plays a story; `_said` is what the robot said that the story has not yet had."""
 
-    def __init__(self, robot: Agent, echo: Echo) -> None:
-        self._robot, self._echo = robot, echo
+    def __init__(self, robot: Agent, echo: Echo, clock: StoryClock) -> None:
+        self._robot, self._echo, self._clock = robot, echo, clock
         self._said: list[str] = []
         self._started = False
 
-    def play(self, story: Story) -> Mismatch | None:
-        for line in story.lines:
+    def play(self, lines: Sequence[Line]) -> Mismatch | None:
+        for line in lines:
             mismatch = self._step(line)
             if mismatch is not None:
                 return mismatch
-        return self._left_over(story.lines[-1])
+        return self._left_over(lines[-1]) if lines else None
 
     def _step(self, line: Line) -> Mismatch | None:
         match line.mark:
@@ -121,7 +227,10 @@ class _StoryPlayer:
             return self._robot.hear(line.text)
         if line.mark == "U~":
             return self._hear_alternatives(line)
-        if not line.text.startswith("scene "):
+        verb, _, rest = line.text.partition(" ")
+        if verb == "time":
+            return self._set_clock(line)
+        if verb != "scene" or not rest:
             return self._robot.do(line.text)
         if not self._started:
             return self._robot.look()
@@ -134,6 +243,21 @@ class _StoryPlayer:
             return self._robot.hear_perhaps(*said)
         except UpdateError as error:
             raise line.wrong(error.message) from error
+
+    def _set_clock(self, line: Line) -> str:
+        """Go on to the time that a line says; nothing else happens."""
+        if not _is_seconds(line):
+            raise line.wrong(
+                "a time is seconds since the beginning, as in `@ time 3.2`; a date "
+                "stands before anything else"
+            )
+        try:
+            self._clock.set(float(line.text.split()[1]))
+        except ValueError as error:
+            raise line.wrong(str(error)) from None
+        except OverflowError:
+            raise line.wrong("no dialogue goes on for so long") from None
+        return ""
 
     def _compare(self, line: Line) -> Mismatch | None:
         found = self._said.pop(0) if self._said else ""

@@ -203,6 +203,12 @@ def _add_talk(commands: Any) -> None:
         metavar="VOICE",
         help="how it speaks: espeak, flite, FILE.wav, or none (none)",
     )
+    talk.add_argument(
+        "--log",
+        type=Path,
+        metavar="FILE.dlg",
+        help="write the dialogue, with times, as a story for kille replay",
+    )
     talk.set_defaults(run=_talk)
 
 
@@ -539,6 +545,7 @@ def _talk(options: argparse.Namespace) -> int:
         language=options.lang,
         hear=options.hear or ("device" if options.speech else ""),
         say=options.say or ("espeak" if options.speech else "none"),
+        log=options.log,
         **settings,
     )
 

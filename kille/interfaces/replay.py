@@ -61,8 +61,8 @@ def _maker(plan: Plan, robots: Callable[[str], Make]) -> Make:
     stories = [story for _, stories in plan for story in stories]
     makes = {it: robots(it) for it in dict.fromkeys(map(story_language, stories))}
 
-    def make(*seeing: Any, language: str) -> Agent:
-        return makes[language](*seeing, language=language)
+    def make(*seeing: Any, language: str, **settings: Any) -> Agent:
+        return makes[language](*seeing, language=language, **settings)
 
     return make
 

@@ -6,10 +6,15 @@ import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 from kille.agent.agent import Agent
+from kille.agent.story_log import StoryLog
+from kille.agent.story_replay import language_of_file
+from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
 from kille.interfaces.formatting import Account, things_in_view, whole_account
 from kille.interfaces.speech_input import (
@@ -18,7 +23,7 @@ from kille.interfaces.speech_input import (
     answer_hypotheses,
 )
 from kille.interfaces.terminal import FINE, complain, console, memory_path
-from kille.memory import MemoryFileError
+from kille.memory import Memory, MemoryFileError
 from kille.perception.picture_sheet import overview, write_picture
 from kille.perception.thumbnails import outline_things
 from kille.safety.private_files import create_private_file
@@ -26,6 +31,8 @@ from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
 from kille.speech.synthesis import Voice, voice
 from ttr import TTRError
+from ttr.dialogues.stories import StoryError
+from ttr.safety.files import why_unwritten
 from ttr.safety.inputs import ask_line
 from ttr.safety.limits import UTTERANCE, InputLimitError
 
@@ -59,22 +66,33 @@ def talk(
     wording: str = "",
     hear: str = "",
     say: str = "none",
+    log: Path | None = None,
     make: Callable[..., Agent] = Agent,
 ) -> int:
     """Talk until the tutor leaves, with an account of each turn; returns the exit code.
 
     `hear` is where speech comes from, if the tutor does not type; `say` names the
-    voice. `make` makes the robot.
+    voice. `log` is where the dialogue is written as a story. `make` makes the robot.
     """
     place = memory_path(memory)
-    try:
-        _check_apart(hear, say)
-        speaks = voice(say, plain(language))
-        ears = SpeechInput(hear, language) if hear else None
-        robot = make(sensor, place, language=language, mode=mode, wording=wording)
-    except (SensorError, MemoryFileError, SoundError) as error:
-        return complain(error)
-    with robot, _line_editing():
+    settings: dict[str, Any] = {"language": language, "mode": mode, "wording": wording}
+    with ExitStack() as closing:
+        try:
+            _check_apart(hear, say)
+            speaks = voice(say, plain(language))
+            ears = SpeechInput(hear, language) if hear else None
+            if log is None:
+                robot = closing.enter_context(make(sensor, place, **settings))
+            else:
+                story = closing.enter_context(_open_log(log, language))
+                robot = closing.enter_context(
+                    _logged_robot(
+                        partial(make, sensor, place, **settings), story, place
+                    )
+                )
+        except (SensorError, MemoryFileError, SoundError, StoryError) as error:
+            return complain(error)
+        closing.enter_context(_line_editing())
         try:
             _Conversation(robot, account, ears, speaks, language).hold()
         except SoundError as error:
@@ -82,6 +100,36 @@ def talk(
         except InputLimitError as error:
             return complain(f"the input cannot be read: {error.strerror}")
     return FINE
+
+
+def _open_log(path: Path, language: str) -> StoryLog:
+    """The log of a talk in a language, which the name of its file has to say."""
+    spoken = plain(language)
+    if path.suffix != ".dlg" or language_of_file(path) != spoken:
+        ending = ".dlg" if spoken == LANGUAGES[0] else f".{spoken}.dlg"
+        raise StoryError(f"{path} is no name for a log: call it NAME{ending}")
+    try:
+        return StoryLog(path)
+    except OSError as error:
+        raise StoryError(why_unwritten(path, error)) from error
+
+
+def _logged_robot(make: Callable[..., Agent], log: StoryLog, memory: Path) -> Agent:
+    """The robot whose events are logged, beside a copy of the memory it begins with."""
+    copied = ""
+    if memory.exists():
+        copy = log.path.with_suffix(".memory.db")
+        try:
+            with Memory.open_to_read(memory) as reader:
+                reader.copy_to(copy)
+        except OSError as error:
+            raise StoryError(why_unwritten(copy, error)) from error
+        copied = copy.name
+    robot = make(record_event=log)
+    strategy = robot.state.private.strategy
+    chosen = (strategy.mode, strategy.wording)
+    log.begin(robot.gaze.sensor.name, robot.time, chosen, copied)
+    return robot
 
 
 def _check_apart(hear: str, say: str) -> None:
@@ -198,7 +246,9 @@ class _Conversation:
 
     def _picture(self, path: Path) -> str:
         """Writes a picture of what is in view now; the floor stays with the tutor."""
-        view = self._robot.gaze.look()
+        self._robot.do("glimpse")
+        view = self._robot.view
+        assert view is not None
         try:
             write_picture(path, overview(view.look))
         except OSError as error:

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from kille.agent.agent import Agent
 from kille.dialogue.language_files import FILES, STRATEGIES
@@ -51,10 +52,15 @@ def theory_named(
 
 
 def robot_of(
-    theory: Theory, sensor: str | Sensor, memory: Memory | Path | None, **_: str
+    theory: Theory, sensor: str | Sensor, memory: Memory | Path | None, **settings: Any
 ) -> Agent:
-    """The robot of a theory; its language, mode and wording are those of that."""
-    return agent_of(theory, sensor, memory=memory)
+    """The robot of a theory; its language, mode and wording are those of that.
+
+    Of the other settings those count that are no part of a theory: its clock, and who
+    is told of its events.
+    """
+    own = {it: settings[it] for it in ("now", "record_event") if it in settings}
+    return agent_of(theory, sensor, memory=memory, **own)
 
 
 def maker_of(named: str, consent: Consent, language: str) -> Callable[..., Agent]:

@@ -112,6 +112,36 @@ def open_transient() -> sqlite3.Connection:
     return connection
 
 
+def open_copy(path: Path) -> sqlite3.Connection:
+    """Open a connection to a copy, without a file, of what is in this memory."""
+    original = open_to_read(path)
+    copy = sqlite3.connect(":memory:", isolation_level=None)
+    try:
+        with explain_failures(str(path)):
+            original.backup(copy)
+    finally:
+        original.close()
+    _own(copy)
+    return copy
+
+
+def copy_to_file(connection: sqlite3.Connection, path: Path) -> None:
+    """Write all that a memory holds to a file, over what is there.
+
+    Only its user can read a new file.
+    """
+    _make_folder(path)
+    path.unlink(missing_ok=True)
+    create_private_file(path)
+    copy = sqlite3.connect(path)
+    try:
+        with explain_failures(str(path)):
+            connection.backup(copy)
+            copy.execute("PRAGMA journal_mode = DELETE")  # so that it is one file
+    finally:
+        copy.close()
+
+
 def hold(connection: sqlite3.Connection) -> None:
     """Begin a transaction unless one is open, which keeps every other writer out."""
     if not connection.in_transaction:

@@ -73,6 +73,13 @@ class MemoryReader:
         with explain_content_failures(self.place):
             return reading.words(self._connection)
 
+    def copy_to(self, path: Path) -> None:
+        """Write all that it holds to another file, over what is there.
+
+        Raises MemoryFileError, and OSError where there can be no such file.
+        """
+        files.copy_to_file(self._connection, path)
+
     def counts(self) -> dict[tuple[Kind, str], int]:
         """The number of lessons in which each word was said to apply, by kind and
         name."""
@@ -198,6 +205,14 @@ class Memory(MemoryReader):
     def transient(cls) -> Self:
         """A memory that is deleted when it is closed."""
         return cls(files.open_transient(), "the memory of this session")
+
+    @classmethod
+    def copy_of(cls, path: Path) -> Self:
+        """A memory with what is in this file, which stays as it is.
+
+        It is deleted when it is closed. Raises MemoryFileError.
+        """
+        return cls(files.open_copy(path), f"a copy of {path}")
 
     def begin_dialogue(self, time: str) -> int:
         """Begin a dialogue at this time (ISO 8601); returns its number."""

@@ -91,6 +91,10 @@ WRONG = {
     "@ scene nowhere": "nowhere",
     "@ point 3": "no thing #3",
     "U> #3 This is a cup.": "no thing #3",
+    "@ time soon": "seconds since the beginning",
+    "@ time 2026-01-01": "a date stands before anything else",
+    "@ time 1e9": "seconds since the beginning",
+    "@ time 99999999999999999999": "no dialogue goes on for so long",
     "U~ Hello. 0.6 | Goodbye.": "ends with its probability",
     "U~ Hello. 0.6 | Goodbye. 0.9": "come to at most 1, found 1.5",
 }
@@ -111,6 +115,41 @@ def test_a_first_scene_that_cannot_be_opened(file: Path, sensor: str) -> None:
     with pytest.raises(StoryError) as caught:
         played(file, f"--- one\n@ scene {sensor}\nU> Hello.\n")
     assert str(caught.value).startswith(f"{file}:2: ")
+
+
+def test_time_goes_on_as_the_story_says(file: Path) -> None:
+    text = (
+        "@ show cup\nU> This is a cup.\nS> OK, I learned a cup.\n@ time 600\n"
+        "U> What is this?\nS> This is a cup.\nU> Why?\nS~ .* 10 minutes ago .*\n"
+    )
+    assert played(file, text) is None
+
+
+def test_time_does_not_go_back(file: Path) -> None:
+    with pytest.raises(StoryError, match="2: time only goes on"):
+        played(file, "@ time 5\n@ time 4.9\n")
+
+
+def test_a_story_says_how_it_begins(file: Path) -> None:
+    opening = "@ strategy driven four\n@ sensor synthetic:empty\n@ time 2017-05-22\n"
+    chosen = (
+        '[private : [strategy : [mode = "driven" : Text, wording = "four" : Text]]]'
+    )
+    assert played(file, f"{opening}= s : {chosen}\nU> Hello.\nS> Hello.\n") is None
+
+
+@pytest.mark.parametrize(
+    ("opening", "told"),
+    [
+        ("@ strategy lazy", "no strategy 'lazy': choose of driven, "),
+        ("@ time never", "a date at the beginning"),
+        ("@ memory none.db", "does not exist"),
+        ("@ sensor nowhere", "nowhere"),
+    ],
+)
+def test_a_beginning_that_cannot_be(file: Path, opening: str, told: str) -> None:
+    with pytest.raises(StoryError, match=f"1: .*{told}"):
+        played(file, f"{opening}\nU> Hello.\nS> Hello.\n")
 
 
 def test_a_restart_knows_what_it_knew_and_forgets_what_was_said(file: Path) -> None:

@@ -175,6 +175,37 @@ def test_the_latest_turn_is_shown_in_full_when_asked_for(kille: Run) -> None:
     assert "private.agenda: +" in text
 
 
+# --- logged --------------------------------------------------------------------------
+
+
+def test_a_log_plays_again_as_it_was(kille: Run, tmp_path: Path) -> None:
+    talked(kille, f"{SHOWN}This is a cup.\n")
+    log = tmp_path / "talk.dlg"
+    typed = f"{SHOWN}What is this?\nWhy?\n@ picture {tmp_path}/a.png\nForget cup.\n"
+    said = talked(kille, typed, "--log", str(log), "--mode", "driven")
+    lines = log.read_text().splitlines()
+    assert f"@ sensor {EMPTY}" in lines
+    assert "@ strategy driven paper" in lines
+    assert "@ memory talk.memory.db" in lines
+    assert [it for it in lines if it[:2] == "S>"] == [it for it in said if "S>" in it]
+    assert kille("replay", "--quiet", str(log)).out == f"{log}: 1 story as written\n"
+    assert log.with_suffix(".memory.db").stat().st_mode & 0o077 == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("talk.txt", "is no name for a log: call it NAME.dlg"),
+        ("talk.sv.dlg", "is no name for a log: call it NAME.dlg"),
+        ("no/talk.dlg", "no/talk.dlg"),
+    ],
+)
+def test_a_log_that_cannot_be_written(kille: Run, name: str, told: str) -> None:
+    outcome = kille("talk", "--sensor", EMPTY, "--log", name, typed="Hello.\n")
+    assert outcome.code == 2
+    assert told in outcome.complaint
+
+
 # --- at a terminal -------------------------------------------------------------------
 
 
