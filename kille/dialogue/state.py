@@ -61,6 +61,7 @@ def initial(
             frame=OPEN,
             turned=[],
             here=[],
+            floor=[],
         ),
     )
 

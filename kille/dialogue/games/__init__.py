@@ -38,6 +38,7 @@ from kille.dialogue.games.referring import REFERRING
 from kille.dialogue.games.several import SEVERAL
 from kille.dialogue.games.surveying import SURVEYING
 from kille.dialogue.games.vetting import VETTED, VETTING
+from kille.dialogue.games.yielding import YIELDING
 from ttr.updates import Algorithm, Rule, first, maybe, seq
 
 __all__ = ["TUTORING", "games_with"]
@@ -79,6 +80,7 @@ def games_with(*answers: Rule) -> Algorithm:
             LISTENING,
             first(
                 REPEATING,
+                YIELDING,
                 MISHEARD,
                 OFFER_ANSWERED,
                 VETTED,

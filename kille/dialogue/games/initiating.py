@@ -2,7 +2,8 @@
 
 It does one thing at a time, the one with the highest expected utility by its strategy,
 if that is positive: silence costs nothing. It does nothing twice in a scene. When
-something has just come into view, or is pointed at, the tutor speaks first.
+something has just come into view, or is pointed at, the tutor speaks first. While the
+tutor keeps the floor it does nothing.
 
 Source: Dobnik and de Graaf 2017, section 3; Skočaj et al. 2011 for the modes.
 """
@@ -38,7 +39,7 @@ class Initiative(NamedTuple):
     planned: Record
 
 
-@rule(when="State", on="Seen")
+@rule(when="FreeFloor", on="Seen")
 def learn_alone(
     s: Record, seen: Record, *, model: Model, types: DialogueTypes
 ) -> Record | None:
@@ -57,7 +58,7 @@ def stay(s: Record, seen: Record) -> Record | None:
     return s if is_same and set(view.things) <= set(seen.kept) else None
 
 
-@rule(when="State", on="Seen")
+@rule(when="FreeFloor", on="Seen")
 def ask_relation(
     s: Record, seen: Record, *, model: Model, types: DialogueTypes
 ) -> Record | None:
@@ -65,11 +66,16 @@ def ask_relation(
     return _take_best(s, _relations(s, model, types=types))
 
 
-@rule(when="State", on="Seen")
+@rule(when="FreeFloor", on="Seen")
 def ask(
     s: Record, seen: Record, *, model: Model, types: DialogueTypes
 ) -> Record | None:
     """It asks for what it would like to know most."""
+    return ask_most_wanted(s, model, types=types)
+
+
+def ask_most_wanted(s: Record, model: Model, *, types: DialogueTypes) -> Record | None:
+    """The state in which it asks what it would like to know most, if anything."""
     return _take_best(
         s,
         [
