@@ -8,6 +8,8 @@ from kille.memory.errors import MemoryFileError, NoSuchLessonError
 from kille.memory.files import default_path
 from kille.memory.lessons import (
     Arrangement,
+    Criterion,
+    CriterionLesson,
     Dialogue,
     Kind,
     KindLesson,
@@ -35,12 +37,14 @@ __all__ = [
     "Sighting",
     "Arrangement",
     "Subsumption",
+    "Criterion",
     "Picture",
     "Crop",
     "Lesson",
     "ObjectLesson",
     "RelationLesson",
     "KindLesson",
+    "CriterionLesson",
     "MemoryFileError",
     "NoSuchLessonError",
 ]

@@ -22,7 +22,7 @@ from kille.memory.memory import MemoryReader
 from kille.memory.packages import MANIFEST, PackageWriter, open_to_write
 from kille.memory.packing import Line, pack_dialogue, pack_lesson, pack_turn
 
-FORMAT, VERSION = "kille memory", 3
+FORMAT, VERSION = "kille memory", 4
 DIALOGUES, TURNS, LESSONS = "dialogues.jsonl", "turns.jsonl", "lessons.jsonl"
 
 

@@ -6,7 +6,7 @@ import math
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import astuple, dataclass, field, replace
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,15 @@ from numpy.typing import NDArray
 from kille.memory.pictures import Picture
 from kille.scene import Configuration, Point, Traits, Vector
 
-Kind = Literal["object", "attribute", "relation", "subkind"]
+Kind = Literal["object", "attribute", "relation", "subkind", "criterion"]
 """What a word describes: what a thing is, how it is, or where it is.
 
-A lesson of the kind "subkind" says what the kind of thing that it names is a kind of.
+A lesson of the kind "subkind" says what the kind of thing that it names is a kind of,
+one of the kind "criterion" by what things of that kind are known.
+"""
+
+By = Literal["cue", "quality", "part"]
+"""By what a kind of thing is known: a cue, how the things are, or what parts they have.
 """
 
 DESCRIPTOR_LENGTH = 128
@@ -158,6 +163,36 @@ class Subsumption:
 
 
 @dataclass(frozen=True)
+class Criterion:
+    """By what things of a kind were said to be known, or not.
+
+    For a quality or a part, named as a `Word` is, `degree` is how many of the things
+    are so, or have it, from 0 to 1. For a cue it is how much this counts: 0 where it
+    does not matter, 1 where it is what matters. It was only said, so that there is
+    neither a sensor nor a picture. Raises ValueError for another degree or name.
+    """
+
+    by: By
+    name: str
+    surface: str
+    degree: float
+    article: str = ""
+    sensor: str = ""
+    time: float = 0.0
+    picture: Picture | None = None
+
+    def __post_init__(self) -> None:
+        _require_word("the name of a criterion", self.name)
+        for what, text in (("a word", self.surface), ("an article", self.article)):
+            _require_letters(what, text)
+        if self.by not in get_args(By):
+            raise ValueError(f"a criterion is by one of {get_args(By)}, not {self.by}")
+        _require_finite("a criterion", self.time, self.degree)
+        if not 0.0 <= self.degree <= 1.0:
+            raise ValueError(f"a degree is from 0 to 1, not {self.degree}")
+
+
+@dataclass(frozen=True)
 class Lesson:
     """The fact that a turn taught a word; `key` identifies the lesson for good.
 
@@ -191,10 +226,17 @@ class KindLesson(Lesson):
     seen: Subsumption
 
 
-SeenLesson: TypeAlias = ObjectLesson | RelationLesson | KindLesson
+@dataclass(frozen=True)
+class CriterionLesson(Lesson):
+    """A lesson by what things of a kind are known."""
+
+    seen: Criterion
+
+
+SeenLesson: TypeAlias = ObjectLesson | RelationLesson | KindLesson | CriterionLesson
 """A lesson with what it was taught by."""
 
-Seen: TypeAlias = Sighting | Arrangement | Subsumption
+Seen: TypeAlias = Sighting | Arrangement | Subsumption | Criterion
 """What a lesson was taught by."""
 
 
@@ -207,7 +249,9 @@ def lesson_of(
             return ObjectLesson(key, word, turn, seen, holds=holds)
         case Arrangement():
             return RelationLesson(key, word, turn, seen, holds=holds)
-    return KindLesson(key, word, turn, seen, holds=holds)
+        case Subsumption():
+            return KindLesson(key, word, turn, seen, holds=holds)
+    return CriterionLesson(key, word, turn, seen, holds=holds)
 
 
 def with_picture(lesson: SeenLesson, picture: Picture | None) -> SeenLesson:
@@ -217,7 +261,7 @@ def with_picture(lesson: SeenLesson, picture: Picture | None) -> SeenLesson:
             return replace(lesson, seen=replace(lesson.seen, picture=picture))
         case RelationLesson():
             return replace(lesson, seen=replace(lesson.seen, picture=picture))
-        case KindLesson():
+        case KindLesson() | CriterionLesson():
             return lesson
 
 

@@ -17,6 +17,9 @@ from kille.memory.errors import (
 )
 from kille.memory.lessons import (
     Arrangement,
+    By,
+    Criterion,
+    CriterionLesson,
     Dialogue,
     Kind,
     KindLesson,
@@ -144,6 +147,11 @@ class MemoryReader:
         first."""
         with explain_content_failures(self.place):
             return reading.kinds(self._connection)
+
+    def criteria(self) -> tuple[CriterionLesson, ...]:
+        """The lessons that say by what things of a kind are known, oldest first."""
+        with explain_content_failures(self.place):
+            return reading.criteria(self._connection)
 
     def lesson(self, key: int) -> SeenLesson:
         """The lesson of this key with its picture. Raises NoSuchLessonError."""
@@ -279,6 +287,24 @@ class Memory(MemoryReader):
         """Learn that a kind of thing is a kind of another, in the same way."""
         word = Word(lower.name, lower.surface, "subkind", lower.article)
         return self._learn(turn, word, Subsumption(upper), holds=True)
+
+    def learn_criterion(
+        self,
+        turn: Turn,
+        of: Word,
+        by: By,
+        criterion: Word,
+        degree: float,
+    ) -> int:
+        """Learn by what things of a kind are known, in the same way.
+
+        The criterion is named as a word is, by its name, surface and article.
+        """
+        word = Word(of.name, of.surface, "criterion", of.article)
+        seen = Criterion(
+            by, criterion.name, criterion.surface, degree, criterion.article
+        )
+        return self._learn(turn, word, seen, holds=True)
 
     def _learn(self, turn: Turn, word: Word, seen: Seen, holds: bool) -> int:
         with self._transaction() as connection:

@@ -18,6 +18,9 @@ import numpy as np
 from kille.memory.configurations import as_json, from_json
 from kille.memory.lessons import (
     Arrangement,
+    By,
+    Criterion,
+    CriterionLesson,
     Dialogue,
     Kind,
     KindLesson,
@@ -92,6 +95,14 @@ def pack_lesson(lesson: SeenLesson) -> tuple[Line, Files]:
                 "surface": upper.surface,
                 "article": upper.article,
             }
+        case Criterion(by, name, surface, degree, article):
+            line["criterion"] = {
+                "by": by,
+                "name": name,
+                "surface": surface,
+                "article": article,
+                "degree": degree,
+            }
     if lesson.seen.picture is not None:
         picture_line, pictures = _pack_picture(lesson.seen.picture)
         line["picture"] = picture_line
@@ -123,6 +134,9 @@ def unpack_lesson(
             upper = _word({**line["upper"], "kind": "object"})
             said = Subsumption(upper, sensor, time)
             return KindLesson(key, word, turn, said, holds=holds)
+        case "criterion":
+            by = _criterion(line["criterion"], sensor, time)
+            return CriterionLesson(key, word, turn, by, holds=holds)
 
 
 def _word(line: Line) -> Word:
@@ -133,6 +147,15 @@ def _word(line: Line) -> Word:
     return Word(
         _text(line, "name"), _text(line, "surface"), kinds[line["kind"]], article
     )
+
+
+def _criterion(line: Line, sensor: str, time: float) -> Criterion:
+    ways: dict[str, By] = {it: it for it in get_args(By)}
+    if line["by"] not in ways:
+        raise ValueError(f"nothing is known by its {line['by']}")
+    name, surface, article = (_text(line, it) for it in ("name", "surface", "article"))
+    degree = _number(line["degree"])
+    return Criterion(ways[line["by"]], name, surface, degree, article, sensor, time)
 
 
 def _truth(line: Line) -> bool:

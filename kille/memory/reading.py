@@ -19,6 +19,8 @@ from kille.memory.configurations import from_text
 from kille.memory.lessons import (
     DESCRIPTOR_LENGTH,
     Arrangement,
+    Criterion,
+    CriterionLesson,
     Dialogue,
     Kind,
     KindLesson,
@@ -45,7 +47,8 @@ WORDS = """
          WHERE other.kind = first.kind AND other.name = first.name AND article != ''
          ORDER BY other.id LIMIT 1), '')
     FROM lessons AS first
-    WHERE id IN (SELECT min(id) FROM lessons WHERE holds AND kind != 'subkind'
+    WHERE id IN (SELECT min(id) FROM lessons
+                 WHERE holds AND kind NOT IN ('subkind', 'criterion')
                  GROUP BY kind, name)
     ORDER BY id
 """
@@ -58,7 +61,7 @@ TURNS = """
 """
 
 LESSON_COLUMNS = """
-    lessons.id, holds, name, surface, kind, article,
+    lessons.id, holds, lessons.name, lessons.surface, kind, lessons.article,
     dialogue, number, speaker, text, judgement, turns.time
 """
 LESSON_WIDTH = 12
@@ -98,6 +101,13 @@ SUBSUMPTIONS = f"""
     SELECT {LESSON_COLUMNS}, sensor, lessons.time,
            upper, upper_surface, upper_article
     FROM lessons JOIN turns ON turns.id = turn JOIN subsumptions ON lesson = lessons.id
+    WHERE lessons.id BETWEEN ? AND ? ORDER BY lessons.id
+"""
+
+CRITERIA = f"""
+    SELECT {LESSON_COLUMNS}, sensor, lessons.time,
+           by, criteria.name, criteria.surface, degree, criteria.article
+    FROM lessons JOIN turns ON turns.id = turn JOIN criteria ON lesson = lessons.id
     WHERE lessons.id BETWEEN ? AND ? ORDER BY lessons.id
 """
 
@@ -210,6 +220,15 @@ def kinds(connection: sqlite3.Connection) -> tuple[KindLesson, ...]:
     )
 
 
+def criteria(connection: sqlite3.Connection) -> tuple[CriterionLesson, ...]:
+    """The lessons that say by what things of a kind are known, oldest first."""
+    return tuple(
+        it
+        for first, last in _batches(connection, "criterion")
+        for it in criteria_between(connection, first, last)
+    )
+
+
 def lesson(connection: sqlite3.Connection, key: int) -> SeenLesson | None:
     """The lesson of this key with its picture, or None."""
     with at_one_moment(connection):
@@ -217,6 +236,7 @@ def lesson(connection: sqlite3.Connection, key: int) -> SeenLesson | None:
             *objects_between(connection, key, key),
             *relations_between(connection, key, key),
             *kinds_between(connection, key, key),
+            *criteria_between(connection, key, key),
         ]
         return with_picture(found[0], picture(connection, key)) if found else None
 
@@ -284,6 +304,21 @@ def kinds_between(
         known = _lesson(row)
         found.append(
             KindLesson(known.key, known.word, known.turn, seen, holds=known.holds)
+        )
+    return found
+
+
+def criteria_between(
+    connection: sqlite3.Connection, first: int, last: int
+) -> list[CriterionLesson]:
+    """The lessons by what things are known, with keys from `first` to `last`."""
+    found = []
+    for row in connection.execute(CRITERIA, (first, last)).fetchall():
+        sensor, time, by, name, surface, degree, article = row[LESSON_WIDTH:]
+        seen = Criterion(by, name, surface, degree, article, sensor, time)
+        known = _lesson(row)
+        found.append(
+            CriterionLesson(known.key, known.word, known.turn, seen, holds=known.holds)
         )
     return found
 

@@ -254,14 +254,17 @@ def _mend(tables: sqlite3.Connection) -> Iterator[str]:
     yield from _mend_turns(tables)
     tables.execute(
         "INSERT INTO sightings (lesson) SELECT id FROM lessons "
-        "WHERE kind NOT IN ('relation', 'subkind') "
+        "WHERE kind NOT IN ('relation', 'subkind', 'criterion') "
         "AND id NOT IN (SELECT lesson FROM sightings) "
         "AND id IN (SELECT lesson FROM scans)"
     )
-    has_kinds = "subsumptions" in _names(tables)
-    unsaid = "id NOT IN (SELECT lesson FROM subsumptions)" if has_kinds else "1"
+    unkind, unknown = (
+        f"id NOT IN (SELECT lesson FROM {it})" if it in _names(tables) else "1"
+        for it in ("subsumptions", "criteria")
+    )
     unseen = tables.execute(
-        f"SELECT id, name FROM lessons WHERE CASE kind WHEN 'subkind' THEN {unsaid} "
+        f"SELECT id, name FROM lessons WHERE CASE kind WHEN 'subkind' THEN {unkind} "
+        f"WHEN 'criterion' THEN {unknown} "
         "WHEN 'relation' THEN id NOT IN (SELECT lesson FROM arrangements) "
         "ELSE id NOT IN (SELECT lesson FROM sightings) END ORDER BY id"
     ).fetchall()
@@ -287,6 +290,7 @@ _OF_LESSONS = (
     "sightings",
     "arrangements",
     "subsumptions",
+    "criteria",
 )
 """The tables with what was seen in lessons."""
 

@@ -244,9 +244,43 @@ KINDS: Migration = (
     """,
 )
 
+
+def _lessons_of(*kinds: str) -> str:
+    """The statement that makes the table that replaces that of lessons."""
+    return f"""
+    CREATE TABLE newer_lessons (
+        id INTEGER PRIMARY KEY AUTOINCREMENT,
+        kind TEXT NOT NULL CHECK (kind IN ({", ".join(map(repr, kinds))})),
+        name TEXT NOT NULL,
+        surface TEXT NOT NULL,
+        turn INTEGER NOT NULL REFERENCES turns,
+        sensor TEXT NOT NULL,
+        time REAL NOT NULL,
+        article TEXT NOT NULL DEFAULT '',
+        holds INTEGER NOT NULL DEFAULT 1 CHECK (holds IN (0, 1))
+    )
+    """
+
+
+# By what things of a kind are known. The table of lessons takes another kind.
+CRITERIA: Migration = (
+    _lessons_of("object", "attribute", "relation", "subkind", "criterion"),
+    *KINDS[1:7],
+    """
+    CREATE TABLE criteria (
+        lesson INTEGER PRIMARY KEY REFERENCES lessons ON DELETE CASCADE,
+        by TEXT NOT NULL CHECK (by IN ('cue', 'quality', 'part')),
+        name TEXT NOT NULL,
+        surface TEXT NOT NULL,
+        article TEXT NOT NULL,
+        degree REAL NOT NULL CHECK (degree BETWEEN 0 AND 1)
+    )
+    """,
+)
+
 # The n-th makes a file of version n out of one of version n - 1. Append, never edit:
 # files of every version are out there.
-MIGRATIONS: tuple[Migration, ...] = (TABLES, EVIDENCE, POLARITY, KINDS)
+MIGRATIONS: tuple[Migration, ...] = (TABLES, EVIDENCE, POLARITY, KINDS, CRITERIA)
 VERSION = len(MIGRATIONS)
 
 
@@ -300,7 +334,8 @@ _NEVER = (
     (
         1,
         "SELECT count(*) FROM lessons "
-        "WHERE kind NOT IN ('object', 'attribute', 'relation', 'subkind')",
+        "WHERE kind NOT IN "
+        "('object', 'attribute', 'relation', 'subkind', 'criterion')",
         "lessons of other kinds than kille has",
     ),
     (
@@ -310,7 +345,7 @@ _NEVER = (
     ),
     (
         1,
-        "SELECT count(*) FROM lessons WHERE kind != 'subkind' AND "
+        "SELECT count(*) FROM lessons WHERE kind NOT IN ('subkind', 'criterion') AND "
         "iif(kind = 'relation', "
         "NOT EXISTS (SELECT 1 FROM arrangements WHERE lesson = lessons.id), "
         "NOT EXISTS (SELECT 1 FROM sightings WHERE lesson = lessons.id))",
@@ -321,6 +356,12 @@ _NEVER = (
         "SELECT count(*) FROM lessons WHERE kind = 'subkind' AND "
         "NOT EXISTS (SELECT 1 FROM subsumptions WHERE lesson = lessons.id)",
         "lessons about kinds of things without what these are kinds of",
+    ),
+    (
+        5,
+        "SELECT count(*) FROM lessons WHERE kind = 'criterion' AND "
+        "NOT EXISTS (SELECT 1 FROM criteria WHERE lesson = lessons.id)",
+        "lessons by what things are known without what that is",
     ),
     (
         1,

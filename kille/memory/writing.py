@@ -11,6 +11,7 @@ from kille.memory.configurations import to_text
 from kille.memory.errors import NotKeptError
 from kille.memory.lessons import (
     Arrangement,
+    Criterion,
     Scan,
     Seen,
     SeenLesson,
@@ -98,6 +99,8 @@ def add_lesson(
             _add_arrangement(connection, key, seen)
         case Subsumption():
             _add_subsumption(connection, key, seen)
+        case Criterion():
+            _add_criterion(connection, key, seen)
     if seen.picture is not None:
         _add_picture(connection, key, seen.picture)
     _check_kept(connection, lesson_of(key, word, turn, seen, holds=holds))
@@ -175,6 +178,19 @@ def _add_subsumption(
         upper.name,
         upper.surface,
         upper.article,
+    )
+
+
+def _add_criterion(connection: sqlite3.Connection, key: int, seen: Criterion) -> None:
+    _insert(
+        connection,
+        "INSERT INTO criteria VALUES (?, ?, ?, ?, ?, ?)",
+        key,
+        seen.by,
+        seen.name,
+        seen.surface,
+        seen.article,
+        seen.degree,
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from kille.memory import (
     Arrangement,
+    Criterion,
     Lesson,
     Sighting,
     Subsumption,
@@ -23,6 +24,7 @@ _KINDS = {
     "attribute": "how a thing is",
     "relation": "where a thing is",
     "subkind": "a kind of thing",
+    "criterion": "by what a kind of thing is known",
 }
 _NEARLY_NOTHING = 0.01  # metres: the cue of size is the logarithm of a length and this
 _HOLDS, _MOST_COLOURS = 0.5, 3
@@ -58,6 +60,21 @@ def describe_sight(lesson: SeenLesson) -> Iterator[str]:
             yield f"{things}: {_where(stand.configuration.offset)}"
         case Subsumption() as said:
             yield f"a kind of {terminal_word(said.upper.surface)}"
+        case Criterion() as criterion:
+            yield _describe_criterion(criterion)
+
+
+def _describe_criterion(criterion: Criterion) -> str:
+    """By what things of a kind were said to be known: a cue, a quality, a part."""
+    surface = terminal_word(criterion.surface)
+    match criterion.by:
+        case "cue":
+            return (
+                f"the {surface} {'matters' if criterion.degree else 'does not matter'}"
+            )
+        case "quality":
+            return f"{surface} with a degree of {criterion.degree:g}"
+    return f"with {surface} as a part with a degree of {criterion.degree:g}"
 
 
 def looks(lesson: SeenLesson) -> str:

@@ -28,6 +28,7 @@ from kille.interfaces.terminal import (
     print_json,
 )
 from kille.memory import (
+    Criterion,
     Memory,
     MemoryFileError,
     NoSuchLessonError,
@@ -97,7 +98,7 @@ def _tell(out: Console, shown: ShownLesson) -> None:
 def _lines(shown: ShownLesson) -> Iterator[str]:
     yield describe_turn(shown.lesson.turn)
     yield ", ".join(describe_sight(shown.lesson))
-    if isinstance(shown.lesson.seen, Subsumption):
+    if isinstance(shown.lesson.seen, Subsumption | Criterion):
         return
     if looked := looks(shown.lesson):
         yield looked
@@ -183,6 +184,10 @@ def _facts(shown: ShownLesson) -> dict[str, Any]:
         return facts | _sighting_fields(lesson.seen)
     if isinstance(lesson.seen, Subsumption):
         return facts | {"kind_of": lesson.seen.upper.surface}
+    if isinstance(lesson.seen, Criterion):
+        known = lesson.seen
+        said = {"by": known.by, "criterion": known.surface, "degree": known.degree}
+        return facts | said
     stand = lesson.seen
     things = {"target": stand.target, "landmark": stand.landmark}
     return facts | things | {"configuration": configuration_json(stand.configuration)}

@@ -147,6 +147,28 @@ def test_a_kind_of_a_kind_is_listed_and_shown(kille: Run, taught: Path) -> None:
     assert json.loads(facts)[0]["kind_of"] == "vessel"
 
 
+def test_by_what_things_are_known_is_listed_and_shown(kille: Run, taught: Path) -> None:
+    cup = Word("cup", "cup", "object", "a")
+    with Memory.open(taught) as memory:
+        dialogue = memory.begin_dialogue("2026-02-01T12:00:00+00:00")
+        turn = Turn(dialogue, 1, "tutor", "Cups are white.", "", "2026-02-01T12:00")
+        white = Word("is_white", "white", "attribute")
+        key = memory.learn_criterion(turn, cup, "quality", white, 0.9)
+        colour = Word("colour", "colour", "attribute")
+        other = memory.learn_criterion(turn, cup, "cue", colour, 0.0)
+    assert re.search(r"cup +criterion +2 ", kille("memory", "list").out)
+    shown = kille("memory", "show", str(key)).out
+    assert f"cup (by what a kind of thing is known), lesson {key}" in shown
+    assert "white with a degree of 0.9" in shown
+    assert "the colour does not matter" in kille("memory", "show", str(other)).out
+    [facts] = json.loads(kille("memory", "show", str(key), "--json").out)
+    assert (facts["by"], facts["criterion"], facts["degree"]) == (
+        "quality",
+        "white",
+        0.9,
+    )
+
+
 def test_a_relation_is_shown_by_where_things_were(kille: Run, taught: Path) -> None:
     out = kille("memory", "show", "#4").out
     assert out.startswith("left of (where a thing is), lesson 4\n")

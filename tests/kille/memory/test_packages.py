@@ -552,7 +552,7 @@ def test_another_format_is_named(folder: Path) -> None:
 
 def test_a_newer_format_is_named(folder: Path) -> None:
     manifest = json.loads((folder / "memory.json").read_text())
-    (folder / "memory.json").write_text(json.dumps(manifest | {"version": 4}))
+    (folder / "memory.json").write_text(json.dumps(manifest | {"version": 5}))
     assert "update kille" in refusal(folder)
 
 
