@@ -9,9 +9,11 @@ from typing import Protocol, Self
 
 import numpy as np
 
+from kille.grounding.generics import Generic, Generics
 from kille.grounding.reasons import Reasons, Share, best_rival, shares_of
 from kille.memory import (
     Arrangement,
+    CriterionLesson,
     Kind,
     KindLesson,
     Lesson,
@@ -24,6 +26,7 @@ from kille.memory import (
     Turn,
     Word,
 )
+from kille.memory.lessons import By
 from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, Palette, colours_of, xkcd
 from kille.perception.colours.palette import pack_palette, unpack_palette
@@ -84,6 +87,7 @@ class Knowledge:
         self.colours = ColourMemory(prior=xkcd())
         self.attributes = AttributeMemory()
         self.relations = learners.relations()
+        self.generics = Generics()
         denied: list[View] = []
         self.objects = learners.objects(_views(memory, denied))
         for view in denied:
@@ -97,6 +101,9 @@ class Knowledge:
         for placed in memory.relations():
             stand = placed.seen.configuration
             self._learn_relation(placed.key, placed.word.name, stand, placed.holds)
+        for known in memory.criteria():
+            by, of, degree = known.seen.by, known.seen.name, known.seen.degree
+            self._learn_criterion(known.key, known.word.name, by, of, degree)
 
     @contextmanager
     def together(self) -> Iterator[None]:
@@ -197,6 +204,22 @@ class Knowledge:
         with self.together():
             return self.memory.learn_kind(turn, lower, upper)
 
+    def learn_criterion(
+        self, turn: Turn, noun: Word, by: By, criterion: Word, degree: float
+    ) -> int:
+        """Learn by what the things of a noun are known; returns the key.
+
+        A cue counts, or does not; a quality is evidence for the noun. Parts cannot be
+        seen: they are kept as they were said.
+        """
+        with self.together():
+            key = self.memory.learn_criterion(turn, noun, by, criterion, degree)
+            self._learn_criterion(key, noun.name, by, criterion.name, degree)
+            learner = self._learner_by(by)
+            if learner is not None:
+                self._undo(learner.forget, key)
+        return key
+
     def forget(self, key: int) -> None:
         """Forget a lesson, as if it had never been. Raises NoSuchLessonError."""
         with self.together():
@@ -228,6 +251,7 @@ class Knowledge:
     ) -> Reasons:
         """Why a thing is called by this noun, and not by a rival.
 
+        Cues that were said not to matter for the noun are no reasons for it.
         By default the rival is the best other noun. `heard` is the evidence, if it is
         known already. KeyError for a noun that was not learned.
         """
@@ -236,7 +260,9 @@ class Knowledge:
         rival, margin = best_rival(word, degrees, rival)
         against = rival if rival in degrees else None
         view = self.objects.nearest(percept, word)
-        cues = shares_of(evidence.reasons(word, against)) if word in degrees else ()
+        added = evidence.reasons(word, against) if word in degrees else {}
+        counts = self.objects.relevance(word)
+        cues = shares_of({it: x for it, x in added.items() if not counts.ignores(it)})
         lesson = self._lesson(None if view is None else view.key)
         return Reasons(word, degrees.get(word, 0.0), cues, lesson, rival, margin)
 
@@ -282,17 +308,22 @@ class Knowledge:
     def _forget(self, *lessons: Lesson) -> None:
         """Have the learners forget lessons; undo restores them in order."""
         taught = [
-            (self._learner_of_lesson(lesson), lesson.key)
+            (learner, lesson.key)
             for lesson in lessons
-            if not isinstance(lesson, KindLesson)
+            if (learner := self._learner_of_lesson(lesson)) is not None
         ]
         for learner in {id(learner): learner for learner, _ in taught}.values():
             self._undo(learner.become, learner.copy())
         for learner, key in taught:
             learner.forget(key)
 
-    def _learner_of_lesson(self, lesson: Lesson) -> _Learner:
+    def _learner_of_lesson(self, lesson: Lesson) -> _Learner | None:
+        """The learner of a lesson; None for what is only remembered."""
         match lesson:
+            case KindLesson():
+                return None
+            case CriterionLesson():
+                return self._learner_by(lesson.seen.by)
             case RelationLesson():
                 return self.relations
             case ObjectLesson() if lesson.word.kind == "attribute":
@@ -304,6 +335,23 @@ class Knowledge:
         colour = colour_named(self.colours, name)
         unknown = shown is None or colour is None
         return self.attributes if unknown else self.colours
+
+    def _learner_by(self, by: By) -> _Learner | None:
+        """The learner of what things are known by; None for what cannot be seen."""
+        match by:
+            case "cue":
+                return self.objects
+            case "quality":
+                return self.generics
+        return None
+
+    def _learn_criterion(
+        self, key: int, noun: str, by: By, name: str, degree: float
+    ) -> None:
+        if by == "cue":
+            self.objects.weigh(noun, name, degree > 0.0, key=key)
+        if by == "quality":
+            self.generics.learn_one(Generic(noun, name, degree), key=key)
 
     def _learn_attribute(
         self, key: int, name: str, traits: Traits, shown: Palette | None, holds: bool

@@ -16,6 +16,7 @@ from functools import partial
 from typing import Self
 
 from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
+from kille.grounding.generics import CUE, Generics
 from kille.grounding.knowledge import Knowledge, colour_named
 from kille.grounding.measurements import Measurements
 from kille.perception.attributes import AttributeMemory
@@ -59,11 +60,13 @@ class WitnessFunctions:
         relations: RelationMemory,
         colours: ColourMemory | None = None,
         attributes: AttributeMemory | None = None,
+        generics: Generics | None = None,
     ) -> None:
         """Judge by these learners; by default colours are named as most people do."""
         self._objects, self._relations = objects, relations
         self._colours = ColourMemory(prior=xkcd()) if colours is None else colours
         self._attributes = AttributeMemory() if attributes is None else attributes
+        self._generics = Generics() if generics is None else generics
         self._seen: dict[str, Measurements] = {}
         self._evident: dict[tuple[str, str], Evidence] = {}
         self._named: dict[tuple[str, str], Mapping[str, float]] = {}
@@ -75,7 +78,13 @@ class WitnessFunctions:
     def of(cls, knowledge: Knowledge) -> Self:
         """Judge by this knowledge, as it is now and later."""
         known = knowledge
-        return cls(known.objects, known.relations, known.colours, known.attributes)
+        return cls(
+            known.objects,
+            known.relations,
+            known.colours,
+            known.attributes,
+            known.generics,
+        )
 
     def remember(self, handle: str, look: Look, needed: Collection[str] = ()) -> None:
         """Remember a look, so that words can be judged of it.
@@ -150,8 +159,18 @@ class WitnessFunctions:
         if percept is None:
             return None
         if (x, handle) not in self._evident:
-            self._evident[x, handle] = self._objects.evidence(percept)
+            seen = self._objects.evidence(percept)
+            self._evident[x, handle] = self._with_generics(seen, x, handle)
         return self._evident[x, handle]
+
+    def _with_generics(self, seen: Evidence, x: str, handle: str) -> Evidence:
+        """The evidence for each noun with what was said of all things of its kind."""
+        told = self._generics.evidence(
+            seen.labels, lambda quality: self.attribute(quality, x, handle)
+        )
+        if told is None:
+            return seen
+        return Evidence(seen.labels, seen.base, {**seen.added, CUE: told})
 
     def noun(self, word: str, x: str, handle: str) -> Degree:
         """The degree of word(x, look)."""

@@ -82,6 +82,21 @@ class Likeness:
     scores: Mapping[str, Numbers]
     unlike: Mapping[str, Numbers]
 
+    def with_column(self, column: int, other: Likeness) -> Likeness:
+        """The same, but for one word what the other says of it by the same cues."""
+        return Likeness(
+            _with_column(self.scores, column, other.scores),
+            _with_column(self.unlike, column, other.unlike),
+        )
+
+    def without(self, cue: str, columns: Sequence[int]) -> Likeness:
+        """The same, but how unlike a cue is of some words is not known."""
+        if cue not in self.unlike:
+            return self
+        apart = self.unlike[cue].copy()
+        apart[list(columns)] = np.inf
+        return Likeness(self.scores, {**self.unlike, cue: apart})
+
 
 class Examples:
     """Some views of each word, and the regression that tells the words apart.
@@ -232,6 +247,15 @@ class Examples:
             alone, through, border, among, self._opposed
         )
         return np.concatenate([weights[:-1], against, weights[-1:]])
+
+
+def _with_column(
+    these: Mapping[str, Numbers], column: int, others: Mapping[str, Numbers]
+) -> dict[str, Numbers]:
+    changed = {cue: numbers.copy() for cue, numbers in these.items()}
+    for cue, numbers in changed.items():
+        numbers[column] = others[cue][column]
+    return changed
 
 
 def _invert(system: Numbers, old: Examples | None, before: Places) -> Numbers:

@@ -11,6 +11,9 @@ and for what is like that, and is evidence for no other: it is an example agains
 (`kille.perception.negative_examples`), and features near those of the denied view vote
 for it no more than if another word had such (`kille.perception.votes`). Other words
 gain only what it leaves them.
+
+And a tutor may say which cues count for a word: "the colour does not matter". Then its
+examples are compared by other weights (`kille.perception.relevance`).
 """
 
 from __future__ import annotations
@@ -22,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.cues import CUES, Cue, measure_cues
-from kille.perception.evidence import Evidence, Weighing, weighing
+from kille.perception.evidence import SIZE, Evidence, Weighing, weighing
 from kille.perception.features import NONE
 from kille.perception.index import (
     AGAIN,
@@ -35,6 +38,7 @@ from kille.perception.index import (
 from kille.perception.index.builders import Builder
 from kille.perception.learners import Key, own_key
 from kille.perception.likeness import Examples, Likeness
+from kille.perception.relevance import Relevance
 from kille.perception.votes import beyond_chance, rivals, votes
 from kille.scene import Features, Percept, Traits
 
@@ -68,6 +72,10 @@ class ObjectMemory:
         """
         self._index = Index(views, builder=builder)
         self._denied: dict[Key, View] = {}
+        self._said: dict[Key, tuple[str, str, bool]] = {}
+        self._relevance: dict[str, Relevance] = {}
+        self._own_examples: dict[Relevance, Examples] = {}
+        self._own_latest: dict[Relevance, Examples] = {}
         self._weighing = weighed or weighing()
         self._cues = cues
         self._examples: Examples | None = None
@@ -85,6 +93,7 @@ class ObjectMemory:
         """Take over all that the other knows; afterwards either learns by itself."""
         self.__dict__.update(other.__dict__)
         self._index, self._denied = other._index.copy(), dict(other._denied)
+        self._said = dict(other._said)
 
     @property
     def views(self) -> tuple[View, ...]:
@@ -118,13 +127,26 @@ class ObjectMemory:
         """Learn a view made by `view_of`; ValueError if its key is taken."""
         self._require_free(view.key)
         self._index.learn(view)
-        self._examples = None
+        self._views_changed()
 
     def deny(self, view: View) -> None:
         """Learn a view that its word does not apply to; ValueError as for `learn`."""
         self._require_free(view.key)
         self._denied[view.key] = view
-        self._examples = None
+        self._views_changed()
+
+    def weigh(self, label: str, group: str, matters: bool, *, key: Key) -> None:
+        """Learn that a group of cues is what matters for a word, or does not matter.
+
+        `group` is one of `kille.perception.relevance`. ValueError if the key is taken.
+        """
+        self._require_free(key)
+        self._said[key] = label, group, matters
+        self._weigh_anew()
+
+    def relevance(self, label: str) -> Relevance:
+        """Which cues count for a word, by what was said."""
+        return self._relevance.get(label, Relevance())
 
     def view_of(self, x: Percept, label: str, *, key: Key) -> View:
         """What a lesson stores: the features kept of the percept, and its traits."""
@@ -132,9 +154,12 @@ class ObjectMemory:
 
     def forget(self, key: Key) -> None:
         """Undo a lesson, as if it had never been given; KeyError if there was none."""
+        if self._said.pop(key, None) is not None:
+            self._weigh_anew()
+            return
         if self._denied.pop(key, None) is None:
             self._index.forget(key)
-        self._examples = None
+        self._views_changed()
 
     def forget_word(self, label: str) -> None:
         """Undo all lessons in a word; KeyError if there were none."""
@@ -162,7 +187,20 @@ class ObjectMemory:
             rivalling = rivals(found, query, labels, self.denied)
             cast = votes(found, len(labels), len(x.scans), rivalling)
             cast = beyond_chance(cast, self._index.sizes, len(query) / len(x.scans))
-        return self._weighing.evidence(labels, self._likeness(traits), cast)
+        likeness = self._likeness(traits)
+        for label, relevance in self._relevance.items():
+            if label in labels:
+                column, own = labels.index(label), self._examples_for(relevance)
+                likeness = likeness.with_column(column, own.likeness(traits))
+                cast[column] *= relevance.votes**2
+        return self._weighing.evidence(labels, self._ignoring(likeness, labels), cast)
+
+    def _ignoring(self, likeness: Likeness, labels: Sequence[str]) -> Likeness:
+        """The likeness without a size for the words of which the size was said not to
+        matter."""
+        words = [it for it, said in self._relevance.items() if said.ignores(SIZE)]
+        columns = [labels.index(it) for it in words if it in labels]
+        return likeness.without(SIZE, columns) if columns else likeness
 
     def traits_of(self, x: Percept) -> Traits:
         """The percept's traits, and those of this memory's own cues that it lacks."""
@@ -182,7 +220,10 @@ class ObjectMemory:
         labels = self.labels
         if label not in labels:
             raise KeyError(label)
-        found = self._current_examples().nearest(self.traits_of(x), labels.index(label))
+        examples = self._current_examples()
+        if label in self._relevance:
+            examples = self._examples_for(self._relevance[label])
+        found = examples.nearest(self.traits_of(x), labels.index(label))
         return self._nearest_in_features(x, label) if found is None else found
 
     def _nearest_in_features(self, x: Percept, label: str) -> View | None:
@@ -211,11 +252,38 @@ class ObjectMemory:
             self._latest = self._examples
         return self._examples
 
+    def _examples_for(self, relevance: Relevance) -> Examples:
+        """The examples, compared by the weights that words of this relevance have."""
+        if relevance not in self._own_examples:
+            made = Examples(
+                self.views,
+                self.labels,
+                relevance.kernels(self._weighing.kernels),
+                self._own_latest.get(relevance),
+                denied=self.denied,
+            )
+            self._own_examples = {**self._own_examples, relevance: made}
+            self._own_latest = {**self._own_latest, relevance: made}
+        return self._own_examples[relevance]
+
+    def _views_changed(self) -> None:
+        """Compare the examples anew when it is next asked."""
+        self._examples, self._own_examples = None, {}
+
+    def _weigh_anew(self) -> None:
+        """Work out which cues count for which words, by all that was said of them."""
+        said: dict[str, list[tuple[str, bool]]] = {}
+        for label, group, matters in self._said.values():
+            said.setdefault(label, []).append((group, matters))
+        self._relevance = {label: Relevance.of(them) for label, them in said.items()}
+        kept = {*self._relevance.values()}
+        self._own_latest = {k: it for k, it in self._own_latest.items() if k in kept}
+
     def _own_key(self) -> Key:
-        return own_key({*self._index.views, *self._denied})
+        return own_key({*self._index.views, *self._denied, *self._said})
 
     def _require_free(self, key: Key) -> None:
-        if key in self._denied or key in self._index.views:
+        if key in self._denied or key in self._said or key in self._index.views:
             raise ValueError(f"the key {key!r} was learned before; forget it first")
 
 

@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 from kille.agent.attention import AttentiveSensor
 from kille.grounding.knowledge import Knowledge, LessonSource
 from kille.grounding.witness_functions import WitnessFunctions, thing_name
-from kille.memory import Memory, NoSuchLessonError, Turn
-from kille.memory.lessons import Kind
+from kille.memory import Memory, NoSuchLessonError, Turn, Word
+from kille.memory.lessons import By, Kind
 from kille.perception.look import look
 from kille.perception.relations.configurations import configurations
+from kille.perception.relevance import GROUPS
 from kille.scene import Look, Percept
 from kille.sensors.synthetic import open_synthetic
 
@@ -354,3 +355,119 @@ def test_reasons_are_found_at_once(known: Knowledge) -> None:
             ask()
             taken.append(time.thread_time() - start)
         assert min(taken) < 0.2
+
+
+# --- by what things are known ---------------------------------------------------------
+
+CUP = Word("cup", "cup", "object", "a")
+CRITERIA: dict[str, tuple[By, Word, float]] = {
+    "the colour does not matter": ("cue", Word("colour", "colour", "attribute"), 0.0),
+    "it is the shape": ("cue", Word("shape", "shape", "attribute"), 1.0),
+    "cups are red": ("quality", Word("is_red", "red", "attribute"), 0.9),
+    "cups are never red": ("quality", Word("is_red", "red", "attribute"), 0.03),
+    "cups have handles": ("part", Word("handle", "handle", "object", "a"), 0.9),
+}
+
+
+def taught_nouns(known: Knowledge) -> Tutor:
+    tutor = Tutor(known)
+    for number, word in enumerate(("mug", "cup", "car")):
+        x = LOOK.percepts[number]
+        known.learn_noun(word, word, x, tutor.evidence())
+    return tutor
+
+
+@pytest.mark.parametrize("said", CRITERIA)
+def test_a_criterion_is_kept_and_undone_exactly(said: str, tmp_path: Path) -> None:
+    path = tmp_path / "memory.db"
+    with Memory.open(path) as memory:
+        known = Knowledge(memory)
+        tutor = taught_nouns(known)
+        before = judged(known)
+        key = known.learn_criterion(tutor.evidence().turn, CUP, *CRITERIA[said])
+        after = judged(known)
+    with Memory.open(path) as memory:
+        known = Knowledge(memory)
+        assert judged(known) == after
+        known.forget(key)
+        assert judged(known) == before
+
+
+@pytest.mark.parametrize("said", CRITERIA)
+def test_a_criterion_of_a_turn_that_fails_is_not_learned(
+    said: str, known: Knowledge
+) -> None:
+    tutor = taught_nouns(known)
+    before = judged(known)
+
+    def turn() -> None:
+        with known.together():
+            known.learn_criterion(tutor.evidence().turn, CUP, *CRITERIA[said])
+            raise RuntimeError("the camera is gone")
+
+    with pytest.raises(RuntimeError):
+        turn()
+    assert judged(known) == before
+    key = known.learn_criterion(tutor.evidence().turn, CUP, *CRITERIA[said])
+    after = judged(known)
+
+    def other() -> None:
+        with known.together():
+            known.forget(key)
+            raise RuntimeError("the camera is gone")
+
+    with pytest.raises(RuntimeError):
+        other()
+    assert judged(known) == after
+
+
+def test_a_cue_that_does_not_matter_is_no_reason(known: Knowledge) -> None:
+    tutor = taught_nouns(known)
+    x = LOOK.percepts[1]
+    before = {it.cue for it in known.reasons("cup", x).cues}
+    first = next(iter(GROUPS))
+    assert before & {*GROUPS[first]}
+    for group in (first, "details"):
+        word = Word(group, group, "attribute")
+        known.learn_criterion(tutor.evidence().turn, CUP, "cue", word, 0.0)
+        cues = known.reasons("cup", x).cues
+        assert not {it.cue for it in cues} & {*GROUPS[group]}
+        assert sum(it.share for it in cues) == pytest.approx(1)
+
+
+def test_what_cups_are_like_makes_what_is_like_that_a_cup(known: Knowledge) -> None:
+    tutor = taught_nouns(known)
+
+    def degree(number: int) -> float:
+        made = WitnessFunctions.of(known)
+        made.remember("look1", LOOK)
+        found = made.noun("cup", thing_name(number), "look1")
+        assert isinstance(found, float)
+        return found
+
+    def red(number: int) -> float:
+        made = WitnessFunctions.of(known)
+        made.remember("look1", LOOK)
+        found = made.attribute("is_red", thing_name(number), "look1")
+        assert isinstance(found, float)
+        return found
+
+    reds = sorted((1, 2, 3), key=red)
+    least, most = reds[0], reds[-1]
+    assert red(least) < 0.2 < 0.5 < red(most)
+    before = degree(least), degree(most)
+    said = CRITERIA["cups are red"]
+    key = known.learn_criterion(tutor.evidence().turn, CUP, *said)
+    assert degree(least) < before[0]
+    assert degree(most) > before[1]
+    known.forget(key)
+    assert (degree(least), degree(most)) == before
+
+
+def test_a_part_is_only_remembered(known: Knowledge) -> None:
+    tutor = taught_nouns(known)
+    before = degrees_of(known)
+    known.learn_criterion(tutor.evidence().turn, CUP, *CRITERIA["cups have handles"])
+    assert degrees_of(known) == before
+    [kept] = known.memory.criteria()
+    assert kept.seen.surface == "handle"
