@@ -16,6 +16,9 @@ from kille.agent.attention import AttentiveSensor, NumberedLook
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import Event, Exchange, RobotSentence
 from kille.agent.explanations import kind_of_lesson, sign_of
+from kille.agent.reason_pictures import reason_picture
+from kille.dialogue.beliefs import is_sure, names_of, thinks
+from kille.dialogue.commitments import as_told
 from kille.dialogue.games.clarifying import asks_which
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
@@ -34,6 +37,8 @@ from kille.grounding.witness_functions import WitnessFunctions, thing_name
 from kille.grounding.word_meanings import WordMeanings
 from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
+from kille.perception.segment import overlap
+from kille.scene import Colour, Percept
 from kille.sensors.sensor import Sensor, SensorError
 from ttr import Model, Record, RecType, Theory, TTRError, record
 from ttr.errors import UpdateError
@@ -43,6 +48,7 @@ from ttr.semantics.perceptual import Meaning, Speaker
 from ttr.types import Singleton
 from ttr.updates import Game, Run, Step
 
+_SAME_THING = 0.5  # overlap of a thing with itself in another look
 _POINTING = re.compile(r"#([0-9]{1,6})\b")
 
 TUTOR = "tutor"
@@ -249,6 +255,43 @@ class Agent:
         {labels = [cup], learner = <Handle ObjectMemory>}
         """
         return self.words()[word]
+
+    def names_in_view(self) -> tuple[str, ...]:
+        """What it would call each thing in its latest view, by their numbers.
+
+        With a question mark where it is not sure, and empty where it does not know, or
+        where another thing lies there than at its latest turn.
+        """
+        things = () if self.view is None else self.view.look.percepts
+        return tuple(self._name_of(*it) for it in enumerate(things, start=1))
+
+    def _name_of(self, number: int, thing: Percept) -> str:
+        s, x = self.state, thing_name(number)
+        before = self._witnesses.percept(x, s.view.look)
+        if x not in s.view.things or before is None:
+            return ""
+        if overlap(before.region, thing.region) < _SAME_THING:
+            return ""
+        beliefs = as_told(s, names_of(s, self.model, x))
+        if not thinks(s, beliefs):
+            return ""
+        return f"{beliefs[0].sign.form}{'' if is_sure(s, beliefs) else '?'}"
+
+    def reason_picture(self) -> Colour | None:
+        """The reason that it gave last, as a picture (H, W, 3) RGB.
+
+        What it saw and the lesson that it was reminded of are side by side, with the
+        details that both have, and how much each cue counted. None if it has given no
+        reason. Raises ValueError if the picture of the lesson cannot be decoded.
+        """
+        for exchange in reversed(self.exchanges):
+            for said in reversed(exchange.said):
+                picture = reason_picture(
+                    said, self._witnesses, self.memory, self._lexicon
+                )
+                if picture is not None:
+                    return picture
+        return None
 
     @property
     def view(self) -> NumberedLook | None:

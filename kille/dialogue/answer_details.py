@@ -8,6 +8,7 @@ can be filled: without a lesson there is nothing for {when}.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any
 
 from kille.dialogue.lexicon import Lexicon
@@ -91,17 +92,31 @@ def _lesson_text(reminder: Record) -> str:
 
 def _deciding_cues(data: Section, cues: Iterable[Record]) -> Iterator[str]:
     """What the cues that decided are called, the most important first."""
-    names, reasons = data["cues"], data["reasons"]
-    shares: dict[str, float] = {}
-    for cue in cues:
-        name = names.get(cue.name, cue.name)
-        shares[name] = shares.get(name, 0.0) + cue.share
-    explained = 0.0
-    ordered = sorted(shares, key=lambda name: -shares[name])
-    for name in ordered[: reasons["most"]]:
+    reasons, explained = data["reasons"], 0.0
+    for name, share in islice(_named_shares(data, cues), reasons["most"]):
         if explained < reasons["enough"]:
             yield name
-        explained += shares[name]
+        explained += share
+
+
+def cue_shares(lexicon: Lexicon, reason: Record) -> Mapping[str, float]:
+    """How much each cue counted in a reason, by what it is called, the most first.
+
+    >>> from kille.dialogue.lexicon import lexicon
+    >>> cues = [record(name="hue", share=0.75), record(name="size", share=0.25)]
+    >>> cue_shares(lexicon("sv"), record(cues=cues))
+    {'färg': 0.75, 'storlek': 0.25}
+    """
+    return dict(_named_shares(lexicon.sections, reason.cues))
+
+
+def _named_shares(data: Section, cues: Iterable[Record]) -> Iterator[tuple[str, float]]:
+    """The names of cues with their shares, the most important first."""
+    shares: dict[str, float] = {}
+    for cue in cues:
+        name = data["cues"].get(cue.name, cue.name)
+        shares[name] = shares.get(name, 0.0) + cue.share
+    yield from sorted(shares.items(), key=lambda it: -it[1])
 
 
 def _when(ages: Section, reminder: Record) -> str:

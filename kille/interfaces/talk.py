@@ -25,7 +25,6 @@ from kille.interfaces.speech_input import (
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import Memory, MemoryFileError
 from kille.perception.picture_sheet import overview, write_picture
-from kille.perception.thumbnails import outline_things
 from kille.safety.private_files import create_private_file
 from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
@@ -45,8 +44,8 @@ Lines that begin with @ change what there is to see:
   @ point 2                     "this" is thing #2 from now on; also in a sentence:
                                 #2 This is a book.
   @ look                        what is in view
-  @ picture [FILE.png]          a picture of it, with the numbers
-  @ why [FILE.png]              what the latest "Why?" reminded it of, as a picture
+  @ picture [FILE.png]          a picture of it, with the numbers and names
+  @ why [FILE.png]              the reason that it gave last, as a picture
   @ trace                       what the latest turn did to the state, in full
   @ things                      all that can be shown
   @ scene SENSOR                look through another sensor
@@ -230,7 +229,7 @@ class _Conversation:
             case "picture":
                 return self._picture(Path(rest or "kille-view.png"))
             case "why":
-                return self._reminder(Path(rest or "kille-why.png"))
+                return self._reason(Path(rest or "kille-why.png"))
             case "things":
                 return self._things()
             case "trace":
@@ -250,38 +249,30 @@ class _Conversation:
         view = self._robot.view
         assert view is not None
         try:
-            write_picture(path, overview(view.look))
+            write_picture(path, overview(view.look, self._robot.names_in_view()))
         except OSError as error:
             complain(f"the picture cannot be written to {path}: {error.strerror}")
             return ""
         self._print(f"The picture is in {path}.")
         return ""
 
-    def _reminder(self, path: Path) -> str:
-        """Writes the picture of the lesson that the robot was reminded of."""
-        key = next(self._reminders(), None)
-        picture = None if key is None else self._robot.memory.picture(int(key))
-        if picture is None:
-            complain(
-                'there is no lesson to show: ask "Why?" after the robot has said what '
-                "something is"
-            )
-            return ""
+    def _reason(self, path: Path) -> str:
+        """Writes a picture of the reason that the robot gave last."""
         try:
-            write_picture(path, outline_things(picture))
+            picture = self._robot.reason_picture()
+            if picture is not None:
+                write_picture(path, picture)
         except (OSError, ValueError) as error:
             complain(f"the picture cannot be written to {path}: {error}")
             return ""
-        self._print(f"What it was reminded of is in {path}.")
+        if picture is None:
+            complain(
+                'there is no reason to show: ask "Why?" after the robot has said what '
+                "something is"
+            )
+            return ""
+        self._print(f"Its reason is in {path}.")
         return ""
-
-    def _reminders(self) -> Iterator[str]:
-        """The lessons that the robot has named as reasons, the latest first."""
-        for turn in reversed(self._robot.exchanges):
-            for said in turn.said:
-                if said.judgement is not None:
-                    for reason in said.judgement.sit.reasons:
-                        yield from (it.key for it in reason.reminders)
 
     def _trace(self) -> str:
         """Shows all that the latest turn did, whatever `--trace` shows of each."""

@@ -12,13 +12,17 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from kille.perception.lettering import PAPER, write_label, write_text
 from kille.scene import Box, Colour, Depth, Features, Frame, Look, Mask, Percept
 
 _WIDTH, _HEIGHT = 320, 240
 _TITLE, _MARGIN = 26, 8
-_PAPER, _INK = (255, 255, 255), (40, 40, 40)
-_MARK, _DOT = (255, 96, 0), (0, 200, 90)
-_FONT = cv2.FONT_HERSHEY_SIMPLEX
+_DOT = (0, 200, 90)
+_SMALLEST, _LINES = 14, 24
+"""The height of a label in pixels at least, and how many would fill a picture."""
+
+MARK = (255, 96, 0)
+"""The colour of outlines, RGB."""
 
 
 def picture_sheet(rows: Sequence[tuple[str, Look, int]]) -> Colour:
@@ -26,11 +30,20 @@ def picture_sheet(rows: Sequence[tuple[str, Look, int]]) -> Colour:
     return np.vstack([_row(title, look, number) for title, look, number in rows])
 
 
-def overview(look: Look) -> Colour:
-    """The frame (H, W, 3) RGB with every thing in view outlined and numbered."""
+def overview(look: Look, names: Sequence[str] = ()) -> Colour:
+    """The frame (H, W, 3) RGB with every thing in view outlined and numbered.
+
+    Beside the number stands the name of the thing, where one is given that is not
+    empty.
+    """
     picture = look.frame.colour.copy()
+    for percept in look.percepts:
+        outline(picture, percept.region.mask)
+    labels: list[Box] = []
+    size = max(_SMALLEST, picture.shape[1] // _LINES)
     for number, percept in enumerate(look.percepts, start=1):
-        _outline(picture, percept.region.mask, percept.region.box, str(number))
+        text = " ".join([str(number), *names[number - 1 : number]]).strip()
+        labels.append(write_label(picture, text, percept.region.box, size, labels))
     return picture
 
 
@@ -52,14 +65,14 @@ def _row(title: str, look: Look, number: int) -> Colour:
     ]
     strip = [piece for picture in pictures for piece in (_gap(), _fit_cell(picture))]
     pictures_row = np.hstack([*strip, _gap()])
-    heading = np.full((_TITLE, pictures_row.shape[1], 3), _PAPER, np.uint8)
+    heading = np.full((_TITLE, pictures_row.shape[1], 3), PAPER, np.uint8)
     text = f"{title}   ({len(percept.scans[0].descriptors)} features)"
-    cv2.putText(heading, text, (_MARGIN, 18), _FONT, 0.5, _INK, 1, cv2.LINE_AA)
+    write_text(heading, text, (_MARGIN, 4), 18)
     return np.vstack([heading, pictures_row])
 
 
 def _gap() -> Colour:
-    return np.full((_HEIGHT, _MARGIN, 3), _PAPER, np.uint8)
+    return np.full((_HEIGHT, _MARGIN, 3), PAPER, np.uint8)
 
 
 def _fit_cell(picture: Colour) -> Colour:
@@ -69,29 +82,31 @@ def _fit_cell(picture: Colour) -> Colour:
     size = max(1, round(width * scale)), max(1, round(height * scale))
     shrinking = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
     scaled = cv2.resize(picture, size, interpolation=shrinking)
-    cell = np.full((_HEIGHT, _WIDTH, 3), _PAPER, np.uint8)
+    cell = np.full((_HEIGHT, _WIDTH, 3), PAPER, np.uint8)
     top, left = (_HEIGHT - size[1]) // 2, (_WIDTH - size[0]) // 2
     cell[top : top + size[1], left : left + size[0]] = scaled
     return cell
 
 
 def _mark_region(frame: Frame, percept: Percept, number: int) -> Colour:
-    picture = frame.colour.copy()
-    _outline(picture, percept.region.mask, percept.region.box, str(number))
+    picture, region = frame.colour.copy(), percept.region
+    outline(picture, region.mask)
+    size = max(_SMALLEST, picture.shape[1] // _LINES)
+    write_label(picture, str(number), region.box, size)
     return picture
 
 
-def _outline(picture: Colour, mask: Mask, box: Box, label: str) -> None:
-    """Draw the outline of the mask, and the label at its upper left."""
+def outline(picture: Colour, mask: Mask, thick: int = 0) -> None:
+    """Draw the outline of a mask (H, W) on a picture of its size.
+
+    It is as many pixels thick as is said, or else as suits the picture.
+    """
     edges, _ = cv2.findContours(
         mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
     )
-    thick = max(1, picture.shape[1] // 320)
-    cv2.drawContours(picture, edges, -1, _MARK, thick, cv2.LINE_AA)
-    size = picture.shape[1] / 800
-    at = max(box.left, 4), max(box.top - 6, round(24 * size))
-    cv2.putText(picture, label, at, _FONT, size, _PAPER, 3 * thick, cv2.LINE_AA)
-    cv2.putText(picture, label, at, _FONT, size, _MARK, thick, cv2.LINE_AA)
+    thick = thick or max(1, picture.shape[1] // 320)
+    drawn = np.ascontiguousarray(picture)  # OpenCV draws on no part of a picture
+    picture[:] = cv2.drawContours(drawn, edges, -1, MARK, thick, cv2.LINE_AA)
 
 
 def _depth_picture(frame: Frame) -> Colour:
@@ -99,7 +114,7 @@ def _depth_picture(frame: Frame) -> Colour:
     if frame.depth is None or not np.isfinite(frame.depth).any():
         blank = np.full_like(frame.colour, 235)
         at = (blank.shape[1] // 2 - 40, blank.shape[0] // 2)
-        cv2.putText(blank, "no depth", at, _FONT, 0.5, _INK, 1, cv2.LINE_AA)
+        write_text(blank, "no depth", at, 18)
         return blank
     return _colour_depth(frame.depth)
 

@@ -26,7 +26,7 @@ from kille import Agent, Memory
 from kille.dialogue.meanings import predicate_name, record_type, word_of
 from kille.memory import MemoryFileError, ObjectLesson
 from kille.scene import Frame
-from kille.sensors.sensor import SensorError
+from kille.sensors.sensor import At, SensorError
 from kille.sensors.synthetic import Synthetic, open_synthetic
 from ttr.errors import UpdateError
 
@@ -577,3 +577,54 @@ def test_what_was_perhaps_said_is_probable(
             robot.hear_perhaps(*texts)
         assert str(wrong.value).endswith(told)
         assert robot.state is state
+
+
+# --- pictures ------------------------------------------------------------------------
+
+
+def test_things_in_view_have_the_names_that_it_would_call_them() -> None:
+    with awake() as robot:
+        tell(robot, "@place cup at -0.15 0", "@place book at 0.15 0.1")
+        assert robot.names_in_view() == ("", "")
+        tell(robot, "@point 1", "This is a cup.")
+        robot.do("glimpse")
+        assert robot.names_in_view()[0] == "cup"
+        tell(robot, "@remove cup", "@place car at 0.1 -0.1")
+        robot.do("glimpse")
+        assert len(robot.names_in_view()) == 2
+
+
+def test_a_thing_that_has_come_since_the_latest_turn_has_no_name() -> None:
+    with awake() as robot:
+        tell(robot, "@show cup", "This is a cup.")
+        assert robot.names_in_view() == ("cup",)
+        assert isinstance(robot.gaze.sensor, Synthetic)
+        robot.gaze.sensor.remove("cup")
+        robot.gaze.sensor.place("book", At(0.2, 0.1))
+        robot.do("glimpse")
+        assert robot.names_in_view() == ("",)
+
+
+def test_a_reason_can_be_shown() -> None:
+    with awake() as robot:
+        tell(robot, "@show cup", "This is a cup.", "What is this?")
+        assert robot.reason_picture() is None
+        robot.hear("Why?")
+        picture = robot.reason_picture()
+        assert picture is not None
+        assert picture.shape[1] > 700
+        robot.hear("Forget that.")
+        kept = robot.reason_picture()
+        assert kept is not None, "what was seen is there, if not what was taught"
+        assert kept.shape == picture.shape
+        assert not np.array_equal(kept, picture)
+
+
+def test_how_things_stand_can_be_shown_as_a_reason() -> None:
+    with awake() as robot:
+        tell(robot, "@place cup at -0.15 0", "@place book at 0.15 0.1", "@point 1")
+        tell(robot, "This is a cup.", "@point 2", "This is a book.")
+        told = tell(robot, "The cup is to the left of the book.", "Where is the cup?")
+        assert told[-1] == "The cup is to the left of the book."
+        assert "stand as they did" in robot.hear("Why?")
+        assert robot.reason_picture() is not None
