@@ -309,7 +309,7 @@ class Reader:
         rest = [it for it in found if it.terminal != "A"]
         for form, article in self._forms(rest):
             main = self._lexicon.main_form(form)
-            means = self._lexicon.means.get(main, "") if kind == "adjective" else ""
+            means = "" if kind == "noun" else self._lexicon.means.get(main, "")
             yield self._types.sign(main, kind, said or article, means)
 
     def _forms(self, found: list[Token]) -> Iterator[tuple[str, str]]:

@@ -164,6 +164,8 @@ def _claim_slots(
         yield from slots.items()
         if isinstance(content[label], Negation):
             yield from ((f"not_{slot}", text) for slot, text in slots.items())
+        if label == "rel" and "scale" in content:
+            yield "comparative", signs[0].form.rpartition(" ")[0]
 
 
 def _forms(lexicon: Lexicon, slot: str, sign: Record) -> Iterator[tuple[str, str]]:

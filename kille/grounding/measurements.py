@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.grounding.comparisons import Extents, extents_of
 from kille.perception.colours import Palette, colours_of
 from kille.perception.relations.configurations import configurations
 from kille.perception.relations.memory import template_odds
@@ -25,6 +27,11 @@ class Measurements:
         self._palettes: dict[int, Palette | None] = {}
         self._pairs: dict[str, Mapping[Pair, Configuration]] = {}
         self._odds: dict[str, NDArray[np.float64]] = {}
+
+    @cached_property
+    def extents(self) -> tuple[Extents | None, ...]:
+        """How big each thing is, and how far away; None for what has no place."""
+        return extents_of(self.look)
 
     def palette(self, number: int) -> Palette | None:
         """The colours of a thing; None if it has none, or was only described."""

@@ -16,6 +16,12 @@ from functools import partial
 from typing import Self
 
 from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
+from kille.grounding.comparisons import (
+    COMPARISONS,
+    SUPERLATIVES,
+    degree_of,
+    superlative_degree,
+)
 from kille.grounding.generics import CUE, Generics
 from kille.grounding.knowledge import Knowledge, colour_named
 from kille.grounding.measurements import Measurements
@@ -220,6 +226,26 @@ class WitnessFunctions:
         box = percept.region.box
         return float((box.left + box.right) / 2 / look.frame.colour.shape[1])
 
+    def comparative(
+        self, word: str, x: str, y: str, handle: str, front: str = AWAY
+    ) -> Degree:
+        """The degree of `bigger_than(x, y, look, front)`, or of another comparative.
+
+        It is the same in each perspective; [0, 1] for things of unknown sizes.
+        """
+        if self.percept(x, handle) is None or self.percept(y, handle) is None:
+            return UNKNOWN
+        i, j = number_of(x) - 1, number_of(y) - 1
+        if word in SUPERLATIVES:
+            seen = self._seen[handle].look.percepts
+            found = superlative_degree(word, i, j, [it.region.place for it in seen])
+            return UNKNOWN if found is None else found
+        extents = self._seen[handle].extents
+        one, other = extents[i], extents[j]
+        if one is None or other is None:
+            return UNKNOWN
+        return degree_of(word, one, other)
+
     def in_model(
         self,
         model: Model,
@@ -227,14 +253,21 @@ class WitnessFunctions:
         *,
         types: DialogueTypes | None = None,
     ) -> Model:
-        """The model in which these words, and `across`, are judged by what is seen."""
+        """The model in which these words are judged by what is seen.
+
+        So are `across` and the comparatives, which need no lessons.
+        """
         judges: Mapping[str, Callable[..., Degree]] = {
             "noun": self.noun,
             "adjective": self.attribute,
             "relation": self.relation,
         }
         types = types or packaged_types()
-        model = model.witnessed(types["across"], by=self.across)
+        if types["across"] not in model.facts.functions:
+            model = model.witnessed(types["across"], by=self.across)
+            for name in (*COMPARISONS, *SUPERLATIVES):
+                by = partial(self.comparative, name)
+                model = model.witnessed(types[name], by=by)
         for sign in signs:
             word = word_of(sign)
             model = model.witnessed(word, by=partial(judges[sign.kind], word.name))

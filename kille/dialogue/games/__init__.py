@@ -16,6 +16,7 @@ from kille.dialogue.games.checking import CHECKING
 from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
 from kille.dialogue.games.classifying import CLASSIFYING, STILL_ANSWERED
 from kille.dialogue.games.colouring import COLOURING
+from kille.dialogue.games.comparing import COMPARING
 from kille.dialogue.games.confirming import CONFIRMING
 from kille.dialogue.games.correcting import CORRECTING
 from kille.dialogue.games.counting import COUNTING
@@ -53,6 +54,7 @@ ANSWERING = first(
     SEVERAL,
     NAMING,
     PLACING,
+    COMPARING,
     CHECKING,
     COLOURING,
     FINDING,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import beliefs_about, is_sure
+from kille.dialogue.beliefs import beliefs_about, is_sure, names_of, thinks
 from kille.dialogue.games.placing import landmark_for
-from kille.dialogue.meanings import DialogueTypes, set_to
+from kille.dialogue.meanings import DialogueTypes, merge_of, set_to
 from kille.dialogue.moves import (
     content_of,
     nouns_said,
@@ -40,16 +40,34 @@ def plan_pointing(
     types: DialogueTypes,
 ) -> Record:
     """The plan to point at the thing that is asked for, and to say where it is."""
-    found = phrase_at(asked, "target")
-    nouns = nouns_said(s.shared.latest, found)[:1]
+    found, called = name_thing(s, model, phrase_at(asked, "target"), x)
+    signs = (*s.shared.latest.signs, *called)
+    nouns = nouns_said(record(signs=signs), found)[:1]
     content, beside = _where(s, model, asked, x, nouns, types=types)
     content = set_to(content, target=found, **number_field(s, x, types=types))
-    signs = tuple(dict.fromkeys((*s.shared.latest.signs, *beside)))
+    signs = tuple(dict.fromkeys((*signs, *beside)))
     claims = [said_of(s, noun, x, types=types) for noun in nouns]
     planned = plan(
         s, act, content, signs=signs, pending=claims, points=[x], types=types
     )
     return replace(planned, {"view.focus": (x,), "view.pointed": (x,)})
+
+
+def name_thing(
+    s: Record, model: Model, phrase: RecordType, x: str
+) -> tuple[RecordType, list[Record]]:
+    """The phrase for a thing, with a noun if it has no words: "the biggest one".
+
+    The noun is given as well; where the robot has none worth saying, none is added.
+    """
+    if any(label in phrase for label in ("c", "a", "rel")):
+        return phrase, []
+    names = names_of(s, model, x)
+    if not thinks(s, names):
+        return phrase, []
+    noun = names[0].sign
+    meaning = set_to(noun.meaning, look=phrase["look"], x=phrase["x"])
+    return merge_of(phrase, meaning), [noun]
 
 
 def _where(

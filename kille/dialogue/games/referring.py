@@ -33,6 +33,7 @@ from kille.dialogue.reference import (
     thing_at,
     things_in,
 )
+from kille.dialogue.reference.salience import compares
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, rectype, replace
@@ -50,6 +51,16 @@ def refer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
             shown = _shown_by(s, meant, types=types)
             return about(s, meant.content, shown=shown, types=types)
     return None
+
+
+@rule(answers=("AskFind", "AskName"))
+def cannot_choose(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """The tutor asks which thing is the biggest, and that cannot be seen."""
+    said = content_of(s).get("target")
+    if not isinstance(said, RecordType) or not compares(said):
+        return None
+    several = len(_readings(s, model, types=types)) > 1
+    return plan(s, "CannotCompare", types=types) if several else None
 
 
 @rule(answers="Heard")
@@ -225,7 +236,7 @@ def _about_focus(s: Record, readings: Sequence[Reading]) -> Sequence[Reading]:
 def _is_shown(reading: Reading, label: str) -> bool:
     """Whether a phrase of a reading says of its thing only that it is shown."""
     phrase = phrase_at(reading.open, label)
-    return set(phrase.labels) <= {"x", "look", "d"}
+    return set(phrase.labels) <= {"x", "look", "d"} and not compares(phrase)
 
 
 def _teaches(s: Record, model: Model, *, types: DialogueTypes) -> bool:
@@ -275,4 +286,6 @@ def _unfitting_phrases(
             yield alone
 
 
-REFERRING = first(refer, ask_referent, miss_word, miss_second, miss_thing)
+REFERRING = first(
+    refer, cannot_choose, ask_referent, miss_word, miss_second, miss_thing
+)

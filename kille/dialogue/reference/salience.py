@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
 from kille.dialogue.meanings import DialogueTypes, packaged_types, value_at
+from kille.dialogue.reference.comparing import COMPARATIVES, unexceeded_things
 from ttr import Model, Pred, Record, RecordType
+from ttr.types import Meet, PType
 
 Choice = Callable[[Record, Model, Sequence[str], DialogueTypes], Sequence[str]]
 """Chooses, in a state, among the things that the rest of a phrase fits."""
@@ -120,14 +122,31 @@ def _nth(n: int) -> Choice:
     return choose_nth
 
 
+def _any(
+    s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+) -> Sequence[str]:
+    return things
+
+
+def _most(comparative: str) -> Choice:
+    def choose_most(
+        s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+    ) -> Sequence[str]:
+        return unexceeded_things(s, model, types[comparative], things)
+
+    return choose_most
+
+
 CHOICES: Mapping[str, Choice] = {
     "other": _other,
+    "any_other": _any,
     "leftmost": _nth(0),
     "first": _nth(0),
     "second": _nth(1),
     "third": _nth(2),
     "last": _nth(-1),
     "rightmost": _nth(-1),
+    **{name: _most(comparative) for name, comparative in COMPARATIVES.items()},
 }
 """The words that choose, by the names of their predicates."""
 
@@ -135,6 +154,13 @@ CHOICES: Mapping[str, Choice] = {
 def choosing_predicates(types: DialogueTypes) -> frozenset[Pred]:
     """The predicates that choose among the things that fit the rest of a phrase."""
     return frozenset(types[name] for name in CHOICES)
+
+
+def compares(phrase: RecordType) -> bool:
+    """Whether a phrase chooses its thing by a measure: "the biggest one"."""
+    field = phrase.get("d")
+    parts = field.parts if isinstance(field, Meet) else (field,)
+    return any(isinstance(it, PType) and it.pred.name in COMPARATIVES for it in parts)
 
 
 def choose(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import Any
 
 from kille.dialogue.meanings import (
@@ -19,9 +20,16 @@ from kille.dialogue.meanings import (
     value_at,
     word_of,
 )
+from kille.dialogue.reference.comparing import COMPARATIVES
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
-from kille.lab.worlds.perception import across, number_of, thing, view
+from kille.lab.worlds.perception import (
+    across,
+    comparative,
+    number_of,
+    thing,
+    view,
+)
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.word_learning import LearnedWord, WordLesson, observe
 from kille.lab.worlds.worlds import World
@@ -81,6 +89,8 @@ def model_of(
     model = blank_model(types).witnessed(types["Look"], by=_is_look)
     for number in range(1, len(world.things) + 1):
         model = model.given(thing(number), types["Ind"])
+    for name in COMPARATIVES.values():
+        model = model.witnessed(types[name], by=partial(_compare, name))
     return with_known_words(model.witnessed(types["across"], by=_across), signs)
 
 
@@ -112,6 +122,12 @@ def world_of(s: Record) -> World:
 
 def _is_look(name: object) -> bool:
     return isinstance(name, str) and World.from_name(name) is not None
+
+
+def _compare(
+    word: str, x: str, y: str, look: str, front: str
+) -> float | tuple[float, float]:
+    return comparative(word, x, y, look)
 
 
 def _across(x: str, look: str) -> float:

@@ -14,6 +14,7 @@ __all__ = [
     "Vector",
     "across",
     "colour",
+    "comparative",
     "direction",
     "distance",
     "glance_event",
@@ -150,6 +151,31 @@ def distance(world: World, x: int, y: int) -> float:
     0.5
     """
     return STEP * math.hypot(*world.offset(x, y))
+
+
+def comparative(word: str, x: str, y: str, look: str) -> float | tuple[float, float]:
+    """The degree of a comparative of two things in a look: 1, 0, or ½ of equals.
+
+    Things are as tall and as long as they are big; how far away they are is not seen in
+    a flat picture.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> things = Thing("cup", "red", 0.1, (2, 3)), Thing("car", "red", 0.9, (5, 7))
+    >>> comparative("bigger_than", "o2", "o1", World(things).name)
+    1.0
+    """
+    world = World.from_name(look)
+    if world is None or not {number_of(x), number_of(y)} <= {*world.in_view}:
+        return 0.0, 1.0
+    more = word.partition("_")[0] in ("bigger", "taller", "longer", "further")
+    far = word in ("nearer_than", "further_than", "closest_to", "furthest_from")
+    if far and not world.deep:
+        return 0.0, 1.0
+    one, other = (
+        world.place(number_of(it))[1] if far else world.thing(number_of(it)).size
+        for it in (x, y)
+    )
+    return 0.5 if one == other else float((one > other) is more)
 
 
 def oddness(world: World, number: int) -> float:

@@ -47,6 +47,8 @@ TALK = (
     "Last",
     "Leftmost",
     "Rightmost",
+    "Biggest",
+    "Nearest",
 )
 """Phrases by which any thing may be called, depending on the dialogue."""
 
@@ -77,13 +79,15 @@ NOTHING, THIS = Phrase(), Phrase("This")
 class Claim:
     """What may be said: that a word is true of a target, or of a target and a landmark.
 
-    It may be said that it is not. Without a word it only speaks of the target.
+    It may be said that it is not. Without a word it only speaks of the target. The word
+    is said as the `template` has it, by default that of its kind.
     """
 
     sign: Record | None = None
     target: Phrase = NOTHING
     landmark: Phrase = NOTHING
     denies: bool = False
+    template: str = ""
 
     def content(self, types: DialogueTypes) -> RecordType:
         """What is said."""
@@ -96,7 +100,7 @@ class Claim:
         said = (
             types.record_type("Asked")
             if sign is None
-            else types.meaning_at(sign, TEMPLATES[sign.kind])
+            else types.meaning_at(sign, self.template or TEMPLATES[sign.kind])
         )
         content = merge_of(said, rectype(parts))
         return denial(content) if self.denies else content
@@ -249,6 +253,8 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
     match sorted(slots):
         case []:
             return [Matter()]
+        case ["comparative", "the_landmark", "the_target"]:
+            return _comparisons(talk)
         case ["word"]:
             return map(word_matter, talk.words.all)
         case ["counted"] | ["a_counted"]:
@@ -264,6 +270,14 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
         case ["by"]:
             return [perspective_matter("viewer"), perspective_matter("landmark")]
     return ()
+
+
+def _comparisons(talk: WorldTalk) -> Iterator[Claim]:
+    """Which of two things is bigger, or nearer."""
+    for x, y in islice(permutations(talk.world.in_view, 2), PAIRS):
+        for sign in talk.words.comparatives.values():
+            phrases = talk.colour_phrase(x), talk.colour_phrase(y)
+            yield Claim(sign, *phrases, template="Comparison")
 
 
 def _all_facing(talk: WorldTalk) -> Iterator[Matter]:

@@ -54,6 +54,10 @@ _SWEDISH = {
     "behind": "bakom",
     "in front": "framför",
 }
+COMPARATIVES = ("bigger than", "smaller than", "nearer than", "further than")
+"""The comparatives that simulated tutors use, by their English forms."""
+
+_SWEDISH_COMPARATIVES = ("större än", "mindre än", "närmare än", "längre bort än")
 _SWEDISH_DISTANCES = {
     "near": "nära",
     "close to": "intill",
@@ -80,6 +84,7 @@ class Vocabulary:
     nouns: Mapping[str, Record]
     adjectives: Mapping[str, Record]
     relations: Mapping[str, Record]
+    comparatives: Mapping[str, Record]
     distances: Mapping[str, str]
 
     @property
@@ -144,13 +149,15 @@ def vocabulary(language: str = "en", types: DialogueTypes | None = None) -> Voca
 
 def _vocabulary(types: DialogueTypes, language: str) -> Vocabulary:
     forms = {"en": _ENGLISH, "sv": _SWEDISH}[language]
+    if language == "sv":
+        forms = forms | dict(zip(COMPARATIVES, _SWEDISH_COMPARATIVES, strict=True))
     means = lexicon(language).means
 
     def signs(kind: str, *names: str) -> dict[str, Record]:
         found = {}
         for name in names:
             form = forms.get(name, name)
-            meant = means.get(form, "") if kind == "adjective" else ""
+            meant = "" if kind == "noun" else means.get(form, "")
             found[name] = types.sign(form, kind, means=meant)
         return found
 
@@ -160,5 +167,6 @@ def _vocabulary(types: DialogueTypes, language: str) -> Vocabulary:
         signs("noun", *KINDS),
         signs("adjective", *COLOURS, *SIZES.values()),
         signs("relation", *SIDES),
+        signs("relation", *COMPARATIVES),
         _SWEDISH_DISTANCES if language == "sv" else {},
     )

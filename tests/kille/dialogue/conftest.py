@@ -34,7 +34,10 @@ def degree(known: Degrees, word: str, arity: int, *args: str) -> float:
 
 
 class Scene:
-    """Things in view, and a robot that knows some words and answers what it is told."""
+    """Things in view, and a robot that knows some words and answers what it is told.
+
+    Relations that are `seen` are judged, though no lesson has taught them.
+    """
 
     def __init__(
         self,
@@ -44,6 +47,7 @@ class Scene:
         adjectives: Sequence[str] = (),
         relations: Sequence[str] = (),
         known: Degrees | None = None,
+        seen: Sequence[str] = (),
         **settings: Any,
     ) -> None:
         signs = [
@@ -56,7 +60,7 @@ class Scene:
         model: Model = blank_model().given("look1", theory()["Look"])
         for x in self.names:
             model = model.given(x, theory()["Ind"])
-        for sign in signs:
+        for sign in (*signs, *map(relation, seen)):
             word = word_of(sign)
             arity = 2 if sign.kind == "relation" else 1
             by = partial(degree, known or {}, word.name, arity)

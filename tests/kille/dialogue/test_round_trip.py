@@ -43,12 +43,18 @@ RELATIONS = {
     "sv": ["till vänster om", "bakom", "framför", "bredvid", "i närheten av"],
 }
 
+COMPARATIVES = {
+    "en": ["bigger than", "smaller than", "nearer than"],
+    "sv": ["större än", "mindre än", "närmare än"],
+}
+
 WORD_SLOTS = {
     "word": "Naming",
     "a_word": "Naming",
     "quality": "Having",
     "so": "Having",
     "relation": "Relation",
+    "comparative": "Comparison",
     "noun": "Noun",
     "the_noun": "Noun",
     "a_noun": "Noun",
@@ -169,6 +175,9 @@ def a_word(chance: random.Random, language: str, template: str) -> Record:
         case "Having" | "Adjective" | "NotHaving":
             form = chance.choice(ADJECTIVES[language])
             return sign(form, "adjective", means=lexicon(language).means.get(form, ""))
+    if template == "Comparison":
+        form = chance.choice(COMPARATIVES[language])
+        return sign(form, "relation", means=lexicon(language).means.get(form, ""))
     return relation(chance.choice(RELATIONS[language]))
 
 

@@ -1,0 +1,95 @@
+"""Which is bigger? The robot compares things by what it measures of them.
+
+It needs no lesson for that, and takes none: what the tutor says of sizes and distances
+it confirms, or says what it sees instead. A difference that is too small to be seen it
+does not decide.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.games.finding import name_thing
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    denial,
+    set_to,
+    word_of,
+)
+from kille.dialogue.moves import content_of, number_field, plan
+from kille.dialogue.reference import phrase_at, thing_at
+from kille.dialogue.reference.comparing import COMPARATIVES, exceeds
+from kille.dialogue.rules import rule
+from ttr import Model, Record, RecordType
+from ttr.updates import first
+
+SCALE = "scale"
+"""The label by which a content says that its relation is judged by a measure."""
+
+
+@rule(answers=("AskWhether", "AskMore"))
+def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """The tutor compares two things: it says which one is more, if it can see that."""
+    content = content_of(s)
+    if SCALE not in content:
+        return None
+    sign = next(it for it in s.shared.latest.signs if claims(content, it))
+    if word_of(sign) not in model.facts.functions:
+        return plan(s, "UnknownRelation", sign.meaning, signs=[sign], types=types)
+    x, y = (str(thing_at(content, it)) for it in ("target", "landmark"))
+    if not {x, y} <= {*s.view.placed}:
+        return plan(s, "NeedDepth", types=types)
+    asks_which = model.judge(s.shared.latest, types["AskMore"]).holds
+    more, sure = word_of(sign), s.private.strategy.bands.sure
+    called, signs = _with_names(s, model, content)
+    if exceeds(s, model, more, x, y) >= sure:
+        act = "TellMore" if asks_which else "SayYes"
+        return _plan(s, act, called, signs, x, types=types)
+    if more.name not in COMPARATIVES.values():
+        return _plan(s, "SayNo", denial(called), signs, x, types=types)
+    if exceeds(s, model, more, y, x) < sure:
+        return plan(s, "CannotCompare", types=types)
+    swapped = set_to(called, target=called["landmark"], landmark=called["target"])
+    if asks_which:
+        return _plan(s, "TellMore", swapped, signs, y, types=types)
+    if all(_is_called(called, it) for it in ("target", "landmark")):
+        return _plan(s, "SayRather", swapped, signs, y, types=types)
+    return _plan(s, "SayNo", denial(called), signs, x, types=types)
+
+
+def _plan(
+    s: Record,
+    act: str,
+    content: RecordType,
+    signs: tuple[Record, ...],
+    x: str,
+    *,
+    types: DialogueTypes,
+) -> Record:
+    """The plan to say how two things compare, and to show which one is more."""
+    if act != "TellMore":
+        return plan(s, act, content, signs=signs, types=types)
+    shown = set_to(content, **number_field(s, x, types=types))
+    return plan(s, act, shown, signs=signs, points=[x], types=types)
+
+
+def _with_names(
+    s: Record, model: Model, content: RecordType
+) -> tuple[RecordType, tuple[Record, ...]]:
+    """The content with nouns for things that the tutor has not described.
+
+    The words in it are given as well, also those of the robot's own.
+    """
+    signs = s.shared.latest.signs
+    for label in ("target", "landmark"):
+        x = str(thing_at(content, label))
+        phrase, called = name_thing(s, model, phrase_at(content, label), x)
+        content, signs = set_to(content, **{label: phrase}), (*signs, *called)
+    return content, tuple(dict.fromkeys(signs))
+
+
+def _is_called(content: RecordType, label: str) -> bool:
+    """Whether a phrase has words for its thing."""
+    return any(it in phrase_at(content, label) for it in ("c", "a", "rel"))
+
+
+COMPARING = first(compare)

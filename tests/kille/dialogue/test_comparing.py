@@ -1,0 +1,130 @@
+"""Which is bigger: comparatives and superlatives, by what is measured of things."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from kille.dialogue.language import understand
+
+MORE = ("bigger than", "nearer than", "closest to")
+CUP, BOOK = ("cup", "o1"), ("book", "o2")
+KNOWN = {
+    CUP: 0.9,
+    BOOK: 0.95,
+    ("bigger_than", "o2", "o1"): 0.99,
+    ("bigger_than", "o2", "o3"): 0.99,
+    ("bigger_than", "o1", "o3"): 0.6,
+    ("bigger_than", "o3", "o1"): 0.4,
+    ("closest_to", "o1", "o2"): 0.95,
+}
+
+
+@pytest.fixture
+def three(scene: Callable[..., Any]) -> Any:
+    """A cup, a book that is bigger, and something that is about as big as the cup."""
+    return scene(3, nouns=["cup", "book"], seen=MORE, known=KNOWN)
+
+
+@pytest.mark.parametrize(
+    ("asked", "answer"),
+    [
+        ("Is the book bigger than the cup?", "Yes, the book is bigger than the cup."),
+        (
+            "Is the cup bigger than the book?",
+            "No, I think the book is bigger than the cup.",
+        ),
+        ("The book is larger than the cup.", "Yes, the book is bigger than the cup."),
+        (
+            "No, the cup is much bigger than the book.",
+            "No, I think the book is bigger than the cup.",
+        ),
+        (
+            "Which is bigger, the cup or the book?",
+            "The book is bigger than the cup: #2.",
+        ),
+        ("Is the cup or the book bigger?", "The book is bigger than the cup: #2."),
+        ("Is the cup closest to the book?", "Yes, the cup is closest to the book."),
+        ("Is the book closest to the cup?", "No, the book is not closest to the cup."),
+        (
+            "Is the cup heavier than the book?",
+            'I have not learned what "heavier than" means.',
+        ),
+    ],
+)
+def test_two_things_are_compared(three: Any, asked: str, answer: str) -> None:
+    assert three.hear(asked) == answer
+
+
+def test_a_comparison_is_no_lesson(three: Any) -> None:
+    three.hear("The cup is bigger than the book.")
+    three.hear("No!")
+    assert not three.state.private.lessons
+    assert not three.state.shared.pending
+
+
+def test_what_is_about_as_big_is_not_decided(scene: Callable[..., Any]) -> None:
+    known = {CUP: 0.9, BOOK: 0.9, ("bigger_than", "o1", "o2"): 0.55}
+    robot = scene(2, nouns=["cup", "book"], seen=MORE, known=known)
+    cannot = "I cannot tell: the difference is too small for me to see."
+    for asked in (
+        "Is the cup bigger than the book?",
+        "Which is bigger, the book or the cup?",
+        "Which one is bigger?",
+        "What is the biggest thing?",
+    ):
+        assert robot.hear(asked) == cannot
+    assert robot.hear("The bigger one is a mug.") == "Do you mean the cup or the book?"
+
+
+def test_without_depth_nothing_is_compared(scene: Callable[..., Any]) -> None:
+    robot = scene(2, placed=0, nouns=["cup", "book"], seen=MORE, known=KNOWN)
+    assert robot.acts("Is the cup bigger than the book?") == ["need_depth"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "answer"),
+    [
+        ("Which one is bigger?", "This is the book: #2."),
+        ("Which of them is the biggest?", "This is the book: #2."),
+        ("Show me the largest thing.", "This is the book: #2."),
+        ("What is the biggest thing?", "This is a book."),
+        ("The biggest one is red.", "OK, the one in the middle (#2) is red."),
+    ],
+)
+def test_the_biggest_thing_is_chosen(three: Any, asked: str, answer: str) -> None:
+    assert three.hear(asked) == answer
+
+
+def test_the_smaller_of_two_cups(scene: Callable[..., Any]) -> None:
+    known = {CUP: 0.9, ("cup", "o2"): 0.9, ("smaller_than", "o2", "o1"): 0.99}
+    robot = scene(3, nouns=["cup"], seen=["smaller than"], known=known)
+    assert robot.hear("Show me the smaller cup.") == "This is the cup: #2."
+    assert robot.hear("Which is the smallest of the cups?") == "This is the cup: #2."
+
+
+def test_what_it_is_bigger_than_may_be_left_out(scene: Callable[..., Any]) -> None:
+    robot = scene(2, nouns=["cup", "book"], seen=MORE, known=KNOWN)
+    said = robot.hear("Is the book bigger?")
+    assert said == "Yes, the book is bigger than the cup."
+
+
+@pytest.mark.parametrize("text", ["This is bigger.", "It is bigger.", "Den är större."])
+def test_a_comparative_is_no_adjective(text: str) -> None:
+    language = "sv" if text.startswith("Den") else "en"
+    [said] = understand(text, language)
+    assert all(it.kind == "relation" for one in said.readings for it in one.signs)
+
+
+def test_a_comparative_describes(three: Any) -> None:
+    said = three.hear("Show me the one bigger than the cup.")
+    assert said == "This is the one bigger than the cup: #2."
+
+
+def test_comparatives_mean_the_same_in_swedish(scene: Callable[..., Any]) -> None:
+    robot = scene(2, nouns=["kopp", "bok"], language="sv", known={}, seen=MORE)
+    assert robot.acts("Vilken är större, koppen eller boken?") != ["unknown_relation"]
+    [said] = understand("Koppen är större än boken.", "sv")
+    assert said.readings[0].type["content"].value["rel"].pred.name == "bigger_than"
