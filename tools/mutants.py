@@ -48,6 +48,9 @@ TESTS = 20.0
 They are seconds of work, so that the choice is the same on a busy machine.
 """
 
+_SHOWN = 60
+"""Lines that are shown of tests that fail without any change."""
+
 UNCOUNTED = ("same", "invalid")
 """Outcomes of what is no mutant."""
 
@@ -274,8 +277,8 @@ def reach_of(folder: Path, tests: Sequence[str], sources: Sequence[str]) -> Reac
     """Runs all tests of the room once, and notes which lines each runs."""
     (folder / "room_coverage.py").write_text(PLUGIN)
     out = folder / "coverage.json"
-    subprocess.run(
-        pytest_command("-p", "room_coverage", *tests),
+    run = subprocess.run(
+        pytest_command("-p", "room_coverage", "--tb=short", *tests),
         cwd=folder,
         env={
             **environment(folder),
@@ -283,11 +286,13 @@ def reach_of(folder: Path, tests: Sequence[str], sources: Sequence[str]) -> Reac
             "ROOM_COVERAGE": str(out),
             "ROOM_SOURCES": os.pathsep.join(str(folder / one) for one in sources),
         },
-        stdout=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        text=True,
         check=False,
     )
     found = json.loads(out.read_text())
     if found["failed"]:
+        print("\n".join(run.stdout.splitlines()[-_SHOWN:]))
         sys.exit(f"these tests fail without any change: {', '.join(found['failed'])}")
     return Reach(found["lines"], found["seconds"], found["work"])
 
