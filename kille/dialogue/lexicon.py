@@ -17,6 +17,9 @@ from kille.dialogue.language_files import FILES, last_change, source
 from ttr import Record
 from ttr.safety.inputs import parse_toml
 
+VARIED = "varied"
+"""The set of wordings in which the robot says the same in several ways."""
+
 Wordings = Mapping[str, tuple[str, ...]]
 """The sentences for each act; the first of which all slots can be filled is used."""
 
@@ -46,6 +49,8 @@ class Lexicon:
     language: str
     says: Wordings
     tells: Wordings
+    varied: Wordings
+    """Other sentences for acts, where the robot does not always use the same one."""
     examples: tuple[str, ...]
     not_understood: tuple[str, ...]
     not_understood_beside: tuple[str, ...]
@@ -71,7 +76,8 @@ class Lexicon:
     @property
     def wordings(self) -> Wordings:
         """All sentences for each act, those of every set of wordings."""
-        sets = [it for name, it in self.sections.items() if name.startswith("says")]
+        named = self.sections.items()
+        sets = [it for name, it in named if name.startswith("says") or name == VARIED]
         acts = dict.fromkeys(act for one in sets for act in one)
         return {
             act: tuple(
@@ -128,7 +134,8 @@ class Lexicon:
 def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
     """The lexicon of a language, with the wordings of one set.
 
-    The section `says_NAME` has the wordings of a set; `says` has those of all sets.
+    The section `says_NAME` has the wordings of a set; `says` has those of all sets. The
+    set `varied` has those of `says`, and beside them those of the section `varied`.
     """
     return _lexicon(language, wording, last_change(FILES[1], language))
 
@@ -151,6 +158,11 @@ def _lexicon(language: str, wording: str, _: int) -> Lexicon:
         language=language,
         says={act: _several(it) for act, it in says.items()},
         tells={act: _several(it) for act, it in data["tutor"].items()},
+        varied={
+            act: _several(it)
+            for act, it in data.get(VARIED, {}).items()
+            if wording == VARIED
+        },
         examples=tuple(understands["examples"]),
         not_understood=_several(understands["not_understood"]),
         not_understood_beside=_several(

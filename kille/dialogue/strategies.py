@@ -37,8 +37,9 @@ __all__ = [
 MODES = ("driven", "assisted", "autonomous")
 """Who brings learning about: the tutor, both, or the robot as well by itself."""
 
-WORDINGS = ("paper", "four")
-"""The ways to word what one is sure of: the paper's, and the four bands after it."""
+WORDINGS = ("paper", "four", "varied")
+"""The ways to word what one is sure of: the paper's, the four bands after it, and the
+paper's in varied words."""
 
 _DIGITS = 9
 """Decimals of a threshold: what is worked out from decimals is one again."""

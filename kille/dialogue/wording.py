@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from string import Formatter
+from zlib import crc32
 
 from kille.dialogue.answer_details import details
 from kille.dialogue.lexicon import Lexicon, Wordings
@@ -95,6 +96,8 @@ def _fill_wording(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) 
         slots |= {_of_rival(slot): text for slot, text in _slots(lexicon, rival, words)}
     slots |= details(lexicon, move)
     wording = _choose_wording(wordings[act], slots)
+    if lexicon.varied and wordings is lexicon.says:
+        wording = _draw_wording(wording, lexicon.varied.get(act, ()), str(move.e))
     return _capital(lexicon.with_examples(wording).format_map(slots))
 
 
@@ -105,6 +108,16 @@ def _choose_wording(wordings: Iterable[str], slots: Mapping[str, str]) -> str:
         if _slots_in(wording) <= slots.keys():
             return wording
     return wording
+
+
+def _draw_wording(wording: str, others: Iterable[str], name: str) -> str:
+    """A wording, or another one that says as much, drawn by the name of the move.
+
+    A dialogue that is played again has the same moves, and so the same sentences.
+    """
+    slots = _slots_in(wording)
+    ways = [wording, *(it for it in others if _slots_in(it) == slots)]
+    return ways[crc32(name.encode()) % len(ways)]
 
 
 @lru_cache(1024)

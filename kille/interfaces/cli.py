@@ -174,9 +174,10 @@ def _add_talk(commands: Any) -> None:
     )
     talk.add_argument(
         "--wording",
-        choices=["paper", "four"],
+        choices=["paper", "four", "varied"],
         default="paper",
-        help="how certain it sounds: the paper's wordings, or four bands (paper)",
+        help="how certain it sounds: the paper's wordings, or four bands; varied: the "
+        "paper's, but not always in the same words (paper)",
     )
     _add_theory(talk)
     talk.add_argument(

@@ -48,7 +48,7 @@ DEFAULTS: Mapping[str, Any] = {
 _CHOICES = {
     "lang": ("en", "sv"),
     "mode": ("driven", "assisted", "autonomous"),
-    "wording": ("paper", "four"),
+    "wording": ("paper", "four", "varied"),
 }
 
 _PACKAGE = Path(__file__).resolve().parent.parent / "ros" / "package"

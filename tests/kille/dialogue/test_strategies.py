@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import suppress
+from string import Formatter
 from typing import Any
 
 import pytest
@@ -11,8 +13,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.games import EXEMPLIFYING, GLANCED, LISTENING
+from kille.dialogue.language import LANGUAGES, overhear
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import noun
+from kille.dialogue.meanings import meaning_in, noun, predicate_at
 from kille.dialogue.strategies import (
     MODES,
     WORDINGS,
@@ -24,6 +27,9 @@ from kille.dialogue.strategies import (
     threshold,
 )
 from kille.dialogue.strategies import _data as shipped
+from kille.dialogue.wording import say
+from kille.interfaces.cli import main
+from kille.interfaces.ros import _CHOICES
 from ttr import record, replace
 from ttr.updates import first, maybe, seq
 
@@ -87,7 +93,8 @@ def test_bands_are_where_most_is_expected_of_a_way_to_speak(
 
 
 def test_the_shipped_bands_are_those_of_the_papers() -> None:
-    paper, four = (strategy(wording=it).bands for it in WORDINGS)
+    paper, four, varied = (strategy(wording=it).bands for it in WORDINGS)
+    assert varied == paper
     assert (paper.sure, paper.margin, paper.likely, paper.might) == (
         0.6,
         0.3,
@@ -110,7 +117,10 @@ def test_every_strategy_can_be_played(scene: Make, mode: str, wording: str) -> N
         nouns=("cup",), known={("cup", "o1"): 0.9}, mode=mode, wording=wording
     )
     assert robot.state.private.strategy.mode == mode
-    assert robot.hear("What is this?").startswith("This is a cup.")
+    wordings = lexicon("en", wording)
+    ways = (*wordings.says["assert_name"], *wordings.varied.get("assert_name", ()))
+    sure = tuple(it.format(a_word="a cup") for it in ways)
+    assert robot.hear("What is this?").startswith(sure)
 
 
 # --- the decision flips exactly at the thresholds -------------------------------------
@@ -346,3 +356,60 @@ def test_what_a_no_to_two_teaches_goes_by_the_likelier_one(scene: Make) -> None:
         assert robot.acts("What is this?") == ["hedge_name"]
         assert robot.acts("No.") == ["ask_again"]
         assert len(robot.state.private.lessons) == lessons
+
+
+# --- in varied words -----------------------------------------------------------------
+
+
+def slots_in(wording: str) -> set[str]:
+    return {slot for _, slot, _, _ in Formatter().parse(wording) if slot}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_varied_words_say_as_much_as_the_others(language: str) -> None:
+    known = lexicon(language, "varied")
+    assert not lexicon(language).varied
+    assert len(known.varied) >= 10
+    for act, others in known.varied.items():
+        ways = [slots_in(it) for it in known.says[act]]
+        assert all(slots_in(it) in ways for it in others), act
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_of_the_varied_words_is_used_and_always_for_the_same_move(
+    language: str,
+) -> None:
+    known, cup = lexicon(language, "varied"), noun("cup")
+    moves = [
+        record(e=f"s{n}", content=meaning_in("cup", "Naming"), signs=[cup])
+        for n in range(200)
+    ]
+    said = [say(known, "assert_name", it) for it in moves]
+    assert said == [say(known, "assert_name", it) for it in moves]
+    assert len({*said}) == 1 + len(known.varied["assert_name"])
+    plain = lexicon(language)
+    assert len({say(plain, "assert_name", it) for it in moves}) == 1
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_varied_words_are_understood_as_what_they_say(language: str) -> None:
+    known, cup = lexicon(language, "varied"), noun("cup")
+    for n in range(20):
+        move = record(e=f"s{n}", content=meaning_in("cup", "Naming"), signs=[cup])
+        for act in ("learned", "assert_name", "guess_name"):
+            text = say(known, act, move)
+            heard = overhear(text, language)
+            acts = {predicate_at(it.type, "e").name for it in heard}
+            assert act in acts, text
+
+
+def test_the_commands_know_every_wording_and_mode(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with suppress(SystemExit):
+        main(["talk", "--help"])
+    told = capsys.readouterr().out
+    assert f"{{{','.join(WORDINGS)}}}" in told
+    assert f"{{{','.join(MODES)}}}" in told
+    assert _CHOICES["wording"] == WORDINGS
+    assert _CHOICES["mode"] == MODES
