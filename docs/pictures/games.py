@@ -18,9 +18,9 @@ from typing import Any
 
 from kille.interfaces.formatting import in_short
 from kille.lab.worlds.games import simulated_game
-from kille.lab.worlds.perception import look_event
+from kille.lab.worlds.perception import look_event, view
 from kille.lab.worlds.worlds import Thing, World
-from ttr import Record
+from ttr import Record, record
 from ttr.types.records import differences
 from ttr.updates import Game, Run, Turn
 
@@ -66,7 +66,7 @@ def _section(game: Mapping[str, Any]) -> Iterator[str]:
     yield "| said | rules | state before → after |"
     yield "| --- | --- | --- |"
     world = World(tuple(Thing(**_placed(it)) for it in game.get("things", ())))
-    playing = simulated_game(world)
+    playing = simulated_game(world, turns=game.get("turns", ""))
     now = playing.begin()
     for text in game["dialogue"]:
         world, event = _happening(playing, world, text)
@@ -85,11 +85,26 @@ def _happening(game: Game, world: World, text: str) -> tuple[World, object]:
             after = world.move(int(number), None)
         case ["@", "point", number]:
             after = world.point_at(int(number))
+        case ["@", "meanwhile", "take", number]:
+            after = world.move(int(number), None).look_again()
+            return after, _watching_event(after, world)
+        case ["@", "meanwhile", "put", number, right, away]:
+            after = world.move(int(number), (int(right), int(away))).look_again()
+            return after, _watching_event(after, world)
         case _:
             assert game.hear is not None
             return world, game.hear(text)
     after = after.look_again()
     return after, look_event(after, world)
+
+
+def _watching_event(after: World, before: World) -> Record:
+    """The event of seeing that something has come or gone, after two seconds."""
+    seen, then = view(after), view(before)
+    came = [x for x in seen.things if x not in then.things]
+    went = [x for x in then.things if x not in seen.things]
+    kept = [x for x in seen.things if x not in came]
+    return record(view=seen, kept=kept, came=came, went=went, silence=2.0, still=2.0)
 
 
 def _placed(thing: Mapping[str, Any]) -> dict[str, Any]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
+from dataclasses import replace
 from datetime import UTC, datetime
 from decimal import Decimal
 from pathlib import Path
@@ -12,11 +13,12 @@ from types import TracebackType
 from typing import Self
 
 from kille.agent.actions import MoveExecutor
-from kille.agent.attention import AttentiveSensor, NumberedLook
+from kille.agent.attention import Attention, AttentiveSensor, NumberedLook
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import Event, Exchange, RobotSentence
 from kille.agent.explanations import kind_of_lesson, sign_of
 from kille.agent.reason_pictures import reason_picture
+from kille.agent.silence import Silence, missing
 from kille.dialogue.beliefs import is_sure, names_of, thinks
 from kille.dialogue.commitments import as_told
 from kille.dialogue.games.clarifying import asks_which
@@ -40,6 +42,7 @@ from kille.perception.look import SCANS
 from kille.perception.segment import overlap
 from kille.scene import Colour, Percept
 from kille.sensors.sensor import Sensor, SensorError
+from kille.sensors.stage_commands import perform
 from ttr import Model, Record, RecType, Theory, TTRError, record
 from ttr.errors import UpdateError
 from ttr.judging import Judgement
@@ -52,6 +55,9 @@ _SAME_THING = 0.5  # overlap of a thing with itself in another look
 _POINTING = re.compile(r"#([0-9]{1,6})\b")
 
 TUTOR = "tutor"
+
+WATCH, BUSY = "@ watch", "@ watch busy"
+"""Looking while nobody speaks, and while somebody begins to, as lines of a story."""
 
 TurnResult = tuple[Exchange, Run]
 """A turn, and the state and model that it leads to."""
@@ -77,6 +83,7 @@ class Agent:
         language: str = "en",
         mode: str = "",
         wording: str = "",
+        turns: str = "",
         scans: int = SCANS,
         now: Callable[[], datetime] = lambda: datetime.now(UTC),
         learners: Learners | None = None,
@@ -93,7 +100,8 @@ class Agent:
         """
         self.types = types_of(theory)
         self.gaze = AttentiveSensor(sensor, scans)
-        self.language, self._mode, self._wording = language, mode, wording
+        self.language = language
+        self._mode, self._wording, self._turns = mode, wording, turns
         self._now, self._record_event = now, record_event
         self._learners, self._change = learners, change
         self._time = self._read_clock()
@@ -139,6 +147,7 @@ class Agent:
             language=self.language,
             mode=self._mode,
             wording=self._wording,
+            turns=self._turns,
             model=witnesses.in_model(blank_model(self.types), known, types=self.types),
             act=executor.act,
             colours=colours,
@@ -148,6 +157,7 @@ class Agent:
         )
         self.game: Game = game if self._change is None else self._change(game)
         self._now_at = self.game.begin()
+        self._silence = Silence.begin(self._time)
 
     def _colour_words(self, known: Iterable[str]) -> Iterator[Record]:
         """The words of its language for colours that people have named for it."""
@@ -205,13 +215,33 @@ class Agent:
         """
         return self._happen("@ look", lambda: self._take_turn(self._look_around))
 
+    def watch(self, is_free: Callable[[], bool] = lambda: True) -> str:
+        """Look while nobody speaks; returns what it says if it takes the turn.
+
+        It does so after a silence that its strategy sets: by default never. `is_free`
+        is asked when it has looked: by then somebody may have begun to speak or type.
+        """
+        free: list[bool] = []
+
+        def ask_free() -> bool:
+            free.append(is_free())
+            return free[-1]
+
+        return self._happen(
+            lambda: WATCH if all(free) else BUSY,
+            lambda: self._take_turn(lambda: self._watch(ask_free)),
+        )
+
     def do(self, command: str) -> str:
         """Change the scene, and look; returns what the robot then says, if anything.
 
         Commands are those of `kille.sensors.stage_commands`, and `look`, `point 2`,
-        `point 320 240`, `scene SENSOR`, `restart`, `glimpse`. Pointing and restarting
-        take no look; a glimpse is a look that is no turn, as for a picture.
+        `point 320 240`, `scene SENSOR`, `restart`, `glimpse`, `watch`, and `meanwhile`
+        before one that changes the scene. Pointing, restarting and what happens
+        meanwhile take no look; a glimpse is a look that is no turn, as for a picture.
         """
+        if command.partition(" ")[0] == "watch":
+            return self.watch(lambda: "busy" not in command)
         return self._happen(f"@ {command.strip()}", lambda: self._do(command))
 
     def _do(self, command: str) -> str:
@@ -230,6 +260,9 @@ class Agent:
                 self.gaze.switch_sensor(rest)
             case "look":
                 pass
+            case "meanwhile":
+                perform(self.gaze.sensor, rest)
+                return ""
             case _:
                 self.gaze.change(command)
         return self._take_turn(self._look_around)
@@ -321,10 +354,16 @@ class Agent:
 
     # --- taking turns ----------------------------------------------------------------
 
-    def _happen(self, line: str, event: Callable[[], str]) -> str:
-        """Let an event happen now, and record it; returns what the robot then says."""
+    def _happen(self, line: str | Callable[[], str], event: Callable[[], str]) -> str:
+        """Let an event happen now, and record it; returns what the robot then says.
+
+        What the event was may only be known when it has happened.
+        """
         self._time = self._read_clock()
         answer = event()
+        line = line if isinstance(line, str) else line()
+        if answer or line != WATCH:
+            self._silence = Silence.begin(self._time)
         if self._record_event is not None:
             said = tuple(answer.split("\n")) if answer else ()
             self._record_event(Event(self._time, line, said))
@@ -352,7 +391,8 @@ class Agent:
                 raise
             raise cause from cause.__cause__
         self._now_at = after
-        self.exchanges.append(exchange)
+        if exchange.text or exchange.steps:
+            self.exchanges.append(exchange)
         return exchange.answer
 
     def _hear_text(self, text: str) -> TurnResult:
@@ -446,6 +486,30 @@ class Agent:
         self._log.begin_look()
         return self._play_look("Seen", "robot", self._now_at)
 
+    def _watch(self, is_free: Callable[[], bool]) -> TurnResult:
+        """Take a look while nobody speaks, and play it if something may come of it."""
+        attention, state = self.gaze.attention, self.state
+        before = attention.view or self.gaze.look()
+        # What was pointed at is looked for like all else: it may have gone.
+        self.gaze.attention = Attention(view=before)
+        view = self.gaze.look()
+        self._silence = self._silence.after(view.look, self._time)
+        asks = self._silence.ends_with_question(state)
+        came, went = missing(view.look, before.look), missing(before.look, view.look)
+        remarks = self._silence.ends_with_remark(state, bool(came or went))
+        if not is_free() or not (asks or remarks):
+            self.gaze.attention = attention
+            return Exchange("", None, (), (), self._time), self._now_at
+        self._log.begin_look()
+        self._silence = replace(self._silence, asked=asks or self._silence.asked)
+        about = {
+            "came": came,
+            "went": went,
+            "silence": self._silence.seconds,
+            "still": self._silence.still,
+        }
+        return self._play_view(view, about, self._now_at)
+
     def _play(self, now: Run, event: object) -> TurnResult:
         """Play an event, and what the robot says to it."""
         assert self.game.say is not None
@@ -478,7 +542,12 @@ class Agent:
 
     def _play_look(self, kind: str, floor: str, now: Run) -> TurnResult:
         """Take a look, and play it as an event."""
-        view = self.gaze.look()
+        return self._play_view(self.gaze.look(), {"floor": floor}, now)
+
+    def _play_view(
+        self, view: NumberedLook, about: Mapping[str, object], now: Run
+    ) -> TurnResult:
+        """Play what is in view as an event of seeing, about which more is known."""
         self._looks += 1
         handle = f"look{self._looks}"
         self._witnesses.remember(handle, view.look, _looks_of(now.state))
@@ -498,7 +567,7 @@ class Agent:
         for x in things:
             model = model.given(x, self.types["Ind"])
         kept = [thing_name(number) for number in view.kept]
-        event = record(view=seen, kept=kept, floor=floor)
+        event = record(view=seen, kept=kept, **about)
         return self._play(now._replace(model=model), event)
 
 

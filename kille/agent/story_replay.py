@@ -11,7 +11,7 @@ from pathlib import Path
 
 from kille.agent.agent import Agent
 from kille.dialogue.language import LANGUAGES
-from kille.dialogue.strategies import MODES, WORDINGS
+from kille.dialogue.strategies import MODES, TURNS, WORDINGS
 from kille.memory import Memory, MemoryFileError
 from kille.sensors.sensor import SensorError
 from ttr import Theory, TTRError
@@ -33,7 +33,7 @@ Echo = Callable[[str], None]
 Make = Callable[..., Agent]
 """Makes a robot of a sensor and a memory; `language` is that of the story.
 
-If the story says so, also of a `mode`, a `wording`, and a clock, `now`.
+If the story says so, also of a `mode`, a `wording`, `turns`, and a clock, `now`.
 """
 
 _DEFAULT_SCENE = "synthetic:empty"
@@ -41,10 +41,10 @@ _DEFAULT_SCENE = "synthetic:empty"
 _OPENING = ("sensor", "strategy", "memory", "time")
 """The verbs of the `@` lines that say how a story begins, before anything happens."""
 
-_CHOICES = {"mode": MODES, "wording": WORDINGS}
+_CHOICES = {"mode": MODES, "wording": WORDINGS, "turns": TURNS}
 """What an `@ strategy` line may choose, by the words that it has for it."""
 
-_TIMES = frozenset({"time"})
+_TIMES = frozenset({"time", "wait"})
 """The verbs of the `@` lines that say when something happens."""
 
 _NOON = datetime(2026, 1, 1, 12, tzinfo=UTC)
@@ -94,6 +94,10 @@ class StoryClock:
         if then < self._now:
             raise ValueError("time only goes on: it is later than that already")
         self._now = then
+
+    def advance(self, seconds: float) -> None:
+        """Go on for so many seconds."""
+        self._now += timedelta(seconds=seconds)
 
 
 @dataclass(frozen=True)
@@ -230,6 +234,8 @@ class _StoryPlayer:
         verb, _, rest = line.text.partition(" ")
         if verb == "time":
             return self._set_clock(line)
+        if verb == "wait":
+            return self._wait(line)
         if verb != "scene" or not rest:
             return self._robot.do(line.text)
         if not self._started:
@@ -258,6 +264,15 @@ class _StoryPlayer:
         except OverflowError:
             raise line.wrong("no dialogue goes on for so long") from None
         return ""
+
+    def _wait(self, line: Line) -> str:
+        """Let the robot watch for some seconds in which nobody speaks."""
+        if not re.fullmatch(r"wait +\d{1,6}(\.\d+)?", line.text):
+            raise line.wrong("waiting takes some seconds, as in `@ wait 2.5`")
+        said = [self._robot.watch()]
+        self._clock.advance(float(line.text.split()[1]))
+        said.append(self._robot.watch())
+        return "\n".join(filter(None, said))
 
     def _compare(self, line: Line) -> Mismatch | None:
         found = self._said.pop(0) if self._said else ""

@@ -45,6 +45,7 @@ def initial(
             last=[],
             failed=[],
             colours=list(colours),
+            news=[],
             cost=record(turns=0.0, words=0.0, corrections=0.0, questions=0.0),
             strategy=default() if strategy is None else strategy,
             **known,

@@ -25,6 +25,7 @@ __getattr__ = former_names(__name__, {"expected": "expected_value"})
 
 __all__ = [
     "MODES",
+    "TURNS",
     "WORDINGS",
     "Option",
     "Stake",
@@ -40,6 +41,12 @@ MODES = ("driven", "assisted", "autonomous")
 WORDINGS = ("paper", "four", "varied")
 """The ways to word what one is sure of: the paper's, the four bands after it, and the
 paper's in varied words."""
+
+TURNS = ("answering", "lively")
+"""When the robot speaks: when it is spoken to, or also after some silence."""
+
+_NEVER = {"remark": 0.0, "ask": 0.0}
+"""The silences of a robot that speaks when it is spoken to."""
 
 _DIGITS = 9
 """Decimals of a threshold: what is worked out from decimals is one again."""
@@ -102,24 +109,30 @@ def threshold(stronger: Stake, weaker: Stake) -> float:
     return max(0.0, round(behind / steeper, _DIGITS))
 
 
-def strategy(mode: str = "", wording: str = "", language: str = "en") -> Record:
+def strategy(
+    mode: str = "", wording: str = "", language: str = "en", turns: str = ""
+) -> Record:
     """A strategy of `strategies.toml`: by default the one that it names there.
 
     The file is that of the package, or else in the folder of a language of one's own.
+    A file without a table of `turns` lets the robot speak when it is spoken to.
 
-    Raises `ValueError` for a mode or a wording that it does not have.
+    Raises `ValueError` for a mode, a wording or turns that it does not have.
 
     >>> bands = strategy(wording="four").bands
     >>> bands.sure, bands.think, bands.likely
     (0.8, 0.5, 0.3)
     """
     folder = PurePath(language).parent.as_posix()
-    return _strategy(mode, wording, folder, last_change(STRATEGIES, language))
+    changed = last_change(STRATEGIES, language)
+    return _strategy(mode, wording, turns, folder, changed)
 
 
 @lru_cache
-def _strategy(mode: str, wording: str, folder: str, _: int) -> Record:
+def _strategy(mode: str, wording: str, turns: str, folder: str, _: int) -> Record:
     data = _data(folder)
+    turns = turns or data["default"].get("turns", TURNS[0])
+    silences = _look_up(data.get("turns", {TURNS[0]: _NEVER}), turns)
     mode = mode or data["default"]["mode"]
     wording = wording or data["default"]["wording"]
     wants, words = _look_up(data["modes"], mode), _look_up(data["wordings"], wording)
@@ -136,6 +149,7 @@ def _strategy(mode: str, wording: str, folder: str, _: int) -> Record:
             {name: it for name, it in wants.items() if name != "learning"},
             learning=record(learning._asdict()),
         ),
+        turns=record(silences, name=turns),
     )
 
 

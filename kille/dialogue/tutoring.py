@@ -43,6 +43,7 @@ def tutoring(
     act: Act | None = None,
     mode: str = "",
     wording: str = "",
+    turns: str = "",
     colours: Iterable[Record] = (),
     taught: Iterable[Record] = (),
     kinds: Iterable[Record] = (),
@@ -52,11 +53,11 @@ def tutoring(
 
     `model` judges what they are true of, by witness functions of their predicates;
     `act` makes a planned move, where more is to be done for it than to create it.
-    `mode` and `wording` name its strategy in `strategies.toml`; `colours` are those of
-    its adjectives that are colours; `taught` says of words in how many lessons they
-    were taught before, `kinds` which kinds of things are kinds of others. `types` are
-    those of its theory, by default the packaged one; rules that name types are bound
-    to them.
+    `mode`, `wording` and `turns` name its strategy in `strategies.toml`; `colours` are
+    those of its adjectives that are colours; `taught` says of words in how many lessons
+    they were taught before, `kinds` which kinds of things are kinds of others. `types`
+    are those of its theory, by default the packaged one; rules that name types are
+    bound to them.
 
     >>> game = tutoring()
     >>> turn = game.take(game.begin(), game.hear("What is this?"))
@@ -64,7 +65,7 @@ def tutoring(
     ['I see nothing on the table.']
     """
     types = types or packaged_types()
-    deciding, kinds = strategy(mode, wording, language), tuple(kinds)
+    deciding, kinds = strategy(mode, wording, language, turns), tuple(kinds)
     return Game(
         "tutoring",
         types.record_type("State"),
@@ -72,7 +73,7 @@ def tutoring(
         bind(rules, types),
         under_kinds(blank_model(types) if model is None else model, kinds, types=types),
         agenda="private.agenda",
-        hears=(types["Heard"], types["Seen"], types["Glance"]),
+        hears=(types["Heard"], types["Seen"], types["Glance"], types["Watched"]),
         act=act,
         hear=partial(hear, language=language, types=types),
         say=partial(say, language=language, wording=deciding.wording),

@@ -205,6 +205,12 @@ def _add_talk(commands: Any) -> None:
         help="how it speaks: espeak, flite, FILE.wav, or none (none)",
     )
     talk.add_argument(
+        "--live",
+        action="store_true",
+        help="at a terminal: after a silence it remarks on what comes, goes or moves, "
+        "and asks",
+    )
+    talk.add_argument(
         "--log",
         type=Path,
         metavar="FILE.dlg",
@@ -547,6 +553,7 @@ def _talk(options: argparse.Namespace) -> int:
         hear=options.hear or ("device" if options.speech else ""),
         say=options.say or ("espeak" if options.speech else "none"),
         log=options.log,
+        live=options.live,
         **settings,
     )
 

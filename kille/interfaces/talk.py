@@ -17,6 +17,7 @@ from kille.agent.story_replay import language_of_file
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
 from kille.interfaces.formatting import Account, things_in_view, whole_account
+from kille.interfaces.live_prompt import Show, can_watch, is_key_pressed, wait_for_key
 from kille.interfaces.speech_input import (
     SpeechHypotheses,
     SpeechInput,
@@ -52,6 +53,8 @@ Lines that begin with @ change what there is to see:
   @ restart                     a new dialogue, with the same memory
 Ctrl-D or "Goodbye." ends the conversation; what was learned stays."""
 
+_PROMPT = "U> "
+
 _POINTING = re.compile(r"#[0-9]{1,6}")
 
 
@@ -66,15 +69,21 @@ def talk(
     hear: str = "",
     say: str = "none",
     log: Path | None = None,
+    live: bool = False,
     make: Callable[..., Agent] = Agent,
 ) -> int:
     """Talk until the tutor leaves, with an account of each turn; returns the exit code.
 
     `hear` is where speech comes from, if the tutor does not type; `say` names the
-    voice. `log` is where the dialogue is written as a story. `make` makes the robot.
+    voice. `log` is where the dialogue is written as a story. A `live` robot takes the
+    turn after a silence. `make` makes the robot.
     """
     place = memory_path(memory)
     settings: dict[str, Any] = {"language": language, "mode": mode, "wording": wording}
+    if live:
+        if hear or not can_watch():
+            return complain("--live needs a terminal to type at: leave it out")
+        settings["turns"] = "lively"
     with ExitStack() as closing:
         try:
             _check_apart(hear, say)
@@ -126,7 +135,7 @@ def _logged_robot(make: Callable[..., Agent], log: StoryLog, memory: Path) -> Ag
         copied = copy.name
     robot = make(record_event=log)
     strategy = robot.state.private.strategy
-    chosen = (strategy.mode, strategy.wording)
+    chosen = (strategy.mode, strategy.wording, strategy.turns.name)
     log.begin(robot.gaze.sensor.name, robot.time, chosen, copied)
     return robot
 
@@ -152,6 +161,9 @@ class _Conversation:
         self._ears, self._speak = ears, speak
         self._out = console()
         self._typed = ears is None and sys.stdin.isatty()
+        self._failure = ""
+        turns = robot.state.private.strategy.turns
+        self._live = self._typed and can_watch() and max(turns.remark, turns.ask) > 0.0
 
     def hold(self) -> None:
         """Listens line by line until the end of the input or a farewell."""
@@ -182,8 +194,10 @@ class _Conversation:
             yield from self._ears.lines(self._robot)
             return
         while True:
+            if self._live:
+                wait_for_key(_PROMPT, self._watch)
             try:
-                line = ask_line("U> " if self._typed else "", UTTERANCE).strip()
+                line = ask_line(_PROMPT if self._typed else "", UTTERANCE).strip()
             except EOFError:
                 if self._typed:
                     self._print("")
@@ -198,6 +212,26 @@ class _Conversation:
         except (SensorError, MemoryFileError, TTRError) as error:
             complain(error)
             return
+        self._show_answer(answer)
+
+    def _watch(self) -> Show | None:
+        """Watch while nobody types; returns what shows what the robot then says."""
+        turns, failure = len(self._robot.exchanges), self._failure
+        try:
+            answer = self._robot.watch(lambda: not is_key_pressed())
+        except (SensorError, MemoryFileError, TTRError) as error:
+            self._failure = str(error)
+            # A camera that is gone is told once, not twice a second.
+            return None if self._failure == failure else partial(complain, error)
+        self._failure = ""
+        return partial(self._show_remark, turns, answer) if answer else None
+
+    def _show_remark(self, turns: int, answer: str) -> None:
+        for turn in self._robot.exchanges[turns:]:
+            self._print_account(self._account(turn))
+        self._show_answer(answer)
+
+    def _show_answer(self, answer: str) -> None:
         for sentence in answer.split("\n") if answer else ():
             self._print(sentence if sentence.startswith(" ") else f"S> {sentence}")
             self._speak(sentence)

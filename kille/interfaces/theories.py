@@ -56,10 +56,12 @@ def robot_of(
 ) -> Agent:
     """The robot of a theory; its language, mode and wording are those of that.
 
-    Of the other settings those count that are no part of a theory: its clock, and who
-    is told of its events.
+    Of the other settings those count that are no part of a theory: when it takes turns,
+    its clock, and who is told of its events.
     """
-    own = {it: settings[it] for it in ("now", "record_event") if it in settings}
+    own = {
+        it: settings[it] for it in ("turns", "now", "record_event") if it in settings
+    }
     return agent_of(theory, sensor, memory=memory, **own)
 
 

@@ -33,6 +33,7 @@ from kille.dialogue.games.knowing import KNOWING
 from kille.dialogue.games.listening import GLANCED, LISTENING, SAID, SEEN
 from kille.dialogue.games.mishearing import MISHEARD
 from kille.dialogue.games.naming import NAMING
+from kille.dialogue.games.noticing import WATCHING
 from kille.dialogue.games.offering import OFFER_ANSWERED, OFFERING
 from kille.dialogue.games.placing import PLACING
 from kille.dialogue.games.referring import REFERRING
@@ -101,10 +102,11 @@ def games_with(*answers: Rule) -> Algorithm:
         ),
         SAID,
         GLANCED,
+        WATCHING,
         seq(STAYING, SEEN, maybe(IDLING)),
         seq(SEEN, maybe(INITIATING)),
     )
 
 
 TUTORING = games_with()
-"""What becomes of every event: something heard, said, glanced at or seen."""
+"""What becomes of every event: something heard, said, glanced at, watched or seen."""

@@ -104,7 +104,8 @@ def _option_to_ask(s: Record, about: str, p: float) -> Option:
     return Option(about, p, Stake(wants[about] - wants.asking, -wants.asking))
 
 
-def _question(act: str, *about: str, things: tuple[str, ...] = ()) -> Record:
+def question(act: str, *about: str, things: tuple[str, ...] = ()) -> Record:
+    """A question of the robot's own, by which it knows that it has asked it."""
     return record(act=act, about=about, things=things)
 
 
@@ -124,7 +125,7 @@ def _relations(
     content = placement(s, x, target.sign, y, landmark.sign, types=types)
     yield Initiative(
         _option_to_ask(s, "relation", doubt(stand)),
-        _question("AskRelation", *sorted(it.form for it in signs)),
+        question("AskRelation", *sorted(it.form for it in signs)),
         plan(s, "AskRelation", content, signs=signs, types=types),
     )
 
@@ -148,7 +149,7 @@ def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initia
         return
     for x in sorted(s.view.things, key=lambda it: it not in s.view.focus):
         beliefs = names_of(s, model, x)
-        if thinks(s, beliefs) or _is_told(s, x):
+        if thinks(s, beliefs) or is_told(s, x):
             continue
         content = set_at(
             set_at(types.record_type("Asked"), "look", s.view.look), "target.x", x
@@ -157,20 +158,20 @@ def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initia
         planned = plan(
             s, "AskThing", set_to(content, **number), points=[x], types=types
         )
-        salient = (x, *(it for it in s.shared.salient if it != x))
         yield Initiative(
             _option_to_ask(s, "thing", doubt(beliefs)),
-            _question("AskThing", things=(x,)),
-            replace(
-                planned,
-                {
-                    "view.focus": (x,),
-                    "view.pointed": (x,),
-                    "shared.salient": salient,
-                },
-            ),
+            question("AskThing", things=(x,)),
+            turn_to(planned, x),
         )
         return
+
+
+def turn_to(s: Record, x: str) -> Record:
+    """The state in which the robot talks about a thing, and points at it."""
+    salient = (x, *(it for it in s.shared.salient if it != x))
+    return replace(
+        s, {"view.focus": (x,), "view.pointed": (x,), "shared.salient": salient}
+    )
 
 
 def _examples(s: Record, *, types: DialogueTypes) -> Iterator[Initiative]:
@@ -184,7 +185,7 @@ def _examples(s: Record, *, types: DialogueTypes) -> Iterator[Initiative]:
         taught = sum(claims(it.content, sign) for it in s.private.lessons)
         yield Initiative(
             _option_to_ask(s, "example", failed / (taught + failed)),
-            _question("AskExample", sign.form, str(failed)),
+            question("AskExample", sign.form, str(failed)),
             plan(s, "AskExample", sign.meaning, signs=[sign], types=types),
         )
 
@@ -197,12 +198,12 @@ def _lessons(
         return
     for x in s.view.things:
         beliefs = names_of(s, model, x)
-        if not is_sure(s, beliefs) or _is_told(s, x):
+        if not is_sure(s, beliefs) or is_told(s, x):
             continue
         content, sign = said_of(s, beliefs[0].sign, x, types=types), beliefs[0].sign
         yield Initiative(
             Option(x, lead(beliefs), stake),
-            _question("LearnedAlone", things=(x,)),
+            question("LearnedAlone", things=(x,)),
             plan(
                 s, "LearnedAlone", content, signs=[sign], teaches=[content], types=types
             ),
@@ -214,7 +215,7 @@ def _is_worth(s: Record, about: str) -> bool:
     return bool(s.private.strategy.wants[about] > s.private.strategy.wants.asking)
 
 
-def _is_told(s: Record, x: str) -> bool:
+def is_told(s: Record, x: str) -> bool:
     """Whether the tutor has said something of a thing since it came into view."""
     return any(thing_at(it, "target") == x for it in s.shared.here)
 

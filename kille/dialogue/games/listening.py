@@ -35,16 +35,16 @@ from ttr.updates import NBest, first, maybe, seq
 @rule(when="State", on="Seen")
 def see(s: Record, seen: Record) -> Record:
     """What is in view is what the latest look shows, and the robot has the floor."""
-    return _state_after_look(s, seen)
+    return state_after_look(s, seen)
 
 
 @rule(when="State", on="Glance")
 def glance(s: Record, seen: Record) -> Record:
     """What is in view is what the latest look shows, while the tutor has the floor."""
-    return _state_after_look(s, seen)
+    return state_after_look(s, seen)
 
 
-def _state_after_look(s: Record, seen: Record) -> Record:
+def state_after_look(s: Record, seen: Record) -> Record:
     """The state after a look: talk is about what is shown, and not about what is gone.
 
     Talk turns to what the tutor points at, or else to the one thing that is new if it
@@ -102,6 +102,8 @@ def hear(
         "private.cost.words": cost.words + len(said.text.split()),
         "shared.latest": said,
     }
+    if s.private.news and not s.shared.floor:
+        changes["private.news"] = ()  # the tutor has taken the turn
     return replace(s, changes)
 
 

@@ -9,6 +9,7 @@ Source: Sacks, Schegloff and Jefferson 1974; Skantze, Hjalmarsson and Oertel 201
 from __future__ import annotations
 
 from kille.dialogue.games.initiating import ask_most_wanted
+from kille.dialogue.games.noticing import remark_on_news
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule
@@ -26,10 +27,12 @@ def hold_floor(s: Record, *, types: DialogueTypes) -> Record:
 
 @rule(answers="ReleaseFloor")
 def take_floor(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
-    """The tutor gives the floor to the robot: it asks what it wants to know most."""
+    """The tutor gives the floor to the robot: it says what is new, or asks."""
     if s.shared.qud:
         return None
-    return ask_most_wanted(_free_floor(s), model, types=types)
+    free = _free_floor(s)
+    remarked = remark_on_news(free, model, types=types)
+    return remarked or ask_most_wanted(free, model, types=types)
 
 
 @rule(answers="ReleaseFloor")

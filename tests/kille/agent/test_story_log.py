@@ -59,6 +59,8 @@ Happening = tuple[float, str]
 LINES = (
     *("@ show cup", "@ place book at 0.1 0.1", "@ look", "@ glimpse", "@ point 1"),
     *("U> This is a cup.", "U> #1 This is a book.", "U> What is this?", "U> Why?"),
+    *("@ watch", "@ watch busy", "@ meanwhile place cup at 0.1 0.1", "U> Wait."),
+    *("@ meanwhile remove cup", "U> Go on.", "U> Yes."),
     *("U> Forget that.", "U> No, this is a mug.", "U>", "U> Blah blah.", "@ restart"),
     "U~ This is a cup. 0.35 | This is a cap. 0.3",
 )
@@ -96,9 +98,11 @@ def log_of(happened: Sequence[Happening], path: Path, memory: Path) -> Recorder:
     clock = Clock()
     with StoryLog(path) as log:
         recorder = Recorder(log)
-        with Agent(SENSOR, memory, now=clock, record_event=recorder, scans=1) as robot:
+        with Agent(
+            SENSOR, memory, turns="lively", now=clock, record_event=recorder, scans=1
+        ) as robot:
             recorder.robot = robot
-            log.begin(robot.gaze.sensor.name, robot.time, ("assisted",), copy)
+            log.begin(robot.gaze.sensor.name, robot.time, ("lively",), copy)
             happen(robot, "@ show cup")
             for seconds, line in happened:
                 clock.now += timedelta(seconds=seconds)
@@ -150,6 +154,23 @@ def test_how_long_ago_a_lesson_was_is_the_same_to_the_last_digit(folder: Path) -
     happened.insert(1, (0.5, "U> What is this?"))
     live = log_of(happened, folder / "a.dlg", folder / "memory.db")
     assert "yesterday" in live.events[-1].said[0] or "day" in live.events[-1].said[0]
+    assert replay_of(folder / "a.dlg").states == live.states
+
+
+def test_what_is_said_after_a_silence_is_said_again_after_it(folder: Path) -> None:
+    happened = [
+        (1.0, "U> This is a cup."),
+        (0.5, "@ watch"),
+        (0.5, "@ meanwhile place book at 0.2 0.1"),
+        *[(0.6, "@ watch")] * 5,
+        (0.3, "@ watch busy"),
+        (5.0, "U> A book."),
+        *[(0.6, "@ watch")] * 16,
+    ]
+    live = log_of(happened, folder / "a.dlg", folder / "memory.db")
+    said = [text for it in live.events for text in it.said]
+    assert "Something new is here (#2): what is it?" in said
+    assert said[-1].endswith("Please tell me where things are.")
     assert replay_of(folder / "a.dlg").states == live.states
 
 

@@ -8,6 +8,7 @@ import re
 import select
 import signal
 import subprocess
+import termios
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -185,7 +186,7 @@ def test_a_log_plays_again_as_it_was(kille: Run, tmp_path: Path) -> None:
     said = talked(kille, typed, "--log", str(log), "--mode", "driven")
     lines = log.read_text().splitlines()
     assert f"@ sensor {EMPTY}" in lines
-    assert "@ strategy driven paper" in lines
+    assert "@ strategy driven paper answering" in lines
     assert "@ memory talk.memory.db" in lines
     assert [it for it in lines if it[:2] == "S>"] == [it for it in said if "S>" in it]
     assert kille("replay", "--quiet", str(log)).out == f"{log}: 1 story as written\n"
@@ -224,6 +225,10 @@ class Terminal:
         )
         os.close(theirs)
         self.shown = ""
+
+    def settings(self) -> list[object]:
+        """How the terminal treats keys: whether it echoes them, and so on."""
+        return termios.tcgetattr(self._ours)
 
     def type(self, keys: str) -> None:
         os.write(self._ours, keys.encode())
@@ -291,6 +296,75 @@ def test_a_talk_at_a_terminal_has_history_over_sessions(memory: Path) -> None:
         screen.type("Goodbye.\r")
         screen.wait_for("S> Goodbye.")
         assert screen.code() == 0
+
+
+@pytest.mark.slow
+def test_a_live_robot_remarks_on_what_comes_and_the_line_stays_usable(
+    memory: Path,
+) -> None:
+    with at_terminal("talk", "--sensor", EMPTY, "--live") as screen:
+        screen.wait_for("U> ")
+        screen.type("@ meanwhile show cup\r")
+        screen.wait_for("\r\x1b[KS> Something new is here: what is it?")
+        screen.wait_for("U> ")
+        screen.type("A cut\x7fp.\r")  # mended with backspace
+        screen.wait_for("OK, I learned a cup.")
+        screen.wait_for("U> ")
+        screen.type("@ meanwhile remove cup\r")
+        screen.wait_for("S> The cup is gone.")
+        screen.wait_for("U> ")
+        screen.type("\x1b[A\x1b[A\x01x\x0b\x15Goodbye.\r")
+        screen.wait_for("S> Goodbye.")
+        assert screen.code() == 0
+    assert "A cup." in memory.with_name("history").read_text().splitlines()
+
+
+@pytest.mark.slow
+def test_a_live_robot_says_nothing_while_the_tutor_types() -> None:
+    with at_terminal("talk", "--sensor", EMPTY, "--live") as screen:
+        screen.wait_for("U> ")
+        screen.type("@ meanwhile show cup\r")
+        screen.wait_for("\x1b[KU> ")
+        screen.type("What")
+        screen.wait_for("What")
+        with pytest.raises(AssertionError, match="is not in"):
+            screen.wait_for("S>", seconds=6.0)
+        screen.type(" is this?\r")
+        screen.wait_for("is this?")
+        assert "Something new" not in screen.wait_for("S> I do not know what this is.")
+        screen.wait_for("U> ")
+        screen.type("\x04")
+        assert screen.code() == 0
+
+
+@pytest.mark.slow
+def test_keys_pressed_while_the_robot_looks_are_not_lost() -> None:
+    with at_terminal("talk", "--sensor", EMPTY, "--live") as screen:
+        screen.wait_for("U> ")
+        for key in "Hello":  # at any moment of looking and waiting
+            screen.type(key)
+            time.sleep(0.13)
+        screen.type(".\r")
+        screen.wait_for("S> Hello.")
+        screen.type("Goodbye.\r")
+        screen.wait_for("S> Goodbye.")
+        assert screen.code() == 0
+
+
+def test_ctrl_c_while_a_live_robot_watches_leaves_the_terminal_as_it_was() -> None:
+    with at_terminal("talk", "--sensor", EMPTY, "--live") as screen:
+        before = screen.settings()
+        screen.wait_for("U> ")
+        screen.interrupt()
+        assert screen.code() == 130
+        assert "Traceback" not in screen.shown
+        assert screen.settings() == before
+
+
+def test_a_live_robot_needs_a_terminal(kille: Run) -> None:
+    outcome = kille("talk", "--sensor", EMPTY, "--live", typed="Hello.\n")
+    assert outcome.code == 2
+    assert "--live needs a terminal" in outcome.complaint
 
 
 def test_ctrl_c_at_a_terminal_loses_nothing(memory: Path) -> None:
