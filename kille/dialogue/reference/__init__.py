@@ -11,6 +11,7 @@ Source: Kennington and Schlangen 2015 (words as classifiers, composed); Kelleher
 
 from __future__ import annotations
 
+from kille.dialogue.reference.incremental import meant_by, ranking, said_by
 from kille.dialogue.reference.perspectives import (
     AWAY,
     LANDMARK,
@@ -19,7 +20,6 @@ from kille.dialogue.reference.perspectives import (
     front_of,
     known_front,
 )
-from kille.dialogue.reference.ranking import meant_by, ranking, said_by
 from kille.dialogue.reference.resolving import (
     PARTS,
     PhraseJudge,

@@ -1,4 +1,7 @@
-"""How the things in view rank while a phrase is being said, word by word.
+"""Resolving a phrase while it is being said: what is probably meant, word by word.
+
+How salient things are by what is seen and said is in `salience`; this is about how well
+the words so far fit them.
 
 Source: Kennington and Schlangen 2015 (words as classifiers, incremental resolution).
 """
