@@ -2,21 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from datetime import datetime
 
 from kille.agent.attention import AttentiveSensor
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.explanations import Explainer, sign_of
+from kille.dialogue.criteria import (
+    COMPONENT,
+    CUE,
+    PROPERTY,
+    degree_of,
+    signs_in,
+    what_of,
+)
 from kille.dialogue.meanings import DialogueTypes, claims, is_denial, value_at, word_of
 from kille.dialogue.reference import PARTS, phrase_at
 from kille.dialogue.taxonomy import nouns_in
 from kille.grounding.knowledge import Knowledge, LessonSource, Named
 from kille.grounding.witness_functions import WitnessFunctions, number_of
-from kille.memory import Word
+from kille.memory import Kind, Word
+from kille.memory.lessons import By
 from kille.scene import Percept
 from ttr import Model, Record, RecordType, replace
 from ttr.types import PType, TypeNode
+
+BY: Mapping[str, By] = {CUE: "cue", PROPERTY: "quality", COMPONENT: "part"}
+"""By what a memory says that things are known, by the label in the content."""
 
 
 class MoveExecutor:
@@ -44,6 +56,9 @@ class MoveExecutor:
         move, model = model.create(planned)
         keys = tuple(str(self._learn(it, move.signs)) for it in move.teaches)
         kinds = tuple(str(self._learn_kind(it, move.signs)) for it in move.classifies)
+        criteria = tuple(
+            str(self._learn_criterion(it, move.signs)) for it in move.weighs
+        )
         explainer = Explainer(
             self._knowledge, self._witnesses, self._now(), self._types
         )
@@ -51,7 +66,7 @@ class MoveExecutor:
         undone = explainer.latest(len(move.undoes))
         undone_keys = [it.key for it in undone]
         lost = self._unlearn((*move.forgets, *dropped, *undone_keys))
-        if keys or kinds or move.forgets or dropped or undone:
+        if keys or kinds or criteria or move.forgets or dropped or undone:
             self._witnesses.reconsider()
             model = self._witnesses.in_model(model, move.signs, types=self._types)
         for x in move.points:
@@ -59,6 +74,7 @@ class MoveExecutor:
         done = {
             "keys": keys,
             "kinds": kinds,
+            "criteria": criteria,
             "dropped": dropped,
             "undone": undone or move.undone,
             "lost": lost,
@@ -95,6 +111,22 @@ class MoveExecutor:
             for it in nouns_in(content, signs)
         )
         return self._knowledge.learn_kind(self._log.record_source(), lower, upper)
+
+    def _learn_criterion(self, content: RecordType, signs: Sequence[Record]) -> int:
+        """Learn by what things of a kind are known; returns the key of the lesson."""
+        subject, *others = signs_in(content, signs)
+        noun = Word(word_of(subject).name, subject.form, "object", subject.article)
+        label, _ = what_of(content)
+        if label == CUE:
+            cue = str(value_at(content, CUE))
+            word = Word(cue, cue, "attribute")
+        else:
+            other = others[0]
+            kind: Kind = "attribute" if label == PROPERTY else "object"
+            word = Word(word_of(other).name, other.form, kind, other.article)
+        return self._knowledge.learn_criterion(
+            self._log.record_source(), noun, BY[label], word, degree_of(content)
+        )
 
     def _learn_relation(self, content: RecordType, learned: Record) -> int:
         look, front = value_at(content, "look"), value_at(content, "frame")

@@ -16,7 +16,7 @@ from kille.agent.actions import MoveExecutor
 from kille.agent.attention import Attention, AttentiveSensor, NumberedLook
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import Event, Exchange, RobotSentence
-from kille.agent.explanations import kind_of_lesson, sign_of
+from kille.agent.explanations import criterion_of_lesson, kind_of_lesson, sign_of
 from kille.agent.reason_pictures import reason_picture
 from kille.agent.silence import Silence, missing
 from kille.dialogue.beliefs import is_sure, names_of, thinks
@@ -130,6 +130,9 @@ class Agent:
             kind_of_lesson(it, knowledge.memory, self.types)
             for it in knowledge.memory.kinds()
         ]
+        criteria = [
+            criterion_of_lesson(it, self.types) for it in knowledge.memory.criteria()
+        ]
         signs = (
             *colours,
             *(it.sign for it in taught),
@@ -153,6 +156,7 @@ class Agent:
             colours=colours,
             taught=taught,
             kinds=kinds,
+            criteria=criteria,
             types=self.types,
         )
         self.game: Game = game if self._change is None else self._change(game)

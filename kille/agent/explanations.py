@@ -10,13 +10,14 @@ from collections import Counter
 from collections.abc import Iterable
 from datetime import datetime
 
+from kille.dialogue.criteria import criterion, nearest_often
 from kille.dialogue.meanings import DialogueTypes, claims, value_at, word_of
 from kille.dialogue.reference import thing_at
 from kille.dialogue.taxonomy import subsumption
 from kille.grounding.knowledge import Knowledge
 from kille.grounding.reasons import Reasons
 from kille.grounding.witness_functions import WitnessFunctions
-from kille.memory import Kind, KindLesson, Lesson, Memory, Word
+from kille.memory import CriterionLesson, Kind, KindLesson, Lesson, Memory, Word
 from ttr import Record, RecordType, record
 
 KINDS: dict[str, Kind] = {
@@ -29,6 +30,7 @@ KINDS: dict[str, Kind] = {
 _TALKED_OF: dict[Kind, str] = {
     **{kind: said for said, kind in KINDS.items()},
     "subkind": "noun",
+    "criterion": "noun",
 }
 
 
@@ -55,6 +57,30 @@ def kind_of_lesson(lesson: KindLesson, memory: Memory, types: DialogueTypes) -> 
         new=[it for it in (lower, upper) if word_of(it) not in taught],
         after=-1.0,
     )
+
+
+def criterion_of_lesson(lesson: CriterionLesson, types: DialogueTypes) -> Record:
+    """A lesson by what things of a kind are known, as a `Criterion` of the dialogue.
+
+    It was taught before all lessons of the dialogue.
+    """
+    subject, seen = sign_of(lesson.word, types), lesson.seen
+    if seen.by == "cue":
+        matters = seen.degree > 0.0
+        content = criterion(subject, cue=seen.name, matters=matters, types=types)
+        signs = [subject]
+    else:
+        kind: Kind = "attribute" if seen.by == "quality" else "object"
+        word = sign_of(Word(seen.name, seen.surface, kind, seen.article), types)
+        content = criterion(
+            subject,
+            quality=word if seen.by == "quality" else None,
+            part=word if seen.by == "part" else None,
+            often=nearest_often(seen.degree, types=types),
+            types=types,
+        )
+        signs = [subject, word]
+    return record(key=str(lesson.key), signs=signs, content=content, after=-1.0)
 
 
 class Explainer:
@@ -155,7 +181,7 @@ class Explainer:
         return record(
             key=str(lesson.key),
             sign=sign_of(lesson.word, self._types),
-            examples=float(lesson.holds),
+            examples=float(lesson.holds and lesson.word.kind in KINDS.values()),
             text=lesson.turn.text,
             dialogue=str(lesson.turn.dialogue),
             turn=str(lesson.turn.number),

@@ -76,7 +76,7 @@ def _band(bands: Mapping[str, float], degree: float) -> str:
 
 def _of_reasons(data: Section, reasons: Sequence[Record]) -> Iterator[tuple[str, str]]:
     [reason] = reasons
-    cues = list(_deciding_cues(data, reason.cues))
+    cues = list(deciding_cues(data, reason.cues))
     if cues:
         yield "cues", _join_words(data, cues)
     for reminder in reason.reminders:
@@ -90,7 +90,7 @@ def _lesson_text(reminder: Record) -> str:
     return str(reminder.text).rstrip()
 
 
-def _deciding_cues(data: Section, cues: Iterable[Record]) -> Iterator[str]:
+def deciding_cues(data: Section, cues: Iterable[Record]) -> Iterator[str]:
     """What the cues that decided are called, the most important first."""
     reasons, explained = data["reasons"], 0.0
     for name, share in islice(_named_shares(data, cues), reasons["most"]):

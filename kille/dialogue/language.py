@@ -58,7 +58,17 @@ _REMEMBERED = 1024
 _READINGS = 16
 """How many readings a sentence has at most: the simplest ones."""
 
-LESSONS = ("instruct", "instruct_several", "describe", "correct", "reject")
+LESSONS = (
+    "instruct",
+    "instruct_several",
+    "instruct_every",
+    "instruct_only",
+    "describe",
+    "correct",
+    "reject",
+    "weigh_cue",
+    "generalise",
+)
 """The moves that say what a thing is, or how: for them words are vetted."""
 
 _FORMS = 3
@@ -248,8 +258,9 @@ class Reader:
 
     def _doubt(self, signs: Iterable[Record], content: RecordType) -> str:
         """Why the word of a lesson may be none that is said of things, or nothing."""
-        if "counted" in content:
-            said = (it for it in signs if it.kind == "noun")
+        if "counted" in content or "component" in content:
+            said = (it for it in signs if it.meaning != content.get("subject"))
+            said = (it for it in said if it.kind == "noun")
         else:
             said = (it for it in signs if claims(content, it))
         for sign in said:

@@ -50,6 +50,7 @@ DOES = (
     "points",
     "undoes",
     "classifies",
+    "weighs",
 )
 """What else a move of the robot may do, by the labels of the type Said."""
 

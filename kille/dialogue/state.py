@@ -19,13 +19,14 @@ def initial(
     colours: Iterable[Record] = (),
     taught: Iterable[Record] = (),
     kinds: Iterable[Record] = (),
+    criteria: Iterable[Record] = (),
 ) -> Record:
     """The state in which a dialogue begins: words are known, nothing has been said.
 
     The strategy is a value of `kille.dialogue.strategies`; `colours` are those of the
     adjectives that answer what colour something is; `taught` says how many lessons
     there were in a word before, as `Taught`, and `kinds` which kinds of things were
-    said to be kinds of others, as `Kind`.
+    said to be kinds of others, as `Kind`; `criteria` by what things are known.
 
     >>> from kille.dialogue.meanings import noun, record_type
     >>> s = initial([noun("cup")])
@@ -42,6 +43,7 @@ def initial(
             lessons=[],
             taught=list(taught),
             kinds=list(kinds),
+            criteria=list(criteria),
             last=[],
             failed=[],
             colours=list(colours),

@@ -47,6 +47,7 @@ def tutoring(
     colours: Iterable[Record] = (),
     taught: Iterable[Record] = (),
     kinds: Iterable[Record] = (),
+    criteria: Iterable[Record] = (),
     types: DialogueTypes | None = None,
 ) -> Game:
     """The games of tutoring as one, by a robot that knows these words.
@@ -55,9 +56,9 @@ def tutoring(
     `act` makes a planned move, where more is to be done for it than to create it.
     `mode`, `wording` and `turns` name its strategy in `strategies.toml`; `colours` are
     those of its adjectives that are colours; `taught` says of words in how many lessons
-    they were taught before, `kinds` which kinds of things are kinds of others. `types`
-    are those of its theory, by default the packaged one; rules that name types are
-    bound to them.
+    they were taught before, `kinds` which kinds of things are kinds of others,
+    `criteria` by what they are known. `types` are those of its theory, by default the
+    packaged one; rules that name types are bound to them.
 
     >>> game = tutoring()
     >>> turn = game.take(game.begin(), game.hear("What is this?"))
@@ -69,7 +70,7 @@ def tutoring(
     return Game(
         "tutoring",
         types.record_type("State"),
-        initial(signs, deciding, colours, taught, kinds),
+        initial(signs, deciding, colours, taught, kinds, criteria),
         bind(rules, types),
         under_kinds(blank_model(types) if model is None else model, kinds, types=types),
         agenda="private.agenda",

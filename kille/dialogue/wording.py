@@ -184,6 +184,8 @@ def _claim_slots(
 def _forms(lexicon: Lexicon, slot: str, sign: Record) -> Iterator[tuple[str, str]]:
     """The forms of a word, as slots."""
     yield slot, sign.form
+    if sign.kind == "adjective":
+        yield f"plural_{slot}", lexicon.inflect(sign.form, "WEAK")
     if sign.kind == "noun":
         yield f"a_{slot}", lexicon.with_article(sign.form, sign.article)
         article = lexicon.article(sign)

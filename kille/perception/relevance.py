@@ -9,8 +9,8 @@ by what was said of their groups, the latest word on each of them counting:
 
 The weights are divided by their sum wherever things are compared, so that the shares of
 the groups sum to 1 as they did before. The votes of features are a group as well, the
-details: they do not count where these do not matter, by half where other cues do, and
-twice where they themselves are what matters. Metric size rejects nothing where the size
+details: they do not count where these do not matter, by a quarter where other cues are
+what matters, and twice where they are. Metric size rejects nothing where the size
 does not matter.
 
 What is said of a word changes that word only: its regression is one of its own, against
@@ -41,7 +41,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 """The cues of each group that can be spoken of."""
 
-OTHERS_MATTER, DETAILS_MATTER = 0.5, 2.0
+OTHERS_MATTER, DETAILS_MATTER = 0.25, 2.0
 """What the votes of features count for where cues are what matters, or they are."""
 
 

@@ -21,6 +21,7 @@ from kille.dialogue.games.confirming import CONFIRMING
 from kille.dialogue.games.correcting import CORRECTING
 from kille.dialogue.games.counting import COUNTING
 from kille.dialogue.games.courtesy import COURTESY, REPEATING
+from kille.dialogue.games.criticising import CRITICISING
 from kille.dialogue.games.distinguishing import DISTINGUISHING
 from kille.dialogue.games.doubling import ANSWERED, DOUBLING
 from kille.dialogue.games.explaining import EXPLAINING
@@ -37,7 +38,7 @@ from kille.dialogue.games.noticing import WATCHING
 from kille.dialogue.games.offering import OFFER_ANSWERED, OFFERING
 from kille.dialogue.games.placing import PLACING
 from kille.dialogue.games.referring import REFERRING
-from kille.dialogue.games.several import SEVERAL
+from kille.dialogue.games.several import SEVERAL, SEVERAL_ANSWERED
 from kille.dialogue.games.surveying import SURVEYING
 from kille.dialogue.games.vetting import VETTED, VETTING
 from kille.dialogue.games.yielding import YIELDING
@@ -46,6 +47,7 @@ from ttr.updates import Algorithm, Rule, first, maybe, seq
 __all__ = ["TUTORING", "games_with"]
 
 ANSWERING = first(
+    CRITICISING,
     CLASSIFYING,
     ACKNOWLEDGING,
     CONFIRMING,
@@ -90,6 +92,7 @@ def games_with(*answers: Rule) -> Algorithm:
                 FORGET_ANSWERED,
                 ANSWERED,
                 STILL_ANSWERED,
+                SEVERAL_ANSWERED,
                 SETTLING,
                 seq(maybe(CLARIFYING), maybe(first(VETTING, OFFERING))),
             ),

@@ -17,6 +17,8 @@ from kille.dialogue.beliefs import (
     thinks,
 )
 from kille.dialogue.commitments import affirmation, as_told, kind_of, same, signs_for
+from kille.dialogue.criteria import last_subject
+from kille.dialogue.games.citing import cite_reasons
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -49,7 +51,7 @@ def miss_certain(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="AskCertainty")
 def tell_certainty(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It says how certain the claim is, and what else it might be."""
-    claim = _claim_in_question(s)
+    claim = claim_in_question(s)
     return None if claim is None else _plan_certainty(s, model, claim, types=types)
 
 
@@ -62,7 +64,7 @@ def miss_explained(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="AskWhy")
 def explain_kind(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """It thinks so as it takes the thing for another kind, which is a kind of that."""
-    claim = _claim_in_question(s)
+    claim = claim_in_question(s)
     if claim is None or kind_of(claim) != "c" or is_denial(claim):
         return None
     asked = next((it for it in s.private.nouns if claims(claim, it)), None)
@@ -89,7 +91,7 @@ def explain_kind(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
 @rule(answers="AskWhy")
 def explain(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It thinks so: it says by which cues, and what it was reminded of."""
-    claim = _claim_in_question(s)
+    claim = claim_in_question(s)
     if claim is None or is_denial(claim):
         return None
     own, rival, model = _judge_claim(s, model, claim)
@@ -107,13 +109,16 @@ def explain(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
         pending=_still_claimed(s, claim),
         types=types,
     )
+    x = thing_at(claim, "target")
+    if s.private.criteria and kind_of(claim) == "c" and x is not None:
+        explained = cite_reasons(explained, model, own.sign, x, types=types)
     return explained, model
 
 
 @rule(answers="AskWhy")
 def doubt(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It does not think so: it says how certain it is instead."""
-    claim = _claim_in_question(s)
+    claim = claim_in_question(s)
     return None if claim is None else _plan_certainty(s, model, claim, types=types)
 
 
@@ -159,7 +164,7 @@ def _plan_unknown_word(s: Record, *, types: DialogueTypes) -> Record | None:
     return None
 
 
-def _claim_in_question(s: Record) -> RecordType | None:
+def claim_in_question(s: Record) -> RecordType | None:
     """The claim that a question is about: the one in it, or what was claimed last.
 
     What has just been confirmed, corrected, taught or explained is a claim too.
@@ -176,7 +181,17 @@ def _claim_in_question(s: Record) -> RecordType | None:
         for label in ("teaches", "explains")
         for it in values_at(move, label)
     ]
-    return told[-1] if told else None
+    return told[-1] if told else _claim_of_criterion(s)
+
+
+def _claim_of_criterion(s: Record) -> RecordType | None:
+    """The latest lesson in the noun of a criterion just taught, of a thing in view."""
+    subject = last_subject(s)
+    for it in s.private.lessons[::-1] if subject is not None else ():
+        if it.sign.meaning == subject and it.content in s.shared.here:
+            claim: RecordType = it.content
+            return claim
+    return None
 
 
 def _still_claimed(s: Record, claim: RecordType) -> Sequence[RecordType]:

@@ -103,7 +103,7 @@ def keep_asked(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="ForgetThat")
 def forget_that_earlier(s: Record, *, types: DialogueTypes) -> Record | None:
     """Nothing was taught or said in this dialogue: the latest lesson is unlearned."""
-    before = s.private.taught or s.private.kinds
+    before = s.private.taught or s.private.kinds or s.private.criteria
     if not before or s.private.lessons or s.private.last:
         return None
     return plan(s, "ForgotLast", undoes=["latest"], types=types)
@@ -137,7 +137,8 @@ def forget_all(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     known = _taught_words(s)
     left = replace(s, {"shared.qud": s.shared.qud[1:]})
-    return plan(left, "ForgotAll", signs=known, drops=known, types=types)
+    said = [it.key for it in (*s.private.kinds, *s.private.criteria)]
+    return plan(left, "ForgotAll", signs=known, drops=known, forgets=said, types=types)
 
 
 @rule(answers="Deny")
@@ -194,7 +195,8 @@ def _asks_to_forget(s: Record) -> bool:
 
 def _plan_forgetting_word(s: Record, sign: Record, *, types: DialogueTypes) -> Record:
     """The plan to forget a word, with all its lessons and what was said of its kind."""
-    kinds = [it.key for it in s.private.kinds if knows(it.signs, sign)]
+    said = (*s.private.kinds, *s.private.criteria)
+    kinds = [it.key for it in said if knows(it.signs, sign)]
     return plan(
         s,
         FORGOT_WORD[sign.kind],

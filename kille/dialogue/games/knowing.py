@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kille.dialogue.games.citing import cite_all
 from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule
@@ -42,14 +43,14 @@ def know_nothing(s: Record, *, types: DialogueTypes) -> Record:
 
 @rule(answers="AskMeaning")
 def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The tutor asks what a word means: it says the type, and how it learned it."""
+    """The tutor asks what a word means: it says the type, and what it was told."""
     known = {word_of(sign): sign for sign in words(s)}
     for said in s.shared.latest.signs:
         sign = known.get(word_of(said))
         if sign is not None:
             act, claims = MEANT[sign.kind], s.shared.pending
             meaning = sign.meaning
-            return plan(
+            told = plan(
                 s,
                 act,
                 meaning,
@@ -58,6 +59,7 @@ def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
                 pending=claims,
                 types=types,
             )
+            return cite_all(told, sign, types=types)
     return None
 
 

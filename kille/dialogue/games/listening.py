@@ -12,6 +12,7 @@ from itertools import count, islice
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import claims_here, keep_claims
+from kille.dialogue.criteria import signs_in
 from kille.dialogue.games.costing import ASKED, CORRECTED
 from kille.dialogue.games.mishearing import MISHEARING
 from kille.dialogue.meanings import (
@@ -146,7 +147,7 @@ def keep(
 ) -> tuple[Record, Model] | None:
     """What was learned is known and agreed on; what was unlearned is neither."""
     undone = said.undone if said.undoes else ()
-    learned = said.teaches or said.classifies
+    learned = said.teaches or said.classifies or said.weighs
     if not (learned or said.forgets or said.drops or undone):
         return None
     state = s
@@ -154,15 +155,21 @@ def keep(
     for content, key in zip(said.teaches, keys, strict=True):
         state = _add_lesson(state, key, content, said.signs)
     state = _remove_kinds(_remove_lessons(state, said), s, said)
+    state = _remove_criteria(state, s, said)
     keys = said.kinds or _free_keys(state, len(said.classifies), "kind")
     for content, key in zip(said.classifies, keys, strict=True):
         state = _add_kind(state, key, content, said.signs)
+    keys = said.criteria or _free_keys(state, len(said.weighs), "criterion")
+    for content, key in zip(said.weighs, keys, strict=True):
+        state = _add_criterion(state, key, content, said.signs)
     return state, under_kinds(model, state.private.kinds, types=types)
 
 
 def _free_keys(s: Record, number: int, stem: str = "lesson") -> list[str]:
     """Keys that no lesson has, where no memory has given any."""
-    taken = {lesson.key for lesson in (*s.private.lessons, *s.private.kinds)}
+    private = s.private
+    lessons = (*private.lessons, *private.kinds, *private.criteria)
+    taken = {lesson.key for lesson in lessons}
     free = (f"{stem}{n}" for n in count(1) if f"{stem}{n}" not in taken)
     return list(islice(free, number))
 
@@ -204,17 +211,46 @@ def _add_kind(
     return replace(s, changes)
 
 
+def _add_criterion(
+    s: Record, key: str, content: RecordType, signs: Sequence[Record]
+) -> Record:
+    """The state in which the things of a kind are known by this."""
+    criterion = {
+        "key": key,
+        "signs": signs_in(content, signs),
+        "content": content,
+        "after": float(len(s.private.lessons)),
+    }
+    return replace(s, {"private.criteria": (*s.private.criteria, criterion)})
+
+
+def _remove_criteria(s: Record, before: Record, said: Record) -> Record:
+    """The state without the criteria that are taken back."""
+    if not s.private.criteria:
+        return s
+    gone = _keys_gone(said)
+    left = [it for it in s.private.criteria if it.key not in gone]
+    return replace(s, {"private.criteria": _after_fewer(left, before, gone)})
+
+
+def _after_fewer(
+    kept: Sequence[Record], before: Record, gone: set[str]
+) -> list[Record]:
+    """What was taught after some lessons, of which fewer are left."""
+    stay = [it.key not in gone for it in before.private.lessons]
+    return [
+        replace(it, after=float(sum(stay[: int(it.after)]))) if it.after > 0.0 else it
+        for it in kept
+    ]
+
+
 def _remove_kinds(s: Record, before: Record, said: Record) -> Record:
     """The state without the axioms that are taken back, and without their own words."""
     if not s.private.kinds:
         return s
     gone = _keys_gone(said)
     left = [it for it in s.private.kinds if it.key not in gone]
-    stay = [it.key not in gone for it in before.private.lessons]
-    kinds = [
-        replace(it, after=float(sum(stay[: int(it.after)]))) if it.after > 0.0 else it
-        for it in left
-    ]
+    kinds = _after_fewer(left, before, gone)
     used = [
         *(sign for it in left for sign in it.signs),
         *(it.sign for it in (*s.private.lessons, *s.private.taught)),

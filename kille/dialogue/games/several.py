@@ -2,13 +2,18 @@
 
 "These are cups." is said of all that is in view: a lesson about each thing there, but
 for those that the robot knows to be something else. Where fewer than two are left it
-is not plain which ones are meant, and the robot asks to be shown one at a time. "None
-of these is a cup." is a lesson about each thing there, too.
+is not plain which ones are meant, and the robot asks to be shown one at a time; so it
+does where "both" is said of more than two. "None of these is a cup." is a lesson about
+each thing there, too.
+
+"Everything here is a cup." is a lesson about each thing, and "Only this is a cup." one
+about this, and one about each other thing, that it is not. Where something else was
+said of such a thing before, the robot asks first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from kille.dialogue.beliefs import is_sure, knows, names_of
 from kille.dialogue.commitments import kind_of, opposite_lesson_keys
@@ -22,25 +27,46 @@ from kille.dialogue.meanings import (
     set_at,
     set_to,
 )
-from kille.dialogue.moves import content_of, plan, said_of
+from kille.dialogue.moves import content_of, issue, number_field, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at, thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, record, rectype, replace
 from ttr.updates import first
 
+EVERY, ONLY = "AskEvery", "AskOnly"
+"""The questions whether it is so of a thing of which something else was said."""
+
+EXACTLY = "exactly"
+"""The label of how many things there have to be: "both are cups"."""
+
+
+@rule(answers="InstructSeveral")
+def need_two(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """Of both is spoken where more than two things may be meant."""
+    if EXACTLY not in content_of(s):
+        return None
+    things = _unlike(s, model, _fitting_things(s, model, types=types), _noun(s))
+    return None if len(things) == 2 else plan(s, "NeedSingle", types=types)
+
 
 @rule(answers="InstructSeveral")
 def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says what the things in view are: it is a lesson about each of them."""
     sign = _noun(s)
-    things = [
-        x
-        for x in _fitting_things(s, model, types=types)
-        if not _is_other(s, model, x, sign)
-    ]
-    if len(things) < 2:
-        return None
+    things = _unlike(s, model, _fitting_things(s, model, types=types), sign)
+    return None if len(things) < 2 else _plan_several(s, things, sign, types=types)
+
+
+def _unlike(s: Record, model: Model, things: Sequence[str], noun: Record) -> list[str]:
+    """Those of some things that are not known to be something else."""
+    return [x for x in things if not _is_other(s, model, x, noun)]
+
+
+def _plan_several(
+    s: Record, things: Sequence[str], sign: Record, *, types: DialogueTypes
+) -> Record:
+    """The plan to learn that each of these things is so."""
     teaches = [said_of(s, sign, x, types=types) for x in things]
     seen = [record(sit=record(x=x), sign=sign) for x in things]
     return plan(
@@ -77,7 +103,128 @@ def reject_several(s: Record, *, types: DialogueTypes) -> Record | None:
     )
 
 
-@rule(answers=("InstructSeveral", "InstructSome", "RejectSeveral"))
+# --- every and only -------------------------------------------------------------------
+
+
+@rule(answers="InstructEvery")
+def ask_every(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """Everything is said to be so, and something here is known to be something else."""
+    noun = _noun(s)
+    other = next((x for x in s.view.things if _is_other(s, model, x, noun)), None)
+    if other is None:
+        return None
+    return _plan_question(s, EVERY, noun, other, types=types)
+
+
+@rule(answers="InstructEvery")
+def learn_every(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says what everything here is: it is a lesson about each thing."""
+    if not s.view.things:
+        return None
+    return _plan_several(s, s.view.things, _noun(s), types=types)
+
+
+@rule(answers="InstructOnly")
+def ask_only(s: Record, *, types: DialogueTypes) -> Record | None:
+    """Only this is said to be so, and another thing here was said to be so, too."""
+    noun, this = _noun(s), thing_at(content_of(s), "target")
+    for x in s.view.things:
+        if x != this and any(claims(it, noun) for it in _names_told(s, x)):
+            return _plan_question(s, ONLY, noun, x, types=types)
+    return None
+
+
+@rule(answers="InstructOnly")
+def learn_only(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says that only this is so: a lesson about it, and one about each other
+    thing here, that it is not."""
+    if not s.view.things:
+        return None
+    return _plan_only(s, types=types)
+
+
+@rule(answers="Affirm")
+def learn_anyway(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It is so in spite of what was said before."""
+    said = _said_in_question(s)
+    if said is None:
+        return None
+    if s.shared.qud[0].ask == ONLY:
+        return _plan_only(said, types=types)
+    return _plan_several(said, s.view.things, _noun(said), types=types)
+
+
+@rule(answers="Deny")
+def learn_others(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """Not everything is so: of the other things here it is learned that they are."""
+    said = _said_in_question(s)
+    if said is None or s.shared.qud[0].ask != EVERY:
+        return None
+    noun = _noun(said)
+    things = _unlike(said, model, s.view.things, noun)
+    return _plan_several(said, things, noun, types=types) if things else None
+
+
+@rule(answers=("Deny", "ForgetThat", "ForgetLast"))
+def leave_several(s: Record, *, types: DialogueTypes) -> Record | None:
+    """What was said before stays, and nothing is learned."""
+    said = _said_in_question(s)
+    return None if said is None else plan(said, "LetBe", types=types)
+
+
+def _plan_question(
+    s: Record, ask: str, noun: Record, x: str, *, types: DialogueTypes
+) -> Record:
+    """The plan to ask if it is so of a thing of which something else was said."""
+    content = said_of(s, noun, x, types=types)
+    content = set_to(content, **number_field(s, x, types=types))
+    asked = issue(ask, [s.shared.latest])
+    return plan(s, ask, content, signs=[noun], asks=[asked], types=types)
+
+
+def _said_in_question(s: Record) -> Record | None:
+    """The state before the robot asked if it is so, if that is its question."""
+    if not s.shared.qud or s.shared.qud[0].ask not in (EVERY, ONLY):
+        return None
+    asked, *rest = s.shared.qud
+    return replace(s, {"shared.qud": rest, "shared.latest": asked.options[0]})
+
+
+def _plan_only(s: Record, *, types: DialogueTypes) -> Record:
+    """The plan to learn that one thing is so, and all others are not."""
+    noun, this = _noun(s), thing_at(content_of(s), "target") or ""
+    own = said_of(s, noun, this, types=types)
+    others = (said_of(s, noun, x, types=types) for x in s.view.things if x != this)
+    teaches = [own, *map(denial, others)]
+    forgets = [
+        key for it in teaches for key in opposite_lesson_keys(s, it, types=types)
+    ]
+    content = set_to(own, **number_field(s, this, types=types))
+    return plan(
+        s,
+        "LearnedOnly",
+        content,
+        signs=[noun],
+        teaches=teaches,
+        forgets=forgets,
+        types=types,
+    )
+
+
+def _names_told(s: Record, x: str) -> list[RecordType]:
+    """What the tutor has said that a thing in view is."""
+    return [it for it in _lessons_about(s, x) if not is_denial(it)]
+
+
+@rule(
+    answers=(
+        "InstructSeveral",
+        "InstructSome",
+        "InstructEvery",
+        "InstructOnly",
+        "RejectSeveral",
+    )
+)
 def see_none(s: Record, *, types: DialogueTypes) -> Record | None:
     """Nothing is in view that could be meant."""
     return None if s.view.things else plan(s, "SeeNothing", types=types)
@@ -166,9 +313,17 @@ def _lessons_about(s: Record, x: str) -> Iterator[RecordType]:
             yield it
 
 
+SEVERAL_ANSWERED = first(learn_anyway, learn_others, leave_several)
+"""What answers whether it is so of something of which something else was said."""
+
 SEVERAL = first(
+    need_two,
     learn_several,
     reject_several,
+    ask_every,
+    learn_every,
+    ask_only,
+    learn_only,
     see_none,
     need_single,
     miss_several,

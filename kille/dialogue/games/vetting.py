@@ -36,7 +36,7 @@ Update = tuple[Record, Model]
 def ask_meant(s: Record, *, types: DialogueTypes) -> Record | None:
     """Only a part of the sentence was understood: it asks whether that is meant."""
     said = s.shared.latest
-    if said.doubt != PARTIAL or not s.view.things:
+    if said.doubt != PARTIAL or ("look" in said.content and not s.view.things):
         return None
     content = in_view(s, said.content, types=types)
     asked = issue(MEANT, [replace(said, content=content, doubt="")])
@@ -49,7 +49,8 @@ def take_as_remark(s: Record, *, types: DialogueTypes) -> Record | None:
     doubt, sign = s.shared.latest.doubt, _doubted_sign(s)
     if doubt in ("", PARTIAL) or (doubt != SAYING and sign is None):
         return None
-    if doubt == DOUBTFUL and not is_denial(content_of(s)):
+    content = content_of(s)
+    if doubt == DOUBTFUL and ("look" not in content or not is_denial(content)):
         return None
     return plan(s, "TakeAsRemark", types=types)
 
@@ -59,6 +60,8 @@ def ask_kind(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """A new word may be none for a thing: it asks before it learns it."""
     sign = _doubted_sign(s)
     if s.shared.latest.doubt != DOUBTFUL or sign is None:
+        return None
+    if "look" not in content_of(s):
         return None
     content = in_view(s, content_of(s), types=types)
     options = [replace(s.shared.latest, content=content, doubt="")]
@@ -117,6 +120,8 @@ def _doubted_sign(s: Record) -> Record | None:
     content = said.content
     if "counted" in content:
         named = [it for it in said.signs if it.kind == "noun"]
+    elif "component" in content:
+        named = [it for it in said.signs if it.meaning == content["component"]]
     else:
         named = [it for it in said.signs if claims(content, it)]
     new = [it for it in named if not knows(words(s), it)]

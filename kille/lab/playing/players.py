@@ -94,6 +94,7 @@ def _simulated_tutor(
         feedback=set_["feedback"],
         patience=set_["patience"],
         politeness=set_["politeness"],
+        matters=tuple(set_["matters"]),
         orients=set_["orients"],
     )
     return SimulatedTutor(name, manner)

@@ -114,6 +114,12 @@ class Reply:
         return tuple(self.number(x) for x in _things(content))
 
     @property
+    def reasons(self) -> tuple[Record, ...]:
+        """The cues, with their shares, by which the robot has explained a claim."""
+        found = (it.sit.reasons for it in self.moves if it.sit.reasons)
+        return tuple(cue for reasons in found for it in reasons for cue in it.cues)
+
+    @property
     def word(self) -> str:
         """The first word in the robot's last move."""
         signs = self.moves[-1].sit.signs if self.moves else ()

@@ -22,6 +22,9 @@ from kille.lab.worlds.perception import oddness
 from kille.lab.worlds.vocabulary import SIDES
 from kille.lab.worlds.worlds import FRONTS, SIDE, Thing, World
 
+SIZES = (0.1, 0.5, 0.9)
+"""How big things are."""
+
 SPOTS = list(product(range(SIDE), range(SIDE)))
 """Where things are laid."""
 
@@ -86,15 +89,24 @@ class Drawn(Scene):
 
 def draw_scene(set_: Mapping[str, Any], chance: Random) -> Drawn:
     """Things of each kind, of which some are kept; of one colour only if there are more
-    of them than colours."""
+    of them than colours.
+
+    Where they are taught `alike`, all things of a kind that are taught have one colour
+    and one size, and those that are kept have any.
+    """
     each, count = set_["each"], set_["each"] + set_["new"]
     hues = list(set_["hues"])
     first: list[Thing] = []
     later: list[Thing] = []
     for kind in set_["kinds"]:
         colours = chance.sample(hues * -(-count // len(hues)), count)
+        alike = chance.choice(SIZES) if set_["alike"] else 0.0
+        if alike:
+            others = chance.choices(hues, k=set_["new"])
+            colours = [*[colours[0]] * each, *others]
         for number, colour in enumerate(colours):
-            size, front = chance.choice((0.1, 0.5, 0.9)), chance.choice(("", *FRONTS))
+            size, front = chance.choice(SIZES), chance.choice(("", *FRONTS))
+            size = alike if alike and number < each else size
             (first if number < each else later).append(
                 Thing(kind, colour, size, None, front)
             )

@@ -60,6 +60,11 @@ SETTINGS: Mapping[str, Settings] = {
         "kinds": Setting(str, KINDS, among=KINDS, several=True),
         "hues": Setting(str, tuple(COLOURS), among=tuple(COLOURS), several=True),
         "in_view": Setting(int, 1, least=1, most=100, about="things in view at once"),
+        "alike": Setting(
+            bool,
+            False,
+            about="whether taught things of a kind have one colour and size",
+        ),
     },
     "around": {
         **_NOISE,

@@ -19,7 +19,12 @@ from kille.lab.study import Theory
 from kille.lab.theories.candidates import Make, candidates
 from kille.lab.theories.guest_learners import GuestObjects, GuestRelations
 from kille.lab.theories.pupils import Pupil
-from kille.lab.theories.simulated_words import GuestWord, MakeWord, PrototypeWord
+from kille.lab.theories.simulated_words import (
+    CueWord,
+    GuestWord,
+    MakeWord,
+    PrototypeWord,
+)
 from kille.lab.worlds.word_learning import LearnedWord
 from kille.perception.evidence import weighing
 from kille.perception.index import View
@@ -35,6 +40,9 @@ WORDS: Mapping[str, type[LearnedWord]] = {
     "prototype": PrototypeWord,
 }
 
+NOUNS: Mapping[str, type[LearnedWord]] = {**WORDS, "cues": CueWord}
+"""The same of nouns, which may be judged by several cues."""
+
 _OF_EYES: Mapping[str, Callable[[Iterable[View]], ObjectMemory]] = {
     "default": ObjectMemory,
     "both": ObjectMemory,
@@ -44,7 +52,7 @@ _OF_EYES: Mapping[str, Callable[[Iterable[View]], ObjectMemory]] = {
 
 NAMES: Mapping[str, Known] = {
     "simulated": {
-        "noun": WORDS,
+        "noun": NOUNS,
         "adjective": WORDS,
         "relation": {**RELATIONS, **WORDS, "robot": RELATIONS["default"]},
     },
@@ -67,8 +75,9 @@ def words_of(theory: Theory) -> Mapping[str, MakeWord]:
 
 def _word(kind: str, theory: Theory) -> MakeWord:
     name = theory.learners.get(kind, "default")
-    if name in WORDS:
-        return WORDS[name]
+    named = NOUNS if kind == "noun" else WORDS
+    if name in named:
+        return named[name]
     known = NAMES["simulated"][kind]
     return partial(GuestWord, pupil=Pupil(_maker(name, known, theory)))
 

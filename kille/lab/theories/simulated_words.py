@@ -17,12 +17,21 @@ from kille.lab.theories.pupils import Heard, Pupil
 from kille.lab.worlds.games import act, learned_words, word
 from kille.lab.worlds.perception import Vector
 from kille.lab.worlds.word_learning import LearnedWord, Observation
+from kille.perception.likeness import Kernel
+from kille.perception.relevance import Relevance
 from kille.scene import Configuration
 from ttr import Model, Record, RecordType
 from ttr.types import TypeNode
 
 MakeWord = Callable[[Record], LearnedWord]
 """Makes the word of a sign that was not taught yet."""
+
+
+CUES = ("shape", "colour", "size")
+"""By what a noun may be judged in a simulated world."""
+
+_ALIKE = {cue: Kernel(1.0, 1.0) for cue in CUES}
+"""The kernels of cues that count alike."""
 
 
 class PrototypeWord(LearnedWord):
@@ -40,6 +49,28 @@ class PrototypeWord(LearnedWord):
         if not told:
             return 0.0
         return len(told) * self.similarity(_mean(told), of[aspect], aspect)
+
+
+class CueWord(LearnedWord):
+    """A noun that is judged by shape, colour and size, as far as these count.
+
+    What each of them says of a thing by itself is added up by its share. All shares are
+    alike, but for what was said to matter for the word, or not to: that changes them as
+    it does those of the whole robot's cues (`kille.perception.relevance`).
+    """
+
+    @property
+    def aspects(self) -> Sequence[str]:
+        """What the word may speak of."""
+        return CUES if self.sign.kind == "noun" else super().aspects
+
+    def weights(self) -> Sequence[float]:
+        """The shares of the aspects; they sum to 1, if any is left."""
+        if self.sign.kind != "noun":
+            return super().weights()
+        said = [(it.cue, it.matters) for it in self.criteria if it.cue]
+        shares = Relevance.of(said).shares(_ALIKE)
+        return [shares[cue] for cue in CUES]
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +99,8 @@ def pupil_input(kind: str, of: Observation) -> object:
     >>> pupil_input("relation", ((0.0, 1.0), (0.3,))).offset
     (0.0, 0.3, 0.0)
     """
+    if kind == "noun":
+        return of[0]
     if kind != "relation":
         return tuple(number for aspect in of for number in aspect)
     (right, ahead), (far,) = of

@@ -25,7 +25,9 @@ class Manner:
     They have only the words of their `vocabulary`, or all where that is empty. In a
     share of lessons, the `errors`, they say what is true of other `kinds`, `hues` or
     places. They answer as many questions of a task as they have `patience`, and say
-    "Thank you." in a share of cases, by their `politeness`. If they `orient` the robot,
+    "Thank you." in a share of cases, by their `politeness`. If they know which cues
+    `matter` for nouns, they ask why after a wrong one, and say of cues that were given
+    as reasons and do not matter that they do not. If they `orient` the robot,
     they tell it which way a landmark faces before they speak of places.
     """
 
@@ -39,6 +41,7 @@ class Manner:
     feedback: str = "both"
     patience: int = 3
     politeness: float = 0.0
+    matters: tuple[str, ...] = ()
     orients: bool = False
 
 

@@ -262,6 +262,8 @@ def _plain_answers(talk: WorldTalk, asked: str) -> Sayings:
             | "AskBoth"
             | "AskKindStill"
             | "AskForget"
+            | "AskEvery"
+            | "AskOnly"
         ):
             return [it for act in _YES_OR_NO for it in _worldless_sayings(talk, act)]
     return talk.sayings("mention")

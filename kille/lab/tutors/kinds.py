@@ -10,6 +10,7 @@ from contextlib import suppress
 from inspect import signature
 from typing import Any
 
+from kille.dialogue.criteria import CUES
 from kille.lab.errors import StudyError
 from kille.lab.results import ExperimentError
 from kille.lab.settings import (
@@ -34,6 +35,13 @@ _SIMULATED: Settings = {
     "vocabulary": Setting(str, (), several=True, about="the only words they have"),
     "errors": Setting(float, 0.0, most=1.0, about="the share of wrong lessons"),
     "feedback": Setting(str, "both", among=FEEDBACK),
+    "matters": Setting(
+        str,
+        (),
+        among=CUES,
+        several=True,
+        about="the cues that matter for nouns: they correct other reasons",
+    ),
     "patience": Setting(int, 3, about="questions that they answer in a row"),
     "politeness": Setting(float, 0.0, most=1.0, about="how often they say thank you"),
     "frame": Setting(

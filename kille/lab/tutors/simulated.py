@@ -193,6 +193,15 @@ class _Performance:
                 reply = yield Says(self._words.plain_move("affirm"), "affirm")
                 yield from self._answer_questions(reply, None)
             yield from self._thank()
+        elif said and said != held and self._manner.matters:
+            reply = yield from self._correct_reason(reply, said)
+            if corrects:
+                says = self._beliefs.correction(reply.state)
+                reply = yield says
+                yield from self._answer_questions(reply, says)
+            elif confirms:
+                text = self._words.rejection(occasion.kind, said)
+                yield Says(text, "reject", corrects=True)
         elif corrects and said:
             says = self._beliefs.correction(reply.state)
             reply = yield says
@@ -201,6 +210,16 @@ class _Performance:
             yield from self._answer_questions(reply, None)
         elif confirms and said:
             yield Says(self._words.plain_move("deny"), "deny", corrects=True)
+
+    def _correct_reason(self, reply: Reply, said: str) -> Generator[Move, Reply, Reply]:
+        """Ask why, and say of each cue that is given as a reason and does not matter
+        that it does not: the reply after that."""
+        reply = yield Says(self._words.plain_move("ask_why"), "ask_why")
+        for cue in self._words.cited_cues(reply.reasons):
+            if cue not in self._manner.matters:
+                text = self._words.cue_statement(said, cue)
+                reply = yield Says(text, "weigh_cue", corrects=True)
+        return reply
 
     def _thank(self) -> Turns:
         if self._task.chance("thanks").random() < self._manner.politeness:

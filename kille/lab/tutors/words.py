@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from kille.dialogue.answer_details import deciding_cues
+from kille.dialogue.criteria import CUES
 from kille.dialogue.lexicon import lexicon
 from kille.lab.worlds.sayings import (
     LESSON_ACTS,
@@ -14,6 +16,7 @@ from kille.lab.worlds.sayings import (
     Claim,
     Phrase,
     Saying,
+    cue_matter,
     facing_matter,
     perspective_matter,
     word_matter,
@@ -80,6 +83,23 @@ class Words:
     def correction(self, kind: str, word: str, landmark: Phrase | None = None) -> str:
         """Say that, instead of what was said, a word is true of this thing."""
         return self._claim_text("correct", kind, word, landmark, THIS)
+
+    def rejection(self, kind: str, word: str) -> str:
+        """Say that a word is not true of this thing."""
+        claim = Claim(self.sign(kind, word), THIS, NOTHING, denies=True)
+        return Saying(self._vocabulary, "reject", claim).text
+
+    def cue_statement(self, noun: str, cue: str) -> str:
+        """Say that a cue does not matter for the things of a noun."""
+        about = cue_matter(self.sign("noun", noun), cue, matters=False)
+        return Saying(self._vocabulary, "weigh_cue", about).text
+
+    def cited_cues(self, reasons: Sequence[Record]) -> tuple[str, ...]:
+        """The cues that are named in an explanation, the first one first."""
+        own = lexicon(self.language)
+        names = {own.values[cue]: cue for cue in CUES}
+        said = deciding_cues(own.sections, reasons)
+        return tuple(names[it] for it in said if it in names)
 
     def _claim_text(
         self, act: str, kind: str, word: str, landmark: Phrase | None, target: Phrase

@@ -8,10 +8,11 @@ learning replaces. So a dialogue can be played again, and go on from any of its 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
+from kille.dialogue.criteria import CUE, degree_of, signs_in, what_of
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -152,6 +153,10 @@ def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
         keys.append(key)
     dropped = [key for sign in move.drops for key in keys_of(model, sign)]
     model = with_known_words(model, move.signs if move.classifies else ())
+    said = []
+    for content in move.weighs:
+        key, model = _learn_criterion(model, content, move.signs)
+        said.append(key)
     undone = _latest_lessons(model, len(move.undoes))
     keys_undone = [it.key for it in undone]
     lost, model = _unlearn(model, (*move.forgets, *dropped, *keys_undone))
@@ -159,6 +164,7 @@ def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
     recalled = [_recollection(model, sign) for sign in move.recalls]
     done = {
         "keys": keys,
+        "criteria": said,
         "dropped": dropped,
         "undone": undone or move.undone,
         "lost": lost,
@@ -184,6 +190,18 @@ def _learn(model: Model, sign: Record, content: RecordType) -> tuple[str, Model]
     return taught.lessons[-1].key, model.witnessed(pred, by=taught)
 
 
+def _learn_criterion(
+    model: Model, content: RecordType, signs: Sequence[Record]
+) -> tuple[str, Model]:
+    """Learn by what things are known: the key, and the model after it."""
+    subject = signs_in(content, signs)[0]
+    pred, label = word_of(subject), what_of(content)[0]
+    cue = str(value_at(content, CUE)) if label == CUE else ""
+    before = word(model, pred) or LearnedWord(subject)
+    after = before.after_criterion(cue, degree_of(content) > 0.0)
+    return after.criteria[-1].key, model.witnessed(pred, by=after)
+
+
 def claim_arguments(sign: Record, content: RecordType) -> tuple[str, ...]:
     """The arguments of which a content claims its word to be true."""
     look, target = value_at(content, "look"), content["target"]
@@ -202,9 +220,10 @@ def _unlearn(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], Mod
     lost = []
     for it in learned_words(model):
         left = it
-        for lesson in it.lessons:
-            if lesson.key in forgotten:
-                left = left.without_lesson(lesson.key)
+        own = (*(x.key for x in it.lessons), *(x.key for x in it.criteria))
+        for key in own:
+            if key in forgotten:
+                left = left.without_lesson(key)
         if left is it:
             continue
         model = model.witnessed(word_of(it.sign), by=left)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import islice, permutations
+from itertools import islice, permutations, product
 from string import Formatter
 
 from kille.dialogue.lexicon import lexicon
@@ -121,6 +121,8 @@ class Matter:
 
     name: str = ""
     labels: tuple[tuple[str, Phrase | Record], ...] = ()
+    besides: tuple[str, ...] = ()
+    """The names of other types that are merged with it."""
 
     def content(self, types: DialogueTypes) -> RecordType:
         """What is talked about."""
@@ -131,6 +133,8 @@ class Matter:
         if not self.name:
             return rectype(parts) if parts else Rec
         content = types.record_type(self.name)
+        for name in self.besides:
+            content = merge_of(content, types.record_type(name))
         return merge_of(content, rectype(parts)) if parts else content
 
     @property
@@ -262,6 +266,28 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
         case ["a_subkind", "superkind"]:
             pairs = islice(permutations(nouns, 2), PAIRS)
             return (subsumption_matter(lower, upper) for lower, upper in pairs)
+        case ["cue", "matters", "plural_subject"]:
+            return (
+                cue_matter(noun, cue, matters)
+                for noun in nouns
+                for cue in ("colour", "shape")
+                for matters in (False, True)
+            )
+        case ["often", "plural_property", "plural_subject"]:
+            adjectives = talk.words.adjectives.values()
+            pairs = islice(product(nouns, adjectives), PAIRS)
+            return (
+                generic_matter(noun, often, quality=adjective)
+                for noun, adjective in pairs
+                for often in ("Generally", "Never")
+            )
+        case ["often", "plural_component", "plural_subject"]:
+            pairs = islice(permutations(nouns, 2), PAIRS)
+            return (generic_matter(one, "Always", part=it) for one, it in pairs)
+        case ["a_component", "the_target"]:
+            phrases = _all_phrases(talk)
+            parts = islice(product(phrases, nouns), PAIRS)
+            return (part_matter(phrase, noun) for phrase, noun in parts)
         case ["front", "the_target"]:
             return _all_facing(talk)
         case ["the_landmark"]:
@@ -302,6 +328,30 @@ def perspective_matter(side: str, phrase: Phrase | None = None) -> Matter:
 def subsumption_matter(lower: Record, upper: Record) -> Matter:
     """That one kind of thing is a kind of another."""
     return Matter("", ((LOWER, lower), (UPPER, upper)))
+
+
+def cue_matter(noun: Record, cue: str, matters: bool) -> Matter:
+    """That a cue matters for the things of a noun, or does not."""
+    said = "Matters" if matters else "MattersNot"
+    return Matter(said, (("subject", noun),), (f"By{cue.capitalize()}",))
+
+
+def generic_matter(
+    noun: Record,
+    often: str,
+    *,
+    quality: Record | None = None,
+    part: Record | None = None,
+) -> Matter:
+    """That things of a noun have a quality or a part, so often."""
+    rest = {"property": quality, "component": part}
+    labels = tuple((label, it) for label, it in rest.items() if it is not None)
+    return Matter(often, (("subject", noun), *labels))
+
+
+def part_matter(phrase: Phrase, part: Record) -> Matter:
+    """That a thing has a part."""
+    return Matter("Asked", (("target", phrase), ("component", part)))
 
 
 def word_matter(sign: Record) -> Matter:

@@ -76,11 +76,23 @@ class WordLesson(NamedTuple):
     number: int = 0
 
 
+class WordCriterion(NamedTuple):
+    """What was said of a cue, or of all things that the word is true of: its key.
+
+    `cue` is empty for what the word is not judged by.
+    """
+
+    key: str
+    cue: str
+    matters: bool
+
+
 @dataclass(frozen=True, eq=False)
 class LearnedWord:
     """What a word is true of by its lessons; it is called to judge its predicate.
 
-    `prior` is what is known of it without any lesson, `count` how many it has had.
+    `prior` is what is known of it without any lesson, `count` how many it has had;
+    `criteria` are what was said by what it is known.
 
     >>> from kille.dialogue.meanings import noun
     >>> from kille.lab.worlds.worlds import Thing
@@ -95,6 +107,7 @@ class LearnedWord:
     lessons: tuple[WordLesson, ...] = ()
     prior: tuple[WordLesson, ...] = ()
     count: int = 0
+    criteria: tuple[WordCriterion, ...] = ()
 
     @classmethod
     def without_lessons(cls, sign: Record) -> LearnedWord:
@@ -134,7 +147,19 @@ class LearnedWord:
     def without_lesson(self, key: str) -> LearnedWord:
         """The word as if it had never been given this lesson."""
         left = tuple(lesson for lesson in self.lessons if lesson.key != key)
-        return replace(self, lessons=left)
+        said = tuple(it for it in self.criteria if it.key != key)
+        return replace(self, lessons=left, criteria=said)
+
+    def after_criterion(self, cue: str, matters: bool) -> LearnedWord:
+        """The word after it was said that it is known by this, or not."""
+        key = f"{word_of(self.sign).name}/{self.count + 1}"
+        said = (*self.criteria, WordCriterion(key, cue, matters))
+        return replace(self, criteria=said, count=self.count + 1)
+
+    @property
+    def aspects(self) -> Sequence[str]:
+        """What the word may speak of."""
+        return ASPECTS[self.sign.kind]
 
     @property
     def is_known(self) -> bool:
@@ -153,7 +178,7 @@ class LearnedWord:
         speaks = {
             name: share * self._degree(aspect, of)
             for aspect, (name, share) in enumerate(
-                zip(ASPECTS[self.sign.kind], self.weights(), strict=False)
+                zip(self.aspects, self.weights(), strict=False)
             )
         }
         whole = math.fsum(speaks.values())
@@ -233,7 +258,8 @@ def observe(kind: str, *args: str) -> Observation | None:
         return None
     match kind:
         case "noun":
-            return (traits(world, numbers[0]),)
+            seen = traits, colour, size
+            return tuple(it(world, numbers[0]) for it in seen)
         case "adjective":
             return colour(world, numbers[0]), size(world, numbers[0])
     way = direction(world, numbers[0], numbers[1], args[3])

@@ -80,6 +80,22 @@ KIND_SLOTS = {
 }
 """Slots of the two kinds of which one is a kind of the other, as their labels."""
 
+CRITERION_SLOTS = {
+    "plural_subject": ("subject", "Noun"),
+    "a_subject": ("subject", "Noun"),
+    "plural_property": ("property", "Adjective"),
+    "plural_component": ("component", "Noun"),
+    "a_component": ("component", "Noun"),
+}
+"""Slots of what is said of all things of a kind: their labels, and what is there."""
+
+SAID_BY_TYPE = {
+    "cue": ("ByColour", "ByShape", "BySize", "ByTexture", "ByPattern", "ByDetails"),
+    "matters": ("Matters", "MattersNot"),
+    "often": ("Always", "Generally", "Usually", "Often", "Sometimes", "Never"),
+}
+"""Slots that a type of the theory fills: one of these."""
+
 PHRASES = ("target", "landmark", "counted")
 
 OTHER = {"examples"}
@@ -210,6 +226,8 @@ TOLD_OF = {
     "ask_count": "Scene",
     "ask_places": "Scene",
     "instruct_several": "Scene",
+    "instruct_every": "Scene",
+    "tell_part": "Asked",
     "take_frame": "ByLandmark",
     "ask_meaning": "Word",
     "forget_word": "Word",
@@ -249,6 +267,16 @@ def a_move(
                 if word not in WORDS:
                     WORDS.append(word)
                     content = merge(content, rectype({label: word.meaning}))
+        elif slot in CRITERION_SLOTS:
+            label, template = CRITERION_SLOTS[slot]
+            while label not in content:
+                word = a_word(chance, language, template)
+                if word not in WORDS:
+                    WORDS.append(word)
+                    content = merge(content, rectype({label: word.meaning}))
+        elif slot in SAID_BY_TYPE:
+            said = record_type(chance.choice(SAID_BY_TYPE[slot]))
+            content = merge(content, said)
         elif slot == "number":
             content = merge(content, rectype(number=theory()["Text"] @ "12"))
         elif slot == "one":

@@ -55,7 +55,7 @@ def in_notation(content: str) -> object:
     four = re.findall(r"(\w+)\((?:target\.)?x, landmark\.x, look, frame\)", content)
     own = [Pred(name, *types["noun"].arities) for name in two]
     own += [Pred(name, *types["relation"].arities) for name in four]
-    basic = [types[name] for name in ("Ind", "Look", "Front", "Text")]
+    basic = [types[name] for name in ("Ind", "Look", "Front", "Text", "Number")]
     return parse(content, using=[*basic, *dict.fromkeys(own), "faces_left"])
 
 

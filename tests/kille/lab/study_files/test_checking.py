@@ -248,7 +248,7 @@ def test_meanings_that_the_games_cannot_be_made_of_are_told(
     fault, *more = found(tmp_path, "[theories.one]\nmeanings = 'own.ttr'\n")
     assert told in fault
     assert "\n" not in fault
-    assert len(more) == (6 if new == "Sing := [" else 0)
+    assert len(more) == (7 if new == "Sing := [" else 0)
 
 
 def test_people_may_type_to_a_theory_with_meanings(tmp_path: Path) -> None:
@@ -404,9 +404,9 @@ def test_a_swedish_grammar_is_tried_in_swedish(tmp_path: Path) -> None:
 
 
 def test_learners_are_those_of_the_eyes_that_see_the_scenes(tmp_path: Path) -> None:
-    theory = "[theories.one]\nlearners = { noun = 'cues', adjective = 'prototype' }\n"
+    theory = "[theories.one]\nlearners = { noun = 'both', adjective = 'prototype' }\n"
     [simulated] = found(tmp_path, theory)
-    assert 'nothing named "cues" judges nouns of simulated scenes' in simulated
+    assert 'nothing named "both" judges nouns of simulated scenes' in simulated
     whole = [it for it in found(tmp_path, theory, "rendered") if "judges" in it]
     assert len(whole) == 1
     assert 'nothing named "prototype" judges adjectives' in whole[0]
