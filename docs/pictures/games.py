@@ -67,9 +67,12 @@ def _section(game: Mapping[str, Any]) -> Iterator[str]:
     yield "| --- | --- | --- |"
     world = World(tuple(Thing(**_placed(it)) for it in game.get("things", ())))
     playing = simulated_game(world, turns=game.get("turns", ""))
-    now = playing.begin()
+    now, turn = playing.begin(), None
     for text in game["dialogue"]:
-        world, event = _happening(playing, world, text)
+        if turn is not None and text.startswith("@ interrupt"):
+            event: object = _interruption(turn, text.removeprefix("@ interrupt "))
+        else:
+            world, event = _happening(playing, world, text)
         turn = playing.take(now, event)
         yield _row(playing, now, turn, text)
         now = turn.run
@@ -105,6 +108,12 @@ def _watching_event(after: World, before: World) -> Record:
     went = [x for x in then.things if x not in seen.things]
     kept = [x for x in seen.things if x not in came]
     return record(view=seen, kept=kept, came=came, went=went, silence=2.0, still=2.0)
+
+
+def _interruption(turn: Turn, uttered: str) -> Record:
+    """The event of cutting off the first sentence of a turn."""
+    moves = [it.type for it in turn.said]
+    return record(unsaid=moves, uttered=uttered, latest=turn.said[0].sit)
 
 
 def _placed(thing: Mapping[str, Any]) -> dict[str, Any]:

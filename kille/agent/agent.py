@@ -162,6 +162,7 @@ class Agent:
         self.game: Game = game if self._change is None else self._change(game)
         self._now_at = self.game.begin()
         self._silence = Silence.begin(self._time)
+        self._latest: Exchange | None = None
 
     def _colour_words(self, known: Iterable[str]) -> Iterator[Record]:
         """The words of its language for colours that people have named for it."""
@@ -236,13 +237,25 @@ class Agent:
             lambda: self._take_turn(lambda: self._watch(ask_free)),
         )
 
+    def interrupt(self, uttered: str) -> None:
+        """Take in that the tutor has spoken over it, and how much it had uttered.
+
+        The rest of its latest answer is not said. Raises `UpdateError` for a text that
+        does not begin that answer.
+        """
+        self._happen(
+            f"@ interrupt {uttered}".strip(),
+            lambda: self._take_turn(lambda: self._cut_off(uttered)),
+        )
+
     def do(self, command: str) -> str:
         """Change the scene, and look; returns what the robot then says, if anything.
 
-        Commands are those of `kille.sensors.stage_commands`, and `look`, `point 2`,
-        `point 320 240`, `scene SENSOR`, `restart`, `glimpse`, `watch`, and `meanwhile`
-        before one that changes the scene. Pointing, restarting and what happens
-        meanwhile take no look; a glimpse is a look that is no turn, as for a picture.
+        Commands are those of `kille.sensors.stage_commands`, also after `meanwhile`,
+        with which the robot does not look; and `look`, `glimpse`, a look that is no
+        turn, as for a picture, `watch`, `point 2`, `point 320 240`, `scene SENSOR` and
+        `restart`. `interrupt TEXT` is `interrupt`; `spoken` says that all of the latest
+        answer has been uttered now. Pointing and restarting take no look.
         """
         if command.partition(" ")[0] == "watch":
             return self.watch(lambda: "busy" not in command)
@@ -264,6 +277,10 @@ class Agent:
                 self.gaze.switch_sensor(rest)
             case "look":
                 pass
+            case "interrupt":
+                return self._take_turn(lambda: self._cut_off(rest))
+            case "spoken":
+                return ""
             case "meanwhile":
                 perform(self.gaze.sensor, rest)
                 return ""
@@ -396,6 +413,7 @@ class Agent:
             raise cause from cause.__cause__
         self._now_at = after
         if exchange.text or exchange.steps:
+            self._latest = exchange
             self.exchanges.append(exchange)
         return exchange.answer
 
@@ -489,6 +507,32 @@ class Agent:
         """Take a look unasked, in which there is no lesson yet."""
         self._log.begin_look()
         return self._play_look("Seen", "robot", self._now_at)
+
+    def _cut_off(self, uttered: str) -> TurnResult:
+        """Play that only the beginning of the latest answer was uttered."""
+        latest = self._latest
+        said = [] if latest is None else list(latest.said)
+        left, whole = uttered.split(), 0
+        for sentence in said:
+            words = sentence.text.split()
+            if left[: len(words)] != words:
+                break
+            left, whole = left[len(words) :], whole + 1
+        rest = said[whole:]
+        if left and (not rest or rest[0].text.split()[: len(left)] != left):
+            raise UpdateError(f"{uttered[:40]!r} does not begin the latest answer")
+        moves = [] if latest is None else [latest.heard]
+        moves += [it.judgement for it in said[: whole + bool(left)]]
+        unsaid = [it.judgement.type for it in rest if it.judgement is not None]
+        if not unsaid:
+            return Exchange("", None, (), (), self._time), self._now_at
+        made = [it.sit for it in moves if it is not None]
+        event = record(
+            unsaid=unsaid,
+            uttered=" ".join(left),
+            latest=made[-1] if made else record(),
+        )
+        return self._play(self._now_at, event)
 
     def _watch(self, is_free: Callable[[], bool]) -> TurnResult:
         """Take a look while nobody speaks, and play it if something may come of it."""

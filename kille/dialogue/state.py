@@ -65,6 +65,7 @@ def initial(
             turned=[],
             here=[],
             floor=[],
+            cut=[],
         ),
     )
 

@@ -205,6 +205,11 @@ def _add_talk(commands: Any) -> None:
         help="how it speaks: espeak, flite, FILE.wav, or none (none)",
     )
     talk.add_argument(
+        "--barge-in",
+        action="store_true",
+        help="with --hear always and headphones: who speaks over it stops it",
+    )
+    talk.add_argument(
         "--live",
         action="store_true",
         help="at a terminal: after a silence it remarks on what comes, goes or moves, "
@@ -554,6 +559,7 @@ def _talk(options: argparse.Namespace) -> int:
         say=options.say or ("espeak" if options.speech else "none"),
         log=options.log,
         live=options.live,
+        barge_in=options.barge_in,
         **settings,
     )
 

@@ -1,4 +1,4 @@
-"""A prompt at which the robot may speak, until the tutor presses a key.
+"""Keys as they are pressed: a prompt at which the robot may speak until there is one.
 
 Until then the terminal neither echoes nor waits for whole lines; what is typed waits in
 its queue. With the first key the line belongs to the tutor, and to readline, which
@@ -27,7 +27,7 @@ def wait_for_key(prompt: str, watch: Callable[[], Show | None]) -> None:
 
     What `watch` has to show is printed in the place of the prompt, which comes again.
     """
-    with _keys_at_once():
+    with keys_at_once():
         _write(prompt)
         try:
             while not is_key_pressed(_PAUSE):
@@ -55,7 +55,7 @@ def can_watch() -> bool:
 
 
 @contextmanager
-def _keys_at_once() -> Iterator[None]:
+def keys_at_once() -> Iterator[None]:
     """Have keys given one by one, without an echo; Ctrl-C interrupts as ever."""
     import termios
 

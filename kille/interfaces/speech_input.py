@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +15,13 @@ from kille.interfaces.terminal import complain, console
 from kille.speech.expectations import LANGUAGES, expected_speech, speech
 from kille.speech.recognition import Hypothesis, Recogniser
 from kille.speech.sound import SoundError
-from kille.speech.utterances import from_file, from_microphone, from_pipe
+from kille.speech.synthesis import Stop, never
+from kille.speech.utterances import (
+    from_file,
+    from_microphone,
+    from_pipe,
+    listening_while_speaking,
+)
 
 DEVICE, ALWAYS, PIPE = "device", "always", "-"
 """Where speech comes from, if not from a file: the microphone after Enter, the
@@ -46,7 +53,12 @@ class SpeechInput:
     from the next utterance on.
     """
 
-    def __init__(self, source: str, language: str = "en") -> None:
+    def __init__(
+        self, source: str, language: str = "en", interruptible: bool = False
+    ) -> None:
+        if interruptible and source != ALWAYS:
+            raise SoundError("--barge-in needs an open microphone: --hear always")
+        self._interruptible, self._spoken_over = interruptible, b""
         if language not in LANGUAGES:
             raise SoundError(
                 f"only English can be heard: type, and leave out --hear {source}"
@@ -62,6 +74,21 @@ class SpeechInput:
             ) from error
         self._expected: tuple[object, ...] | None = None
 
+    @contextmanager
+    def listening(self) -> Iterator[Stop]:
+        """Listen while the robot speaks: whether somebody speaks over it.
+
+        What they say is the next utterance. It is for people with headphones, as the
+        robot would hear itself, and for a microphone that is open all the time.
+        """
+        if not self._interruptible:
+            yield never
+            return
+        with listening_while_speaking() as spoken_over:
+            yield spoken_over
+            if spoken_over():
+                self._spoken_over = spoken_over.utterance()
+
     def lines(self, robot: Agent) -> Iterator[SpeechHypotheses | str]:
         """The tutor's utterances, one by one, and as text what they type."""
         if self._source == DEVICE:
@@ -72,7 +99,8 @@ class SpeechInput:
 
     def _sounds(self) -> Iterator[bytes]:
         while self._source == ALWAYS:
-            yield from_microphone()
+            begun, self._spoken_over = self._spoken_over, b""
+            yield begun or from_microphone()
         waiting = self._waiting or from_pipe(sys.stdin.buffer)
         first = next(waiting, None)
         if first is None:

@@ -17,7 +17,13 @@ from kille.agent.story_replay import language_of_file
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
 from kille.interfaces.formatting import Account, things_in_view, whole_account
-from kille.interfaces.live_prompt import Show, can_watch, is_key_pressed, wait_for_key
+from kille.interfaces.live_prompt import (
+    Show,
+    can_watch,
+    is_key_pressed,
+    keys_at_once,
+    wait_for_key,
+)
 from kille.interfaces.speech_input import (
     SpeechHypotheses,
     SpeechInput,
@@ -29,7 +35,7 @@ from kille.perception.picture_sheet import overview, write_picture
 from kille.safety.private_files import create_private_file
 from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
-from kille.speech.synthesis import Voice, voice
+from kille.speech.synthesis import SYNTHESISERS, Stop, Voice, voice
 from ttr import TTRError
 from ttr.dialogues.stories import StoryError
 from ttr.safety.files import why_unwritten
@@ -70,13 +76,15 @@ def talk(
     say: str = "none",
     log: Path | None = None,
     live: bool = False,
+    barge_in: bool = False,
     make: Callable[..., Agent] = Agent,
 ) -> int:
     """Talk until the tutor leaves, with an account of each turn; returns the exit code.
 
     `hear` is where speech comes from, if the tutor does not type; `say` names the
     voice. `log` is where the dialogue is written as a story. A `live` robot takes the
-    turn after a silence. `make` makes the robot.
+    turn after a silence; with `barge_in` who speaks over it stops it. `make` makes the
+    robot.
     """
     place = memory_path(memory)
     settings: dict[str, Any] = {"language": language, "mode": mode, "wording": wording}
@@ -88,7 +96,9 @@ def talk(
         try:
             _check_apart(hear, say)
             speaks = voice(say, plain(language))
-            ears = SpeechInput(hear, language) if hear else None
+            if barge_in and not hear:
+                raise SoundError("--barge-in needs an open microphone: --hear always")
+            ears = SpeechInput(hear, language, barge_in) if hear else None
             if log is None:
                 robot = closing.enter_context(make(sensor, place, **settings))
             else:
@@ -102,7 +112,8 @@ def talk(
             return complain(error)
         closing.enter_context(_line_editing())
         try:
-            _Conversation(robot, account, ears, speaks, language).hold()
+            aloud = say in SYNTHESISERS
+            _Conversation(robot, account, ears, speaks, language, aloud).hold()
         except SoundError as error:
             return complain(error)
         except InputLimitError as error:
@@ -156,9 +167,11 @@ class _Conversation:
         ears: SpeechInput | None,
         speak: Voice,
         language: str,
+        aloud: bool,
     ) -> None:
         self._robot, self._account, self._language = robot, account, language
-        self._ears, self._speak = ears, speak
+        self._ears, self._speak, self._aloud = ears, speak, aloud
+        self._leaving = self._cut_off = False
         self._out = console()
         self._typed = ears is None and sys.stdin.isatty()
         self._failure = ""
@@ -176,7 +189,7 @@ class _Conversation:
                     f"U> {line.text if isinstance(line, SpeechHypotheses) else line}"
                 )
             self._answer(line)
-            if self._has_said("Part"):
+            if self._leaving:
                 return
 
     def _welcome(self) -> None:
@@ -202,17 +215,21 @@ class _Conversation:
                 if self._typed:
                     self._print("")
                 return
-            if line or self._typed:
+            # Who pressed Enter to stop the voice has not given the floor to the robot.
+            stopped, self._cut_off = self._cut_off, False
+            if line or (self._typed and not stopped):
                 yield line
 
     def _answer(self, line: str | SpeechHypotheses) -> None:
         """Do what a line says; a failure is one line, and the conversation goes on."""
+        turns = len(self._robot.exchanges)
         try:
             answer = self._respond(line)
         except (SensorError, MemoryFileError, TTRError) as error:
             complain(error)
             return
-        self._show_answer(answer)
+        self._leaving = self._has_said("Part")
+        self._say(answer, turns)
 
     def _watch(self) -> Show | None:
         """Watch while nobody types; returns what shows what the robot then says."""
@@ -229,12 +246,49 @@ class _Conversation:
     def _show_remark(self, turns: int, answer: str) -> None:
         for turn in self._robot.exchanges[turns:]:
             self._print_account(self._account(turn))
-        self._show_answer(answer)
+        self._say(answer, turns)
 
-    def _show_answer(self, answer: str) -> None:
-        for sentence in answer.split("\n") if answer else ():
-            self._print(sentence if sentence.startswith(" ") else f"S> {sentence}")
-            self._speak(sentence)
+    def _say(self, answer: str, turns: int) -> None:
+        """Print and speak what the robot says in the turns after so many.
+
+        A key stops the voice; what was not spoken then is not said.
+        """
+        if not answer:
+            return
+        sentences = answer.split("\n")
+        uttered: list[str] = []
+        with self._listening() as stop:
+            for sentence in sentences:
+                self._print(sentence if sentence.startswith(" ") else f"S> {sentence}")
+                spoken = self._speak(sentence, stop)
+                uttered.append(spoken)
+                if spoken != sentence:
+                    self._print(f"   (cut off after {spoken!r})", style="dim")
+                    break
+        if self._aloud:
+            self._tell_uttered(" ".join(uttered), turns)
+
+    @contextmanager
+    def _listening(self) -> Iterator[Stop]:
+        """Watch for what stops the voice: a key, or somebody who speaks over it."""
+        with ExitStack() as watching:
+            stops: list[Stop] = []
+            if self._aloud and can_watch():
+                watching.enter_context(keys_at_once())
+                stops.append(is_key_pressed)
+            if self._aloud and self._ears is not None:
+                stops.append(watching.enter_context(self._ears.listening()))
+            yield lambda: any(stop() for stop in stops)
+
+    def _tell_uttered(self, uttered: str, turns: int) -> None:
+        """Tell the robot what of its answer was uttered, in a turn after so many."""
+        answered = [it.answer for it in self._robot.exchanges[turns:] if it.said]
+        words = uttered.split()
+        if not answered or len(words) >= len(answered[-1].split()):
+            self._robot.do("spoken")
+            return
+        self._cut_off = True
+        self._robot.interrupt(" ".join(words))
 
     def _respond(self, line: str | SpeechHypotheses) -> str:
         if isinstance(line, SpeechHypotheses):

@@ -16,6 +16,7 @@ from kille.nodes.program_calls import text_of
 from kille.nodes.topics import (
     CALLS,
     HYPOTHESES,
+    INTERRUPTED,
     PROBLEMS,
     STATE,
     SYSTEM_OUTPUT,
@@ -54,6 +55,7 @@ class DialogueNode:
         self._open: list[Subscription] = [
             bus.subscribe(USER_INPUT, self._hear_text),
             bus.subscribe(HYPOTHESES, self._hear_hypotheses),
+            bus.subscribe(INTERRUPTED, self._hear_interruption),
             serve(bus, CALLS, self._answer_call),
         ]
 
@@ -74,6 +76,10 @@ class DialogueNode:
 
     def _hear_hypotheses(self, said: Facts) -> None:
         self._take_or_report(lambda: self._robot.hear_perhaps(*_texts(said.facts)))
+
+    def _hear_interruption(self, uttered: Text) -> None:
+        """Take in that only this was uttered of the latest answer."""
+        self._take_or_report(lambda: self._robot.interrupt(uttered.text))
 
     def _answer_call(self, call: Mapping[str, Any]) -> Facts:
         """Say to the robot what a program asks for; returns the answer and moves."""

@@ -16,6 +16,7 @@ __all__ = [
     "CALLS",
     "FRAMES",
     "HYPOTHESES",
+    "INTERRUPTED",
     "LOOKS",
     "PROBLEMS",
     "STAGE",
@@ -49,6 +50,9 @@ HYPOTHESES = Topic("kille/user_input_hypotheses", Facts)
 
 SYSTEM_OUTPUT = Topic("kille/system_output", Text)
 """What the robot says: a message for each turn in which it says anything."""
+
+INTERRUPTED = Topic("kille/interrupted", Text)
+"""That somebody spoke over the robot: what of its latest message had been uttered."""
 
 STATE = Topic("kille/state", Facts, latched=True)
 """The information state after each turn, in the notation, with what led to it."""

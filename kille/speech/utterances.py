@@ -5,9 +5,12 @@ Utterances are parted where nobody speaks, by pocketsphinx's detector of voices.
 
 from __future__ import annotations
 
+import os
+import select
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from math import inf
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -20,6 +23,9 @@ LONGEST = 15.0
 
 _WINDOW = 0.6
 """Seconds over which the voice must have fallen silent: longer than at a comma."""
+
+_ONSET = 0.3
+"""Seconds of a voice that stop the robot: longer than a cough."""
 
 _MARGIN = bytes(2 * RATE // 5)
 """The silence, of a fifth of a second, that is put before and after an utterance."""
@@ -76,11 +82,7 @@ def from_microphone(patience: float = inf) -> bytes:
     for one utterance, so that the robot never hears itself. Raises `SoundError` where
     there is none, or nothing to record with.
     """
-    if shutil.which(_RECORDER[0]) is None:
-        raise SoundError(
-            "there is no program to record with: apt install alsa-utils, or let it "
-            "hear a file, --hear FILE.wav"
-        )
+    _check_recorder()
     # Complaints go to a file: nobody reads them while it records, perhaps for hours.
     with TemporaryFile() as told:
         found, failed = _record_utterance(told, patience)
@@ -95,6 +97,14 @@ def from_microphone(patience: float = inf) -> bytes:
     return found
 
 
+def _check_recorder() -> None:
+    if shutil.which(_RECORDER[0]) is None:
+        raise SoundError(
+            "there is no program to record with: apt install alsa-utils, or let it "
+            "hear a file, --hear FILE.wav"
+        )
+
+
 def _record_utterance(told: IO[bytes], patience: float) -> tuple[bytes, bool]:
     """An utterance, and whether the recorder ended before there was any."""
     with subprocess.Popen(_RECORDER, stdout=subprocess.PIPE, stderr=told) as recorder:
@@ -102,6 +112,73 @@ def _record_utterance(told: IO[bytes], patience: float) -> tuple[bytes, bool]:
         try:
             found = next(from_pipe(recorder.stdout, patience), b"")
             return found, not found and not recorder.stdout.read(1)
+        finally:
+            recorder.terminate()
+
+
+class SpokenOver:
+    """Whether somebody speaks in a sound that is recorded while the robot speaks.
+
+    `read_recorded` gives what has been recorded since it was last asked, `read` so many
+    bytes, when they are there. It is asked again and again, as the `Stop` of a voice.
+    """
+
+    def __init__(
+        self, read_recorded: Callable[[], bytes], read: Callable[[int], bytes]
+    ) -> None:
+        from pocketsphinx import Endpointer
+
+        self._read_recorded, self._read = read_recorded, read
+        self._finder = Endpointer(window=_ONSET, sample_rate=RATE)
+        self._heard, self._judged = bytearray(), 0
+
+    def __call__(self) -> bool:
+        """Whether somebody has begun to speak."""
+        self._heard += self._read_recorded()
+        size = self._finder.frame_bytes
+        while not self._finder.in_speech and self._judged + size <= len(self._heard):
+            frame = self._heard[self._judged : self._judged + size]
+            self._finder.process(bytes(frame))
+            self._judged += size
+        return bool(self._finder.in_speech)
+
+    def utterance(self) -> bytes:
+        """What is said, from before it was noticed to its end."""
+        begin = max(0, self._judged - 2 * RATE)
+        pieces = _Pieces(bytes(self._heard[begin:]))
+
+        def read(size: int) -> bytes:
+            piece = pieces.read(size)
+            return piece + self._read(size - len(piece)) if len(piece) < size else piece
+
+        return next(utterances(read), b"")
+
+
+@contextmanager
+def listening_while_speaking() -> Iterator[SpokenOver]:
+    """Record by ALSA's recorder, and tell whether somebody speaks.
+
+    Raises `SoundError` where there is nothing to record with. What the loudspeaker says
+    is recorded, too, unless it is in somebody's ear.
+    """
+    _check_recorder()
+    with subprocess.Popen(
+        _RECORDER, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+    ) as recorder:
+        assert recorder.stdout is not None
+        pipe, end = recorder.stdout, recorder.stdout.fileno()
+
+        def read_recorded() -> bytes:
+            data = b""
+            while select.select([end], [], [], 0.0)[0]:
+                piece = os.read(end, 1 << 16)
+                if not piece:
+                    break
+                data += piece
+            return data
+
+        try:
+            yield SpokenOver(read_recorded, lambda size: _read_exactly(pipe, size))
         finally:
             recorder.terminate()
 

@@ -20,7 +20,7 @@ from kille.dialogue.games.comparing import COMPARING
 from kille.dialogue.games.confirming import CONFIRMING
 from kille.dialogue.games.correcting import CORRECTING
 from kille.dialogue.games.counting import COUNTING
-from kille.dialogue.games.courtesy import COURTESY, REPEATING
+from kille.dialogue.games.courtesy import COURTESY
 from kille.dialogue.games.criticising import CRITICISING
 from kille.dialogue.games.distinguishing import DISTINGUISHING
 from kille.dialogue.games.doubling import ANSWERED, DOUBLING
@@ -30,6 +30,7 @@ from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
 from kille.dialogue.games.framing import ASKING_FRAME, FRAMING, SETTLING
 from kille.dialogue.games.initiating import IDLING, INITIATING, STAYING
 from kille.dialogue.games.instructing import INSTRUCTING
+from kille.dialogue.games.interrupting import REPEATING, cut_off
 from kille.dialogue.games.knowing import KNOWING
 from kille.dialogue.games.listening import GLANCED, LISTENING, SAID, SEEN
 from kille.dialogue.games.mishearing import MISHEARD
@@ -106,10 +107,11 @@ def games_with(*answers: Rule) -> Algorithm:
         SAID,
         GLANCED,
         WATCHING,
+        cut_off,
         seq(STAYING, SEEN, maybe(IDLING)),
         seq(SEEN, maybe(INITIATING)),
     )
 
 
 TUTORING = games_with()
-"""What becomes of every event: something heard, said, glanced at, watched or seen."""
+"""What becomes of every event: heard, said, cut off, glanced at, watched or seen."""

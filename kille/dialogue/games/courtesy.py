@@ -2,24 +2,10 @@
 
 from __future__ import annotations
 
-from kille.dialogue.meanings import DialogueTypes, set_to
-from kille.dialogue.rules import reply, rule
-from ttr import Record, replace
+from kille.dialogue.games.interrupting import repeat
+from kille.dialogue.rules import reply
 from ttr.updates import first
 
-
-@rule(answers="AskRepeat")
-def repeat(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The tutor did not hear it: it says the same again, and does nothing anew."""
-    if not s.private.last:
-        return None
-    said = types.record_type("Said")
-    done = {label: said[label] @ () for label in ("teaches", "forgets", "drops")}
-    again = tuple(set_to(move, **done) for move in s.private.last)
-    return replace(s, {"private.agenda": again})
-
-
-REPEATING = repeat
 COURTESY = first(
     repeat,
     reply("AskRepeat", "NothingSaid", "It has said nothing that it could say again."),

@@ -220,6 +220,9 @@ def is_told(s: Record, x: str) -> bool:
     return any(thing_at(it, "target") == x for it in s.shared.here)
 
 
+OWN_QUESTIONS = ("ask_relation", "ask_thing", "ask_example", "ask_new", "ask_new_name")
+"""What it asks of its own accord, once each."""
+
 STAYING = stay
 INITIATING = first(learn_alone, ask_relation)
 IDLING = first(learn_alone, ask)

@@ -124,6 +124,8 @@ def say(s: Record, said: Record, *, types: DialogueTypes) -> Record:
         "shared.here": claims_here(s, said, types=types),
         "shared.topic": things_in(said.content) or s.shared.topic,
     }
+    if s.shared.cut and not agenda[0] <= types["Wait"]:
+        changes["shared.cut"] = ()  # it has said something else
     return replace(s, changes)
 
 

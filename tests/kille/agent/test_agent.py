@@ -73,6 +73,22 @@ def degrees(robot: Agent) -> dict[str, dict[str, float]]:
 # --- nothing is learned without the tutor's word about that very observation ---------
 
 
+def test_what_is_cut_off_is_found_by_its_words() -> None:
+    with Agent("synthetic:empty", scans=1) as robot:
+        robot.hear("Hello. Thank you. What is this?")
+        robot.interrupt("Hello. You  are")
+        [cut] = robot.state.shared.cut
+        assert (len(cut.moves), cut.uttered) == (2, "You are")
+        before = robot.state
+        robot.interrupt("")
+        assert robot.state == before
+        assert robot.hear("Go on.").startswith("You are welcome.\n")
+        with pytest.raises(UpdateError, match="does not begin the latest answer"):
+            robot.interrupt("Hello.")
+        robot.interrupt(robot.exchanges[-1].answer)
+        assert robot.state.shared.cut == ()
+
+
 def test_a_lesson_keeps_the_turn_and_the_frame_it_comes_from() -> None:
     with awake() as robot:
         tell(robot, "@ show cup", "Hello.", "This is a cup.")

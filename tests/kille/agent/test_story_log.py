@@ -59,7 +59,14 @@ Happening = tuple[float, str]
 LINES = (
     *("@ show cup", "@ place book at 0.1 0.1", "@ look", "@ glimpse", "@ point 1"),
     *("U> This is a cup.", "U> #1 This is a book.", "U> What is this?", "U> Why?"),
-    *("@ watch", "@ watch busy", "@ meanwhile place cup at 0.1 0.1", "U> Wait."),
+    *(
+        "@ watch",
+        "@ watch busy",
+        "@ interrupt",
+        "@ spoken",
+        "@ meanwhile place cup at 0.1 0.1",
+        "U> Wait.",
+    ),
     *("@ meanwhile remove cup", "U> Go on.", "U> Yes."),
     *("U> Forget that.", "U> No, this is a mug.", "U>", "U> Blah blah.", "@ restart"),
     "U~ This is a cup. 0.35 | This is a cap. 0.3",

@@ -6,6 +6,7 @@ import os
 import pty
 import re
 import select
+import shutil
 import signal
 import subprocess
 import termios
@@ -365,6 +366,65 @@ def test_a_live_robot_needs_a_terminal(kille: Run) -> None:
     outcome = kille("talk", "--sensor", EMPTY, "--live", typed="Hello.\n")
     assert outcome.code == 2
     assert "--live needs a terminal" in outcome.complaint
+
+
+@pytest.fixture
+def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A loudspeaker that nobody hears, for a voice that there is."""
+    if shutil.which("flite") is None:
+        pytest.skip("flite is not installed")
+    program = tmp_path / "aplay"
+    program.write_text("#!/bin/sh\nexec cat > /dev/null\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+
+
+ADMISSION = "S> I do not know what this is. Please tell me."
+
+
+@pytest.mark.slow
+def test_who_types_while_it_speaks_stops_it_and_loses_no_key(player: None) -> None:
+    with at_terminal("talk", "--sensor", EMPTY, "--say", "flite") as screen:
+        screen.wait_for("U> ")
+        screen.type("@ show cup\r")
+        screen.wait_for("One thing is in view")
+        screen.wait_for("U> ")
+        screen.type("What is this?\r")
+        screen.wait_for(ADMISSION)
+        time.sleep(0.5)
+        screen.type("A cup")
+        screen.wait_for("(cut off after 'I")
+        screen.wait_for("U> A cup")
+        screen.type(".\r")
+        screen.wait_for("S> OK, I learned a cup.")
+        screen.wait_for("U> ")
+        screen.type("Goodbye.\r")
+        screen.wait_for("S> Goodbye.")
+        assert screen.code() == 0
+
+
+@pytest.mark.slow
+def test_enter_while_it_speaks_only_stops_it_and_go_on_has_it_say_the_rest(
+    player: None,
+) -> None:
+    with at_terminal("talk", "--sensor", EMPTY, "--say", "flite") as screen:
+        screen.wait_for("U> ")
+        screen.type("@ show cup\r")
+        screen.wait_for("One thing is in view")
+        screen.wait_for("U> ")
+        screen.type("What is this?\r")
+        screen.wait_for(ADMISSION)
+        time.sleep(0.3)
+        screen.type("\r")
+        screen.wait_for("(cut off after '")
+        screen.wait_for("U> ")
+        screen.type("Go on.\r")
+        assert "S> What is this" not in screen.wait_for(ADMISSION)
+        screen.type("\r")
+        screen.wait_for("(cut off after '")
+        screen.wait_for("U> ")
+        screen.type("\x04")
+        assert screen.code() == 0
 
 
 def test_ctrl_c_at_a_terminal_loses_nothing(memory: Path) -> None:

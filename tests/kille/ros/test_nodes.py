@@ -26,6 +26,7 @@ from kille.nodes.topics import (
     CALLS,
     FRAMES,
     HYPOTHESES,
+    INTERRUPTED,
     LOOKS,
     PROBLEMS,
     STATE,
@@ -142,6 +143,21 @@ def test_things_are_pointed_at_by_number_and_by_pixel(robot: Robot, heard: Any) 
         "there is no thing #99 to point at: there are 2"
     )
     assert "nothing at 1 1" in tutor.cannot("@ point 1 1")
+
+
+def test_who_speaks_over_the_robot_is_told_the_rest_again(
+    robot: Robot, heard: Any
+) -> None:
+    tutor = Tutor(robot.bus, heard)
+    speaking = robot.bus.publisher(INTERRUPTED)
+    tutor.says("@ show cup")
+    tutor.says("This is a cup.")
+    tutor.says("What is this?")
+    speaking.publish(Text("This is a mug."))
+    assert "does not begin the latest answer" in tutor.problems.next().text
+    speaking.publish(Text("This is"))
+    assert 'uttered = "This is"' in tutor.state.next().facts["state"]
+    assert tutor.says("Go on.") == "This is a cup."
 
 
 def test_what_was_perhaps_said_is_weighed(robot: Robot, heard: Any) -> None:

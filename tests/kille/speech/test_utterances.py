@@ -8,8 +8,15 @@ from pathlib import Path
 
 import pytest
 
+from kille.speech.recognition import Recogniser
 from kille.speech.sound import RATE, SoundError
-from kille.speech.utterances import LONGEST, from_file, from_microphone, from_pipe
+from kille.speech.utterances import (
+    LONGEST,
+    SpokenOver,
+    from_file,
+    from_microphone,
+    from_pipe,
+)
 
 pytest.importorskip("pocketsphinx")
 
@@ -84,3 +91,45 @@ def test_a_recorder_that_fails_is_told_in_its_words(
     recorder("echo 'no soundcards found' >&2")
     with pytest.raises(SoundError, match="no soundcards found"):
         from_microphone()
+
+
+class Recording:
+    """A sound that is recorded while a clock goes on."""
+
+    def __init__(self, samples: bytes) -> None:
+        self.samples, self.seconds, self._at = samples, 0.0, 0
+
+    def read_recorded(self) -> bytes:
+        """What has come since it was last asked."""
+        return self.read(2 * int(self.seconds * RATE) - self._at)
+
+    def read(self, size: int) -> bytes:
+        """The next samples, however long they take."""
+        piece = self.samples[self._at : self._at + max(0, size)]
+        self._at += len(piece)
+        return piece
+
+
+def test_who_speaks_over_the_robot_is_noticed_soon_and_heard_whole(
+    spoken: Callable[..., bytes], recogniser: Recogniser
+) -> None:
+    said = spoken("What is this?")
+    recording = Recording(bytes(4 * RATE) + said + bytes(4 * RATE))
+    spoken_over = SpokenOver(recording.read_recorded, recording.read)
+    while recording.seconds < 1.9:
+        assert not spoken_over()
+        recording.seconds += 0.05
+    while not spoken_over():
+        recording.seconds += 0.05
+        assert recording.seconds < 3.5
+    heard = spoken_over.utterance()
+    assert len(heard) > 0.7 * len(said)
+    assert recogniser.hear(heard)[0].text == "what is this"
+
+
+def test_silence_is_not_taken_for_somebody_who_speaks() -> None:
+    recording = Recording(bytes(2 * RATE * 10))
+    spoken_over = SpokenOver(recording.read_recorded, recording.read)
+    for _ in range(100):
+        recording.seconds += 0.1
+        assert not spoken_over()
