@@ -47,6 +47,8 @@ UNSAID = (
     "private.last",
     "shared.latest",
     "shared.here",
+    "shared.noticed",
+    "shared.sights",
     "view",
 )
 """What changes in every turn."""

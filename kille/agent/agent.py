@@ -39,6 +39,7 @@ from kille.grounding.witness_functions import WitnessFunctions, thing_name
 from kille.grounding.word_meanings import WordMeanings
 from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
+from kille.perception.prominence import prominences
 from kille.perception.segment import overlap
 from kille.scene import Colour, Percept
 from kille.sensors.sensor import Sensor, SensorError
@@ -615,7 +616,11 @@ class Agent:
         for x in things:
             model = model.given(x, self.types["Ind"])
         kept = [thing_name(number) for number in view.kept]
-        event = record(view=seen, kept=kept, **about)
+        sights = [
+            record(it._asdict(), x=x)
+            for x, it in zip(things, prominences(view.look.percepts), strict=True)
+        ]
+        event = record(view=seen, kept=kept, sights=sights, **about)
         return self._play(now._replace(model=model), event)
 
 

@@ -66,6 +66,9 @@ def initial(
             here=[],
             floor=[],
             cut=[],
+            sights=[],
+            noticed=[],
+            salience=[],
         ),
     )
 

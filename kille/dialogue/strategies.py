@@ -150,7 +150,19 @@ def _strategy(mode: str, wording: str, turns: str, folder: str, _: int) -> Recor
             learning=record(learning._asdict()),
         ),
         turns=record(silences, name=turns),
+        salience=record(_weights(data)),
     )
+
+
+def _weights(data: Mapping[str, Any]) -> dict[str, Any]:
+    """What makes things salient; what a file does not say is as in the package's."""
+    usual, own = _data()["salience"], data.get("salience", {})
+    return {
+        name: record({**it, **own.get(name, {})})
+        if isinstance(it, Mapping)
+        else own.get(name, it)
+        for name, it in usual.items()
+    }
 
 
 def _bands(words: Mapping[str, Any]) -> dict[str, float]:

@@ -24,7 +24,7 @@ Account = Callable[[Exchange], Iterable[str]]
 
 _LEFT_OUT = (
     "shared.latest", "shared.here", "private.agenda", "private.beliefs",
-    "private.cost", "private.last", "view.look",
+    "private.cost", "private.last", "view.look", "shared.noticed", "shared.sights",
 )  # fmt: skip
 """What a summary says otherwise, or changes in every turn."""
 

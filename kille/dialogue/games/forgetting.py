@@ -16,6 +16,7 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import things_in
+from kille.dialogue.reference.salience import talked_about
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Record, replace
@@ -59,7 +60,7 @@ def forget_claim(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="ForgetThat")
 def forget_that(s: Record, *, types: DialogueTypes) -> Record | None:
     """The latest lesson about the thing that is talked of is unlearned."""
-    talked_of = set(s.shared.salient[:1] or s.view.focus)
+    talked_of = set(talked_about(s))
     lessons = [
         it
         for it in s.private.lessons

@@ -25,6 +25,7 @@ from kille.dialogue.beliefs import (
 from kille.dialogue.meanings import DialogueTypes, claims, set_at, set_to
 from kille.dialogue.moves import number_field, placement, plan, said_of
 from kille.dialogue.reference import thing_at
+from kille.dialogue.reference.salience import notice_in_view
 from kille.dialogue.rules import rule
 from kille.dialogue.strategies import Option, Stake, best
 from ttr import Model, Record, record, replace
@@ -169,9 +170,13 @@ def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initia
 def turn_to(s: Record, x: str) -> Record:
     """The state in which the robot talks about a thing, and points at it."""
     salient = (x, *(it for it in s.shared.salient if it != x))
-    return replace(
-        s, {"view.focus": (x,), "view.pointed": (x,), "shared.salient": salient}
-    )
+    changes = {
+        "view.focus": (x,),
+        "view.pointed": (x,),
+        "shared.salient": salient,
+        "shared.noticed": notice_in_view(s, [x], (), s.view.things),
+    }
+    return replace(s, changes)
 
 
 def _examples(s: Record, *, types: DialogueTypes) -> Iterator[Initiative]:

@@ -13,6 +13,7 @@ from itertools import count, islice
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import claims_here, keep_claims
 from kille.dialogue.criteria import signs_in
+from kille.dialogue.games.attending import ATTENDING
 from kille.dialogue.games.costing import ASKED, CORRECTED
 from kille.dialogue.games.mishearing import MISHEARING
 from kille.dialogue.meanings import (
@@ -23,7 +24,8 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.reading_weights import FAINTLY, weigh_readings
-from kille.dialogue.reference import things_in
+from kille.dialogue.reference import roles_in, things_in
+from kille.dialogue.reference.salience import notice, notice_in_view
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from kille.dialogue.taxonomy import nouns_in, under_kinds
@@ -59,6 +61,7 @@ def state_after_look(s: Record, seen: Record) -> Record:
     pointed = view.pointed if view.pointed != s.view.pointed else ()
     turned_to = () if len(new) > 1 else changed or pointed
     topic = () if new else [x for x in s.shared.topic if x in seen.kept]
+    shown = _first(turned_to, pointed)
     salient = _first(turned_to, (x for x in s.shared.salient if x in seen.kept))
     turned = tuple(it for it in s.shared.turned if it.x in seen.kept)
     asked = [it for it in s.private.asked if set(it.things) <= set(seen.kept)]
@@ -72,6 +75,8 @@ def state_after_look(s: Record, seen: Record) -> Record:
         "shared.shown": [x for x in s.shared.shown if x in seen.kept],
         "shared.turned": turned,
         "shared.here": keep_claims(s.shared.here, seen.kept),
+        "shared.sights": seen.sights if "sights" in seen else (),
+        "shared.noticed": notice_in_view(s, shown, new, seen.kept),
     }
     return replace(s, changes)
 
@@ -115,6 +120,7 @@ def hear(
 def say(s: Record, said: Record, *, types: DialogueTypes) -> Record:
     """What the robot has said is the latest move, and off its agenda."""
     agenda, last = s.private.agenda, s.private.last
+    roles = roles_in(said.content)
     changes = {
         "private.agenda": agenda[1:],
         "private.last": last
@@ -122,7 +128,8 @@ def say(s: Record, said: Record, *, types: DialogueTypes) -> Record:
         else _repeatable_moves(agenda, said, types=types),
         "shared.latest": said,
         "shared.here": claims_here(s, said, types=types),
-        "shared.topic": things_in(said.content) or s.shared.topic,
+        "shared.topic": tuple(roles) or s.shared.topic,
+        "shared.noticed": notice(s.shared.noticed, roles, s.private.cost.turns),
     }
     if s.shared.cut and not agenda[0] <= types["Wait"]:
         changes["shared.cut"] = ()  # it has said something else
@@ -312,5 +319,5 @@ def _earlier_lessons(s: Record, said: Record) -> list[Record]:
 
 SEEN = see
 GLANCED = glance
-LISTENING = seq(hear, maybe(first(MISHEARING, CORRECTED)))
+LISTENING = seq(maybe(ATTENDING), hear, maybe(first(MISHEARING, CORRECTED)))
 SAID = seq(say, maybe(keep), maybe(ASKED))

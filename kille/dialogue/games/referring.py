@@ -30,10 +30,16 @@ from kille.dialogue.reference import (
     phrase_at,
     phrases,
     possible_readings,
+    roles_in,
     thing_at,
-    things_in,
 )
-from kille.dialogue.reference.salience import compares
+from kille.dialogue.reference.demonstratives import THAT, THIS, distal, proximal
+from kille.dialogue.reference.salience import (
+    compares,
+    is_talked_of,
+    needs_salience,
+    notice,
+)
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, rectype, replace
@@ -48,8 +54,13 @@ def refer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor talks of things in view: the one way to take it that fits is meant."""
     match _readings(s, model, types=types):
         case [meant]:
-            shown = _shown_by(s, meant, types=types)
-            return about(s, meant.content, shown=shown, types=types)
+            word, this = _demonstrative(meant, types=types)
+            claims = kind_of(content_of(s)) is not None
+            shown = this if claims and word == THIS else ()
+            after = about(s, meant.content, shown=shown, types=types)
+            if claims or not this:
+                return after
+            return _notice_asked(after, word, this, model, types=types)
     return None
 
 
@@ -128,12 +139,12 @@ def about(
     The things it is about are the topic, and the ones that were talked about last.
     `shown` is what it calls "this", if that is another than before.
     """
-    topic = things_in(content)
-    salient = dict.fromkeys((*topic, *s.shared.salient))
+    roles = roles_in(content)
     changes = {
         "shared.latest.content": in_view(s, content, types=types),
-        "shared.salient": tuple(salient),
-        "shared.topic": topic,
+        "shared.salient": tuple(dict.fromkeys((*roles, *s.shared.salient))),
+        "shared.topic": tuple(roles),
+        "shared.noticed": notice(s.shared.noticed, roles, s.private.cost.turns),
     }
     if shown is not None and shown != s.shared.shown:
         changes["shared.shown"] = shown
@@ -218,19 +229,35 @@ def _readings(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Read
     )
     if len(readings) < 2 or _teaches(s, model, types=types):
         return readings
-    return _about_focus(s, readings) or readings
+    return _by_distance(s, readings, types=types)
 
 
-def _about_focus(s: Record, readings: Sequence[Reading]) -> Sequence[Reading]:
-    """The readings in which what is asked of "this" is asked of the focus."""
-    shown = [
-        it for it in PARTS if it in readings[0].open and _is_shown(readings[0], it)
-    ]
-    return [
-        it
-        for it in readings
-        if shown and all(it.things[y] in s.view.focus for y in shown)
-    ]
+def _by_distance(
+    s: Record, readings: Sequence[Reading], *, types: DialogueTypes
+) -> Sequence[Reading]:
+    """The readings of a question in which "this" is near, and "that" is not.
+
+    Where a question does not say more than that, it is about the focus, or about what
+    is farther away. So it is with "it", unless several things were talked about.
+    """
+    left = readings
+    for label in PARTS:
+        if label in left[0].open and _is_shown(left[0], label):
+            things = [it.things[label] for it in left]
+            near = _nearer(s, phrase_at(left[0].open, label), things, types=types)
+            left = [it for it in left if it.things[label] in near] or left
+    return left
+
+
+def _nearer(
+    s: Record, phrase: RecordType, things: Sequence[str], *, types: DialogueTypes
+) -> Sequence[str]:
+    """Those of the things that are as near as a phrase without a noun says."""
+    if phrase.get("d") == types.record_type("That")["d"]:
+        return distal(s, things)
+    if needs_salience(phrase, types) and is_talked_of(s, things):
+        return things
+    return proximal(s, things)
 
 
 def _is_shown(reading: Reading, label: str) -> bool:
@@ -245,13 +272,27 @@ def _teaches(s: Record, model: Model, *, types: DialogueTypes) -> bool:
     return any(model.judge(latest, types[it]).holds for it in ("Teaching", "Reject"))
 
 
-def _shown_by(s: Record, meant: Reading, *, types: DialogueTypes) -> Sequence[str]:
-    """What something is said of that is called "this", if that is all it is called."""
-    if "target" not in meant.things or kind_of(content_of(s)) is None:
-        return ()
-    if phrase_at(meant.open, "target").get("d") != types.record_type("This")["d"]:
-        return ()
-    return (meant.things["target"],)
+def _demonstrative(
+    meant: Reading, *, types: DialogueTypes
+) -> tuple[str, Sequence[str]]:
+    """The word by which a move points to what it is about, "this" or "that"; and it."""
+    if "target" in meant.things:
+        said = phrase_at(meant.open, "target").get("d")
+        for word, name in ((THIS, "This"), (THAT, "That")):
+            if said == types.record_type(name)["d"]:
+                return word, (meant.things["target"],)
+    return "", ()
+
+
+def _notice_asked(
+    s: Record, word: str, things: Sequence[str], model: Model, *, types: DialogueTypes
+) -> Record:
+    """The state in which it is noticed if the tutor has asked what "this" (that) is."""
+    if not model.judge(s.shared.latest, types["AskName"]).holds:
+        return s
+    asked = dict.fromkeys(things, word)
+    noticed = notice(s.shared.noticed, asked, s.private.cost.turns)
+    return replace(s, {"shared.noticed": noticed})
 
 
 def _question_about(phrase: RecordType, *, types: DialogueTypes) -> RecordType:

@@ -2,8 +2,18 @@
 
 A phrase means the merge of what its words mean, so to resolve it is to judge the things
 in view of one type, and of what it is said to stand beside. What the talk is about is
-judged like anything else: `shown` is true of what is in focus, `mentioned` of what was
-talked about last, `other` of the rest.
+judged like anything else: `shown` is true of what is in focus, `distal` of what is told
+from it. Other words choose among what fits: `mentioned` what is most salient, `other`
+what was not talked about last.
+
+| room | holds |
+| --- | --- |
+| `parts` | a phrase taken apart into the claims that it makes |
+| `perspectives` | whose left it is |
+| `salience` | how salient things are, and the words that choose among things |
+| `demonstratives` | what "this" and "that" may be |
+| `resolving` | the phrases of a whole move, set to things |
+| `incremental` | a phrase while it is being said, word by word |
 
 Source: Kennington and Schlangen 2015 (words as classifiers, composed); Kelleher et al.
 2005 (salience).
@@ -31,10 +41,18 @@ from kille.dialogue.reference.resolving import (
     phrase_at,
     phrases,
     possible_readings,
+    roles_in,
     thing_at,
     things_in,
 )
-from kille.dialogue.reference.salience import across
+from kille.dialogue.reference.salience import (
+    ThingSalience,
+    across,
+    combined_salience,
+    saliences,
+    set_salience,
+    thing_saliences,
+)
 from ttr.aliases import former_names
 
 __getattr__ = former_names(
@@ -56,7 +74,9 @@ __all__ = [
     "VIEWER",
     "PhraseJudge",
     "Reading",
+    "ThingSalience",
     "across",
+    "combined_salience",
     "possible_readings",
     "intended_readings",
     "known_front",
@@ -68,7 +88,11 @@ __all__ = [
     "phrase_at",
     "phrases",
     "ranking",
+    "roles_in",
     "said_by",
+    "saliences",
+    "set_salience",
     "thing_at",
+    "thing_saliences",
     "things_in",
 ]

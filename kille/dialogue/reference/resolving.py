@@ -17,14 +17,14 @@ from kille.dialogue.meanings import (
     set_to,
     word_of,
 )
+from kille.dialogue.reference.demonstratives import in_talk, shown_things
 from kille.dialogue.reference.parts import Claim, PhraseParts, take_apart
 from kille.dialogue.reference.perspectives import front_of
 from kille.dialogue.reference.salience import (
     choose,
     choosing_predicates,
-    in_talk,
     just_mentioned,
-    shown_things,
+    needs_salience,
 )
 from kille.dialogue.taxonomy import is_kind_of
 from ttr import Model, Pred, Record, RecordType, rectype
@@ -33,6 +33,9 @@ from ttr.types.objects import Object
 
 PARTS = ("target", "landmark")
 """The labels of the noun phrases in a content."""
+
+INSIDE = "inside"
+"""The role of what a phrase mentions besides its own thing."""
 
 
 class PhraseFit(NamedTuple):
@@ -171,14 +174,20 @@ def in_view(
 
 def things_in(content: RecordType) -> list[str]:
     """The things that a content is set to, those of its phrases first."""
-    things = [thing_at(content, label) for label in PARTS]
-    inside = [
-        x
-        for label in PARTS
-        if isinstance(part := content.get(label), RecordType)
-        for x in things_in(part)
-    ]
-    return list(dict.fromkeys(x for x in (*things, *inside) if x is not None))
+    return list(roles_in(content))
+
+
+def roles_in(content: RecordType) -> dict[str, str]:
+    """The things that a content is set to, each with its role there.
+
+    It is the label of a phrase, or `inside` for what stands in a phrase.
+    """
+    things = {x: it for it in PARTS if (x := thing_at(content, it)) is not None}
+    for label in PARTS:
+        if isinstance(part := content.get(label), RecordType):
+            for x in roles_in(part):
+                things.setdefault(x, INSIDE)
+    return things
 
 
 def possible_readings(
@@ -192,22 +201,34 @@ def possible_readings(
     judging = PhraseJudge(s, model, types=types)
     open_ = phrases(content)
     taken = {thing_at(content, label) for label in PARTS if label not in open_}
+    found: dict[str, Mapping[str, PhraseFit]] = {}
+    about_it: list[tuple[str, RecordType]] = []
+    for label in open_:
+        phrase = phrase_at(content, label)
+        if needs_salience(phrase, types):
+            about_it.append((label, phrase))
+            continue
+        among = _things_without_words(s, phrase, types=types)
+        found[label] = judging.fits(phrase, among)
+    for label, phrase in about_it:
+        others = taken.union(*(_only_one(s, it) for it in found.values()))
+        among = [x for x in s.view.things if x not in others]
+        found[label] = judging.fits(phrase, among)
     choices = [
-        [
-            (label, fit)
-            for x, fit in judging.fits(
-                phrase, _things_without_words(s, phrase, types=types)
-            ).items()
-            if x not in taken
-        ]
+        [(label, fit) for x, fit in found[label].items() if x not in taken]
         for label in open_
-        for phrase in (phrase_at(content, label),)
     ]
     return [
         Reading(s, content, fits, types=types)
         for fits in product(*choices)
         if len({fit.things[0] for _, fit in fits}) == len(fits)
     ]
+
+
+def _only_one(s: Record, fits: Mapping[str, PhraseFit]) -> Sequence[str]:
+    """What a phrase means, if only one thing fits it well: "it" is another one."""
+    well = fits_well(s, fits)
+    return well if len(well) == 1 else ()
 
 
 def _things_without_words(
@@ -283,7 +304,8 @@ def intended_readings(
 def _chooses(phrase: RecordType, *, types: DialogueTypes) -> bool:
     """Whether a phrase says by itself which of several things it speaks of.
 
-    So does "that": where it may be several things, it is told from "this".
+    So does "that": where it may be several things, it is told from "this". "It" is the
+    most salient one, by the talk as well.
     """
     if phrase.get("d") == types.record_type("That")["d"]:
         return True

@@ -1,78 +1,224 @@
-"""What the talk is about, as witness functions of the state.
+"""How salient things are, to the eye and in the talk, and which words choose by it.
 
-Some words are true of a thing by itself: `shown` of what is in focus. Others choose
-among the things that the rest of the phrase is true of: "the other cup" is a cup, but
-not the one that was talked about last, and "the second cup" is counted among the cups.
+The facts are fields of the state: `shared.sights` are how things look, and
+`shared.noticed` is how they were attended to. How salient a thing x is follows from
+them, in the weights of the strategy:
+
+- to the eye, V(x) = Σ wᵢ·fᵢ(x) / Σ wᵢ, of its size, centrality and nearness, which are
+  1/2 where nothing is known, and of how new it is;
+- in the talk, L(x) = max w(role)·decay^(moves since then), over its roles;
+- by both, S(x) = 1 − (1 − wᴸ·L(x))·(1 − wⱽ·V(x)), and 1 if it is pointed at now.
+
+The rule `weigh_salience` of the games puts the degrees into the state when a move has a
+word that needs them: another rule in its place weighs them otherwise. Other words
+choose by the order of the talk, or from left to right: "the other cup", "the second
+cup".
+
+Source: Kelleher, Costello and van Genabith 2005 (visual and linguistic salience).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import NamedTuple
 
-from kille.dialogue.meanings import DialogueTypes, packaged_types, value_at
+from kille.dialogue.meanings import DialogueTypes, packaged_types
 from kille.dialogue.reference.comparing import COMPARATIVES, unexceeded_things
-from ttr import Model, Pred, Record, RecordType
-from ttr.types import Meet, PType
+from ttr import Model, Pred, Record, RecordType, record, replace
+from ttr.types import Meet, PType, TypeNode
+
+NEUTRAL = 0.5
+"""The degree of what is not known of how a thing looks."""
+
+SHOWN, NEW = "shown", "new"
+"""The roles of a thing that is pointed at or put in front, and of one that is new."""
+
+BEFORE = 0.5
+"""How many moves before the next one is what is shown before it."""
+
+# --- the facts -----------------------------------------------------------------------
+
+
+def notice(
+    known: Sequence[Record], roles: Mapping[str, str], move: float
+) -> Sequence[Record]:
+    """What is noticed when things are attended to in these roles, at this move.
+
+    `roles` says for each thing in which role.
+    """
+    new = tuple(_notice(x, role, move) for x, role in roles.items())
+    if known[: len(new)] == new:
+        return known
+    return (*new, *(it for it in known if roles.get(it.x) != it.role))
+
+
+def notice_in_view(
+    s: Record, shown: Iterable[str], new: Sequence[str], kept: Collection[str]
+) -> Sequence[Record]:
+    """What is noticed after a look: what is shown or new, without what is gone.
+
+    It is noticed half a move before the next one. Where all is new, nothing is; beside
+    what is new, nothing that was shown just before stands out.
+    """
+    known: Sequence[Record] = s.shared.noticed
+    move = s.private.cost.turns + BEFORE
+    if any(it.x not in kept for it in known):
+        known = tuple(it for it in known if it.x in kept)
+    if new and s.view.things:
+        known = tuple(it for it in known if it.role != SHOWN or it.move != move)
+        known = notice(known, dict.fromkeys(new, NEW), move)
+    return notice(known, dict.fromkeys(shown, SHOWN), move)
+
+
+@lru_cache(4096)
+def _notice(x: str, role: str, move: float) -> Record:
+    return record(x=x, role=role, move=move)
+
+
+# --- the degrees ---------------------------------------------------------------------
+
+
+class ThingSalience(NamedTuple):
+    """How salient a thing is to the eye and in the talk, as degrees from 0 to 1."""
+
+    x: str
+    visual: float
+    linguistic: float
+    is_shown: bool
+    """Whether it has been pointed at, or put in front, since the latest move."""
+
+
+Combine = Callable[[ThingSalience, Record], float]
+"""How salient a thing is altogether, in weights of type `Weights`, from 0 to 1."""
+
+
+def thing_saliences(s: Record) -> list[ThingSalience]:
+    """How salient the things in view are, and those that are talked about.
+
+    What is shown now is to the eye of degree 1.
+
+    >>> from kille.dialogue.state import initial
+    >>> s = replace(initial(), {"view.things": ["o1", "o2"], "shared.salient": ["o2"]})
+    >>> for it in thing_saliences(s):
+    ...     print(it.x, it.visual, it.linguistic)
+    o1 0.375 0.0
+    o2 0.375 0.7
+    """
+    weights = s.private.strategy.salience
+    now, decay, roles = s.private.cost.turns + 1.0, weights.decay, weights.roles
+    salient = s.shared.salient
+    said = {x: decay ** (1 + rank) for rank, x in enumerate(salient)}
+    fresh: dict[str, float] = {}
+    shown = set(() if s.shared.noticed or salient else s.view.pointed)
+    noticed: set[str] = set()
+    for it in s.shared.noticed:
+        x, role, age = it.x, it.role, max(0.0, now - it.move)
+        if role == NEW:
+            fresh[x] = decay**age
+        elif role in roles:
+            strength = roles[role] * decay**age
+            said[x] = max(strength, said[x]) if x in noticed else strength
+            noticed.add(x)
+        if role == SHOWN and age <= BEFORE:
+            shown.add(x)
+    sights = {it.x: it for it in s.shared.sights}
+    return [
+        ThingSalience(
+            x,
+            1.0 if x in shown else _looks(sights.get(x), fresh.get(x, 0.0), weights),
+            said.get(x, 0.0),
+            x in shown,
+        )
+        for x in dict.fromkeys((*s.view.things, *salient))
+    ]
+
+
+def _looks(sight: Record | None, fresh: float, weights: Record) -> float:
+    """How salient a thing is by how it looks, and how new it is."""
+    of = weights.sights
+    size, central, near = (
+        (NEUTRAL, NEUTRAL, NEUTRAL)
+        if sight is None
+        else (sight.size, sight.centrality, sight.nearness)
+    )
+    whole = of.size + of.centrality + of.nearness + of.new
+    part = of.size * size + of.centrality * central + of.nearness * near
+    return float((part + of.new * fresh) / whole) if whole else 0.0
+
+
+def combined_salience(it: ThingSalience, weights: Record) -> float:
+    """How salient a thing is to the eye and in the talk; what is shown now most of all.
+
+    >>> from kille.dialogue.strategies import strategy
+    >>> combined_salience(ThingSalience("o1", 1.0, 0.5, False), strategy().salience)
+    0.575
+    """
+    if it.is_shown:
+        return 1.0
+    said = min(1.0, weights.linguistic * it.linguistic)
+    seen = min(1.0, weights.visual * it.visual)
+    return float(1.0 - (1.0 - said) * (1.0 - seen))
+
+
+def set_salience(s: Record, combine: Combine = combined_salience) -> Record:
+    """The state with how salient things are, by a combination of one's own.
+
+    >>> from kille.dialogue.state import initial
+    >>> s = replace(initial(), {"view.things": ["o1", "o2"], "shared.salient": ["o2"]})
+    >>> by_talk = set_salience(s, lambda it, weights: it.linguistic)
+    >>> [it.degree for it in by_talk.shared.salience]
+    [0.0, 0.7]
+    """
+    weights = s.private.strategy.salience
+    degrees = [
+        record(
+            x=it.x,
+            visual=round(it.visual, _DIGITS),
+            linguistic=round(it.linguistic, _DIGITS),
+            degree=round(float(combine(it, weights)), _DIGITS),
+        )
+        for it in thing_saliences(s)
+    ]
+    return replace(s, {"shared.salience": degrees})
+
+
+_DIGITS = 4
+"""Decimals of a degree in the state, where it is to be read as well."""
+
+
+def saliences(s: Record) -> Mapping[str, float]:
+    """How salient things are: as a rule has weighed it, or else as the robot does.
+
+    >>> from kille.dialogue.state import initial
+    >>> saliences(replace(initial(), {"view.things": ["o1"], "view.pointed": ["o1"]}))
+    {'o1': 1.0}
+    """
+    if s.shared.salience:
+        return {it.x: it.degree for it in s.shared.salience}
+    weights = s.private.strategy.salience
+    return {it.x: combined_salience(it, weights) for it in thing_saliences(s)}
+
+
+def is_talked_of(s: Record, things: Iterable[str]) -> bool:
+    """Whether some of these things are still salient in the talk."""
+    margin, among = s.private.strategy.salience.margin, set(things)
+    return any(it.linguistic > margin for it in thing_saliences(s) if it.x in among)
+
+
+def nearness(s: Record, x: str) -> float:
+    """How near a thing is, beside the nearest one; 1/2 where nothing is known."""
+    near = (float(it.nearness) for it in s.shared.sights if it.x == x)
+    return next(near, NEUTRAL)
+
+
+# --- the words that choose -----------------------------------------------------------
 
 Choice = Callable[[Record, Model, Sequence[str], DialogueTypes], Sequence[str]]
 """Chooses, in a state, among the things that the rest of a phrase fits."""
 
 
-def in_talk(s: Record, model: Model, *, types: DialogueTypes) -> Model:
-    """The model in which the talk says what is shown and what was mentioned."""
-    latest = s.shared.salient[:1] or s.view.focus
-    shown = shown_things(s)
-
-    def is_distal(x: str, look: str) -> bool:
-        return x in distal_things(s, model, shown, types)
-
-    return (
-        model.witnessed(types["shown"], by=lambda x, look: x in shown)
-        .witnessed(types["distal"], by=is_distal)
-        .witnessed(types["mentioned"], by=lambda x, look: x in latest)
-    )
-
-
-def shown_things(s: Record) -> Sequence[str]:
-    """What "this" may be: what is pointed at, or was just talked about.
-
-    Where neither singles out one thing, it may be any of those in view.
-    """
-    for one in (s.view.pointed, s.shared.topic):
-        if len(one) == 1 and one[0] in s.view.things:
-            return tuple(one)
-    return tuple(s.view.things)
-
-
-def distal_things(
-    s: Record, model: Model, shown: Sequence[str], types: DialogueTypes
-) -> Sequence[str]:
-    """What "that" may be: after a lesson about "this" another thing, if there is one.
-
-    What is said to be so of "that" may be said of "this" as well: then it is open.
-    """
-    this = [x for x in s.shared.shown if x in shown and not s.view.pointed]
-    this = [x for x in this if x in _latest_taught(s)]
-    others = tuple(x for x in s.view.things if x not in this)
-    if not this or not others:
-        return shown
-    if any(model.judge(s.shared.latest, types[act]).holds for act in CONTRASTING):
-        return others
-    describes = model.judge(s.shared.latest, types["Describe"]).holds
-    return tuple(s.view.things) if describes else shown
-
-
-def _latest_taught(s: Record) -> Sequence[str]:
-    """The thing of the latest lesson."""
-    targets = (it.content.get("target") for it in s.private.lessons[-1:])
-    return [str(value_at(it, "x")) for it in targets if isinstance(it, RecordType)]
-
-
-CONTRASTING = ("Instruct", "AskName")
-"""The moves in which "that" is told from the "this" of a lesson."""
-
-
-def most_salient(s: Record, things: Iterable[str]) -> str | None:
+def latest_mentioned(s: Record, things: Iterable[str]) -> str | None:
     """The one of the things that was talked about last, if any was."""
     among = set(things)
     return next((str(x) for x in s.shared.salient if x in among), None)
@@ -82,6 +228,12 @@ def just_mentioned(s: Record, things: Collection[str]) -> str | None:
     """The one of the things that was just talked about, if one and no other was."""
     mentioned = [str(x) for x in s.shared.topic if x in things]
     return mentioned[0] if len(mentioned) == 1 else None
+
+
+def talked_about(s: Record) -> Sequence[str]:
+    """What was talked about last, or else what is in focus."""
+    latest: Sequence[str] = s.shared.salient[:1] or s.view.focus
+    return latest
 
 
 def across(
@@ -106,10 +258,24 @@ def across(
     return sorted(things, key=rightness)
 
 
+def _most_salient(
+    s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+) -> Sequence[str]:
+    """The most salient of the things, and those that nearly are so.
+
+    What is talked about, but not in view, may be more salient: then it is none of them.
+    """
+    degrees = saliences(s)
+    unseen = (x for x in degrees if x not in s.view.things)
+    most = max((degrees.get(x, 0.0) for x in (*things, *unseen)), default=0.0)
+    least = most - s.private.strategy.salience.margin
+    return [x for x in things if degrees.get(x, 0.0) >= least]
+
+
 def _other(
     s: Record, model: Model, things: Sequence[str], types: DialogueTypes
 ) -> Sequence[str]:
-    latest = most_salient(s, things) or next(iter(s.view.focus), None)
+    latest = latest_mentioned(s, things) or next(iter(s.view.focus), None)
     return [x for x in things if x != latest]
 
 
@@ -138,6 +304,7 @@ def _most(comparative: str) -> Choice:
 
 
 CHOICES: Mapping[str, Choice] = {
+    "mentioned": _most_salient,
     "other": _other,
     "any_other": _any,
     "leftmost": _nth(0),
@@ -168,3 +335,20 @@ def choose(
 ) -> Sequence[str]:
     """Those of the things that the predicate chooses."""
     return CHOICES[pred.name](s, model, things, types)
+
+
+def needs_salience(content: RecordType, types: DialogueTypes) -> bool:
+    """Whether a phrase of a content is about what is most salient, as "it" is."""
+    return _has(content, types["mentioned"])
+
+
+@lru_cache(4096)
+def _has(T: TypeNode, pred: Pred) -> bool:
+    match T:
+        case PType(it, _):
+            return it is pred
+        case RecordType(fields):
+            return any(_has(field, pred) for _, field in fields)
+        case Meet(parts):
+            return any(_has(part, pred) for part in parts)
+    return False

@@ -6,7 +6,8 @@ import math
 from functools import lru_cache
 from random import Random
 
-from kille.lab.worlds.worlds import COLOURS, SIDE, STEP, World
+from kille.dialogue.reference.salience import NEUTRAL
+from kille.lab.worlds.worlds import COLOURS, SIDE, STEP, Thing, World
 from ttr import Record, record
 from ttr.aliases import former_names
 
@@ -21,6 +22,7 @@ __all__ = [
     "number_of",
     "oddness",
     "look_event",
+    "sights",
     "size",
     "thing",
     "traits",
@@ -80,7 +82,25 @@ def glance_event(world: World, before: World) -> Record:
 
 def _seeing_event(world: World, before: World, floor: str) -> Record:
     kept = [thing(it) for it in world.in_view if _has_stayed(it, world, before)]
-    return record(view=view(world), kept=kept, floor=floor)
+    seen = view(world)
+    return record(view=seen, kept=kept, floor=floor, sights=sights(world))
+
+
+def sights(world: World) -> list[Record]:
+    """How much each thing in view stands out; how near it is, if that is seen."""
+    return [_sight(it, world.thing(it), world.deep) for it in world.in_view]
+
+
+@lru_cache(8192)
+def _sight(number: int, it: Thing, deep: bool) -> Record:
+    right, away = it.place or (0.0, 0.0)
+    middle = (SIDE - 1) / 2
+    return record(
+        x=thing(number),
+        size=it.size,
+        centrality=max(0.0, 1.0 - abs(right - middle) / middle),
+        nearness=max(0.0, 1.0 - away / SIDE) if deep else NEUTRAL,
+    )
 
 
 def _has_stayed(number: int, world: World, before: World) -> bool:
