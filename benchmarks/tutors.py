@@ -4,8 +4,9 @@
 
 Each utterance of `tests/kille/dialogue/tutors/utterances_*.tsv` is said in its scene:
 the things that the scene names lie from left to right, those that it calls known were
-taught, and the robot has said what the scene has it say. What the robot answers, and
-which lessons are new, gives the class:
+taught, and the robot has said what the scene has it say, where a lesson and a question
+bring it to that: it was taught that a book is red, and is asked whether it is. What the
+robot answers, and which lessons are new, gives the class:
 
     wrong      it learned a word, or denied one, that `lessons_*.tsv` does not allow
     helpful    it did not understand, and says what could be said instead
@@ -31,7 +32,8 @@ from typing import NamedTuple
 from kille.agent.agent import Agent
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import is_denial
+from kille.dialogue.meanings import is_denial, noun
+from kille.dialogue.phrases import noun_phrase
 from kille.dialogue.reference import thing_at
 from kille.scene import Look
 from kille.sensors.sensor import SensorError
@@ -53,25 +55,82 @@ COUNTS = {
 NO_THING = re.compile(
     r"^(empty|no scene|robot|tutor|visitor|session|mistake|relation|several|unknown"
     r"|tomt|inget|ingenting|besökare|slut|ny session|roboten|läraren|kollega"
-    r"|oklart|avbruten|okänt|flera|kopp lärd fel)\b"
+    r"|oklart|avbruten|okänt|flera)\b"
 )
-ALONE = re.compile(r"\b(alone|known|ensam\w*|känd\w*|both|båda|gap|held|lärd)\b.*")
+ALONE = re.compile(r"\b(alone|known|ensam\w*|känd\w*|both|båda|gap|held|lärd|lärt)\b.*")
 BETWEEN = re.compile(
     r",| and | och | on | in | under | beside | behind | left of | right of | near "
     r"| by | with | round | between | across | in front of | far from | på | i | bakom "
     r"| bredvid | under | vänster om | till höger om | runt | långt från "
 )
 POINTED = re.compile(r"(?:points at|pekar på|utpekad)\s*(?:the )?(\w+)?")
-CLAIMED = re.compile(
-    r"(?:robot|roboten) (?:asked|said|frågade|sade): (?:Is (?:this|it)|This is|That is"
-    r"|Är (?:det|den)(?: här| där)?|Är detta|Det är)(?: an?| en| ett| ingen)? "
-    r"([\w ]+?)(?: too)?\??$"
+ROBOT = r"(?:robot|roboten) (?:asked|said|frågade|sade): (?:kanske )?"
+A, THIS = (
+    r"(?:an?|en|ett|ingen|inget)",
+    r"(?:it|this|that|(?:det|den)(?: här| där)?|detta)",
 )
-ASKED = re.compile(r"(?:robot|roboten) (?:asked|frågade): (?:What is this|Vad är det)")
-NAMING = {
-    "en": ("This is a {}.", "What is this?"),
-    "sv": ("Det här är en {}.", "Vad är det här?"),
-}
+CLAIMED = re.compile(
+    rf"{ROBOT}(?:(?:(?:Is {THIS}|{THIS} is|Är {THIS}|{THIS} är) )?{A} )?"
+    r"(?!OK$|I do|vet|left|till|vänster)([^\W\d_]+)(?: too)?\??$",
+    re.I,
+)
+ASKED = re.compile(
+    rf"{ROBOT}(?:What is|Vad är) {THIS}\??$|{ROBOT}(?:I do not|vet inte)", re.I
+)
+ASKED_WHICH = re.compile(
+    rf"{ROBOT}(?:(?:Is it|Är det) )?(?:{A} )?(\w+) (?:or|eller) (?:{A} )?(\w+)", re.I
+)
+ASKED_COLOUR = re.compile(rf"{ROBOT}(?:What colour is|Vilken färg har) ", re.I)
+ASKED_PLACE = re.compile(rf"{ROBOT}(Where is the \w+|Var är \w+)", re.I)
+SAID_KIND = re.compile(rf"{ROBOT}A (\w+) is a (\w+)", re.I)
+SAID_PLACE = re.compile(
+    rf"{ROBOT}(?:The (?P<of>\w+) is )?(?P<place>behind|left of|till höger|vänster)\b"
+    r"(?: the (?P<by>\w+))?$",
+    re.I,
+)
+SAID_QUALITY = re.compile(
+    rf"{ROBOT}(?:the |är )?\w+ (?:is |är )?(?P<how>blå|röd|tjock|red)\??$",
+    re.I,
+)
+SAID_BEFORE = re.compile(r"(?:läraren|tutor) (?:sade nyss|said): Det är \w+ (\w+)")
+TAUGHT_PLACE = re.compile(r"drop (\w+)\((\w+), (\w+)\)")
+ANYTHING = {"en": "cup", "sv": "kopp"}
+WHERE = ("left", "right", "vänster", "höger")
+PLURAL = {"en": re.compile(r"(?<!s)s$"), "sv": re.compile(r"[oa]r$")}
+TELLS = {
+    "en": {
+        "name": "This is {}.",
+        "ask name": "What is this?",
+        "ask colour": "What colour is it?",
+        "how": "It is {}.",
+        "ask how": "Is it {}?",
+        "place": "The {1} is {0} the {2}.",
+        "ask place": "Where is the {}?",
+        "kind": "{} is a kind of {}.",
+        "ask kind": "Is {} a kind of {}?",
+        "ask find": "Show me the {}.",
+        "yes": "Yes.",
+        "no": "No.",
+    },
+    "sv": {
+        "name": "Det här är {}.",
+        "ask name": "Vad är det här?",
+        "ask colour": "Vilken färg har den?",
+        "how": "Den är {}.",
+        "ask how": "Är den {}?",
+        "place": "{1} är {0} {2}.",
+        "ask place": "Var är {}?",
+        "kind": "{} är en sorts {}.",
+        "ask kind": "Är {} en sorts {}?",
+        "ask find": "Visa mig {}.",
+        "yes": "Ja.",
+        "no": "Nej.",
+    },
+}  # fmt: skip
+PLACES = {
+    "left of": "to the left of", "till höger": "till höger om",
+    "vänster": "till vänster om",
+}  # fmt: skip
 
 
 class Line(NamedTuple):
@@ -101,22 +160,26 @@ def rows(name: str) -> Iterator[list[str]]:
                 yield row.split("\t")
 
 
-def things_in(scene: str) -> list[str]:
+def things_in(scene: str, language: str) -> list[str]:
     """What lies on the table in a scene, from left to right, by the names in it."""
-    head = scene.split(";")[0].strip()
+    head, some, plural = (
+        scene.split(";")[0].strip(),
+        ANYTHING[language],
+        PLURAL[language],
+    )
     if NO_THING.match(head):
-        return [] if re.match(r"empty|tomt", head) else ["cup"]
+        return [] if re.match(r"empty|tomt", head) else [some]
     found: list[str] = []
     for part in BETWEEN.split(ALONE.sub("", head)):
         words = part.split()
         if not words:
             continue
         times = next((n for word, n in COUNTS.items() if word in words), 1)
-        names = [it for it in words if it not in COUNTS]
-        plural = times == 1 and names and re.search(r"(?<!s)s$|[oa]r$", names[-1])
+        names = [it for it in words if it not in COUNTS and it not in WHERE]
+        is_plural = times == 1 and names and plural.search(names[-1])
         known = names and names[-1] in ("scissors", "glasses", "glasögon")
-        found += names[-1:] * (3 if plural and not known else times)
-    return found[:5] or ["cup"]
+        found += names[-1:] * (3 if is_plural and not known else times)
+    return found[:5] or [some]
 
 
 def toy_names(things: Sequence[str]) -> list[str]:
@@ -132,32 +195,85 @@ def toy_names(things: Sequence[str]) -> list[str]:
 
 def set_up(robot: Agent, line: Line, language: str) -> None:
     """Lay out the scene, and say what was said before."""
-    things = things_in(line.scene)
-    naming, asking = NAMING[language]
+    taught = (
+        TAUGHT_PLACE.search(line.ideal) if "relation taught" in line.scene else None
+    )
+    kinds = SAID_KIND.search(line.scene)
+    things = list(taught.groups()[1:]) if taught else things_in(line.scene, language)
+    things = [kinds[1]] if kinds else things
+    things = ["mugg"] if line.scene == "kopp lärd fel" else things
+    stands, how = SAID_PLACE.search(line.scene), SAID_QUALITY.search(line.scene)
+    if stands and len(things) < 2:
+        things += [{"en": "box", "sv": "låda"}[language]]
+    tells, words = TELLS[language], lexicon(language)
+
+    def tell(what: str, *about: str) -> str:
+        return robot.hear(tells[what].format(*about))
+
+    def the(word: str) -> str:
+        sign = noun(word)
+        return noun_phrase(words, sign, "definite").removeprefix("the ")
+
     toys = toy_names(things)
+    gap = 0.26 if "shoe-box" in toys else 0.18
     claim = CLAIMED.search(line.scene)
-    if claim:
-        robot.do(f"show {toys[0]}")
-        robot.hear(naming.format(claim[1]))
-        robot.do("restart")
     for place, toy in enumerate(toys):
-        across = 0.18 * (place - (len(toys) - 1) / 2)
+        across = gap * (place - (len(toys) - 1) / 2)
         with suppress(SensorError):
             robot.do(f"place {toy} at {across:.2f} 0.0")
-    known = re.search(r"known|känd|lärd|robot pointed|robot said: left", line.scene)
-    taught = line.act.startswith(("learn attr", "learn rel", "learn kind")) or (
+    if claim:
+        tell("name", words.with_article(claim[1]))
+        robot.do("restart")
+    asked = ASKED_PLACE.search(line.scene)
+    known = re.search(
+        r"known|känd|lärd|lärt|robot pointed|ångrar|robot said: OK", line.scene
+    )
+    is_taught = line.act.startswith(("learn attr", "learn rel", "learn kind")) or (
         line.act in ("answer", "count", "explain", "forget", "svara") or known
     )
-    if taught and not claim and not re.search("unknown|okän", line.scene):
+    is_taught = bool(is_taught or taught or kinds or stands or how or asked)
+    if "pointed out" in line.scene:
+        things = things[::-1]
+    if (
+        is_taught
+        and not claim
+        and not re.search("unknown|okän|not know|vet inte", line.scene)
+    ):
         for place, thing in enumerate(things):
-            robot.hear(f"#{number_at(robot, place)} {naming.format(thing)}")
+            name = tells["name"].format(words.with_article(thing))
+            robot.hear(f"#{number_at(robot, place)} {name}")
     pointed = POINTED.search(line.scene)
     if pointed and pointed[1]:
         stem = pointed[1][:4]
         places = [i for i, it in enumerate(things) if it.startswith(stem)]
         robot.do(f"point {number_at(robot, places[0] if places else 0)}")
+    if before := SAID_BEFORE.search(line.scene):
+        tell("name", words.with_article(before[1]))
+    if which := ASKED_WHICH.search(line.scene):
+        for it in which.groups():
+            tell("name", words.with_article(it))
+        tell("no")
+    if kinds:
+        tell("kind", words.with_article(kinds[1]).capitalize(), kinds[2])
+        tell("yes")
+        tell("ask kind", words.with_article(kinds[1]), kinds[2])
+    if (stands or taught) and len(things) > 1:
+        place = PLACES.get(stands["place"], stands["place"]) if stands else taught[1]
+        tell("place", place, the(things[0]), the(things[1]))
+        if stands:
+            tell("ask place", the(things[0]))
+    if how or "ångrar färg" in line.scene:
+        tell("how", how["how"] if how else "röd")
+        if how:
+            tell("ask how", how["how"])
+    if asked:
+        robot.hear(f"{asked[1]}?")
+    if ASKED_COLOUR.search(line.scene):
+        tell("ask colour")
+    if "pointed out" in line.scene:
+        tell("ask find", the(things[0]))
     if claim or ASKED.search(line.scene):
-        robot.hear(asking)
+        tell("ask name")
 
 
 def number_at(robot: Agent, place: int) -> int:

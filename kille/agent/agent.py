@@ -24,7 +24,13 @@ from kille.dialogue.commitments import as_told
 from kille.dialogue.games.clarifying import asks_which
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import DialogueTypes, set_to, types_of, word_of
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    predicate_at,
+    set_to,
+    types_of,
+    word_of,
+)
 from kille.dialogue.robust_reading import (
     Situation,
     hear_in_parts,
@@ -490,6 +496,8 @@ class Agent:
     ) -> TurnResult:
         """Take in one move of the tutor's, and answer it."""
         self._log.record_heard(sentence.text)
+        if now.state.shared.qud and _is_yes(sentence):
+            self._log.quote(_text_asked_about(now.state))
         if not sentence.readings:
             sorry = RobotSentence(
                 did_not_understand(self._lexicon, sentence.text, types=self.types), None
@@ -656,6 +664,19 @@ def _judge_move(sentence: Sentence, steps: Sequence[Step], model: Model) -> Judg
         for reading in sentence.readings
     )
     return next(it for it in judged if it.p == CERTAIN)
+
+
+def _is_yes(sentence: Sentence) -> bool:
+    """Whether a sentence is a yes, as an answer to a question."""
+    moves = (predicate_at(it.type, "e").name for it in sentence.readings[:1])
+    return "affirm" in moves
+
+
+def _text_asked_about(s: Record) -> str:
+    """What the tutor said of which the robot has asked whether it is meant so."""
+    options = s.shared.qud[0].options
+    said = options[0] if options else record()
+    return str(said.text) if "text" in said else ""
 
 
 def _looks_of(s: Record) -> set[str]:

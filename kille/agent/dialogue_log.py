@@ -9,6 +9,9 @@ from datetime import datetime
 
 from kille.memory import Memory, Turn
 
+_QUOTABLE = 16
+"""How many of the tutor's latest texts can be quoted."""
+
 
 class DialogueLog:
     """The turns of one dialogue, numbered from 1; `turn` is the present one.
@@ -21,6 +24,8 @@ class DialogueLog:
         self._memory, self._now = memory, now
         self._dialogue = memory.begin_dialogue(self._time())
         self._turns = 0
+        self._heard: dict[str, Turn] = {}
+        self._quoted: Turn | None = None
         self.turn = self._next("world", "")
 
     def begin_look(self) -> None:
@@ -30,19 +35,32 @@ class DialogueLog:
     def record_heard(self, text: str) -> None:
         """Record what the tutor says."""
         self.turn = self._record(self._next("tutor", text))
+        self._quoted = None
+        self._heard[text] = self.turn
+        for oldest in list(self._heard)[:-_QUOTABLE]:
+            del self._heard[oldest]
+
+    def quote(self, text: str) -> None:
+        """Take what the tutor said before as the source of the lessons of this turn.
+
+        So a lesson that the tutor has confirmed by "Yes." is kept in their own words.
+        """
+        self._quoted = self._heard.get(text)
 
     def record_judgement(self, judgement: str) -> None:
         """Record as what the tutor's sentence was understood."""
         completed = dataclasses.replace(self.turn, judgement=judgement)
         self._memory.record_turn(completed)
+        if self._heard.get(self.turn.text) == self.turn:
+            self._heard[self.turn.text] = completed
 
     def record_said(self, text: str, judgement: str = "") -> None:
         """Record what the robot says."""
         self._record(self._next("robot", text, judgement))
 
     def record_source(self) -> Turn:
-        """Record the present turn, as the source of a lesson, and return it."""
-        return self._record(self.turn)
+        """Record the turn in which a lesson was said, mostly this one; returns it."""
+        return self._record(self.turn) if self._quoted is None else self._quoted
 
     @contextmanager
     def all_or_nothing(self) -> Iterator[None]:

@@ -106,11 +106,16 @@ class Articles:
     def choose(self, word: str, article: str) -> str:
         """The article of a word: the one that the tutor used where that may be right.
 
+        Of several words, such as "a pair of", it is none that a form decides.
+
         >>> english = Articles({"a": ["", "uni"], "an": ["a", "e"]}, {}, ("h", "u"))
         >>> english.choose("hotel", "an"), english.choose("apple", "a")
         ('an', 'an')
+        >>> english.choose("boots", "a pair of")
+        'a pair of'
         """
-        return article if article and word.startswith(self.open_) else self.of(word)
+        knows = " " in article or (article and word.startswith(self.open_))
+        return article if knows else self.of(word)
 
     def of(self, word: str) -> str:
         """The article of a word."""

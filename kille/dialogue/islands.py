@@ -12,8 +12,9 @@ speech; Lison 2013 for weighing readings by the state of the dialogue.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from heapq import nlargest
+from types import MappingProxyType
 from typing import NamedTuple
 
 from kille.dialogue.parsing import Grammar, Tree, parts
@@ -173,8 +174,17 @@ def _last_clause_apart(words: Sequence[Word]) -> tuple[tuple[Word, ...], ...]:
     return before, tuple(words[len(before) :])
 
 
+Follows = Mapping[str, Set[str]]
+"""The islands that make sense only right after others, by their rules: "and soft"."""
+
+
 def best_covers(
-    text: str, words: Sequence[Word], grammar: Grammar, weigh: Weigh, lists: WordLists
+    text: str,
+    words: Sequence[Word],
+    grammar: Grammar,
+    weigh: Weigh,
+    lists: WordLists,
+    follows: Follows = MappingProxyType({}),
 ) -> list[Cover]:
     """The best covers of a text by the islands of a grammar, the best one first."""
     if not words or len(words) > _MOST:
@@ -192,8 +202,9 @@ def best_covers(
         by_first.setdefault(island.first, []).append(island)
     rest: list[list[Cover]] = [[] for _ in words] + [[Cover((), (), 1.0)]]
     for at in reversed(range(len(words))):
-        rest[at] = _covers_from(at, words[at], by_first.get(at, ()), rest)
-    return [it for it in rest[0] if it.islands]
+        here = by_first.get(at, ())
+        rest[at] = _covers_from(at, words[at], here, rest, follows)
+    return [it for it in rest[0] if it.islands and it.islands[0].rule not in follows]
 
 
 def _before_last_aside(words: Sequence[Word]) -> int:
@@ -204,7 +215,11 @@ def _before_last_aside(words: Sequence[Word]) -> int:
 
 
 def _covers_from(
-    at: int, word: Word, islands: Iterable[Island], rest: Sequence[Sequence[Cover]]
+    at: int,
+    word: Word,
+    islands: Iterable[Island],
+    rest: Sequence[Sequence[Cover]],
+    follows: Follows,
 ) -> list[Cover]:
     """The best covers of what stands from a word on, from those of what follows."""
     if word.is_harmless:
@@ -213,6 +228,7 @@ def _covers_from(
         found = [
             Cover(it.islands, (word, *it.missed), MISSED * it.weight)
             for it in rest[at + 1]
+            if not it.islands or it.islands[0].rule not in follows
         ]
     for island in islands:
         found += [
@@ -222,6 +238,8 @@ def _covers_from(
                 APART * island.weight * it.weight,
             )
             for it in rest[island.after]
+            if not it.islands
+            or island.rule in follows.get(it.islands[0].rule, (island.rule,))
         ]
     best: dict[object, Cover] = {}
     for it in found:
@@ -296,5 +314,7 @@ def _is_sound(tree: Tree, lists: WordLists) -> bool:
     return True
 
 
-OPEN = frozenset({"WORD", "PLURAL", "DEFINITE", "NEUTER", "WEAK", "PLAIN_PLURAL"})
+OPEN = frozenset(
+    {"WORD", "PLURAL", "DEFINITE", "NEUTER", "WEAK", "PLAIN_PLURAL", "BARE"}
+)
 """The terminals that find any word; others than these find the words they list."""

@@ -33,7 +33,15 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.parsing import Grammar, Token, Tree, parts, words
 from kille.dialogue.robot_grammar import CLOSELY, LOOSELY, robot_rules
-from kille.dialogue.word_lists import DOUBTFUL, REMARK, SAYING, plain_text, word_lists
+from kille.dialogue.word_lists import (
+    CUT_OFF,
+    DOUBTFUL,
+    NAME,
+    REMARK,
+    SAYING,
+    plain_text,
+    word_lists,
+)
 from ttr import Rec, Record, RecordType, RecType, rectype
 from ttr.types import TypeNode
 
@@ -70,6 +78,9 @@ LESSONS = (
     "generalise",
 )
 """The moves that say what a thing is, or how: for them words are vetted."""
+
+QUALIFIED = "qualified"
+"""What a noun of several words is that may be an adjective and a noun."""
 
 _FORMS = 3
 """How many words a form is read as, at most; those in the lexicon come first."""
@@ -113,6 +124,8 @@ class Sentence:
     text: str
     readings: tuple[Utterance, ...]
     weights: tuple[float, ...] = field(default=(), repr=False)
+    adds: bool = field(default=False, repr=False)
+    """Whether it adds a word to one that was just said: "also called a mug"."""
 
 
 def understand(
@@ -252,11 +265,14 @@ class Reader:
                 signs=self._types.record_type("Heard")["signs"] @ signs,
                 content=RecType @ content,
             )
-            doubt = SAYING if is_saying else is_lesson and self._doubt(signs, content)
+            doubt = is_lesson and self._doubt(signs, content, text)
+            doubt = SAYING if is_saying else doubt
             doubt = REMARK if doubt == DOUBTFUL and partly else doubt or partly
+            if doubt == QUALIFIED:
+                doubt = partly or DOUBTFUL
             yield set_to(heard, doubt=self._types["Text"] @ doubt) if doubt else heard
 
-    def _doubt(self, signs: Iterable[Record], content: RecordType) -> str:
+    def _doubt(self, signs: Iterable[Record], content: RecordType, text: str) -> str:
         """Why the word of a lesson may be none that is said of things, or nothing."""
         if "counted" in content or "component" in content:
             said = (it for it in signs if it.meaning != content.get("subject"))
@@ -264,11 +280,30 @@ class Reader:
         else:
             said = (it for it in signs if claims(content, it))
         for sign in said:
+            if is_cut_off(sign.form, text):
+                return CUT_OFF
+            if not sign.article and is_proper_name(sign.form, text):
+                return NAME
             if sign.kind == "noun":
-                return self._lists.judge_noun(sign.form, self._lexicon.complements)
+                judged = self._lists.judge_noun(sign.form, self._lexicon.complements)
+                return judged or (QUALIFIED if self._is_qualified(sign.form) else "")
             if sign.kind == "adjective":
                 return self._lists.judge_quality(sign.form)
         return ""
+
+    def _is_qualified(self, form: str) -> bool:
+        """Whether a noun begins with a word for how things are: "lovely cup"."""
+        first, *others = form.split()
+        return bool(others) and first in self._lists.qualities
+
+    def _is_definite_noun(self, found: list[Token]) -> bool:
+        """Whether a form is that of a noun of the lexicon: *örat* is no adjective."""
+        form = " ".join(it.text.lower() for it in found)
+        return any(
+            word in self._lexicon.vocabulary
+            for inflection in self._lexicon.inflections.get("DEFINITE", ())
+            for word in inflection.words(form)
+        )
 
     def said_types(self, move: Tree) -> Iterator[RecordType]:
         """The types of the event of the robot's saying this."""
@@ -318,6 +353,8 @@ class Reader:
         found = words(tree)
         said = "".join(it.text.lower() for it in found if it.terminal == "A")
         rest = [it for it in found if it.terminal != "A"]
+        if kind == "adjective" and self._is_definite_noun(rest):
+            return
         for form, article in self._forms(rest):
             main = self._lexicon.main_form(form)
             means = "" if kind == "noun" else self._lexicon.means.get(main, "")
@@ -338,6 +375,30 @@ class Reader:
         ]
         known = self._lexicon.vocabulary
         yield from sorted(found_forms, key=lambda it: it[0] not in known)[:_FORMS]
+
+
+_CUT_OFF = re.compile(r"\b(\w{1,2})(?:\.\.+|…|-+)\s*$")
+"""The beginning of a word at the end of a text that breaks off there."""
+
+
+def is_cut_off(form: str, text: str) -> bool:
+    """Whether a text breaks off within its last word, which is this one.
+
+    >>> is_cut_off("k", "This is a k..."), is_cut_off("cup", "This is a cup...")
+    (True, False)
+    """
+    found = _CUT_OFF.search(text)
+    return found is not None and found[1].lower() == form
+
+
+def is_proper_name(form: str, text: str) -> bool:
+    """Whether a word has a capital letter that no beginning of a sentence gives it.
+
+    >>> is_proper_name("sixten", "This is Sixten."), is_proper_name("cup", "Cup.")
+    (True, False)
+    """
+    named = rf"\w,? {re.escape(form.title())}\b"
+    return text != text.upper() and re.search(named, text) is not None
 
 
 def _by_rank(several: Sequence[Sequence[Meant]]) -> Iterator[tuple[Meant, ...]]:

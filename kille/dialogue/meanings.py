@@ -416,6 +416,31 @@ CLAIMS = ("c", "a", "rel")
 """The labels under which the claim of a sentence stands: what its word is true of."""
 
 
+ALSO = "also"
+"""The label of what else a content claims: several things said in one breath."""
+
+
+def join_claims(content: RecordType, *others: RecordType) -> RecordType:
+    """The content that makes the claims of several, each of its own thing."""
+    if not others:
+        return content
+    return set_to(content, **{ALSO: join_claims(*others)})
+
+
+def single_claims(content: RecordType) -> tuple[RecordType, ...]:
+    """The contents that a content is joined of, in order; itself if it is single.
+
+    >>> cup, mug = meaning_in("cup", "Naming"), meaning_in("mug", "Naming")
+    >>> single_claims(join_claims(cup, mug)) == (cup, mug)
+    True
+    """
+    others = content.get(ALSO)
+    if not isinstance(others, RecordType):
+        return (content,)
+    first = rectype({label: T for label, T in content.fields if label != ALSO})
+    return (first, *single_claims(others))
+
+
 def denial(content: RecordType) -> RecordType:
     """The content that denies the claim of a content, or claims what it denies.
 

@@ -97,9 +97,10 @@ def _indefinite(lexicon: Lexicon, noun: Record | None, first: str) -> str:
 
     It goes by that word where articles go by sound, else by the noun.
     """
+    own = lexicon.article(noun) if noun is not None else ""
     if noun is None or (first != noun.form and lexicon.articles.beginnings):
-        return lexicon.articles.of(first)
-    return lexicon.article(noun)
+        return own if " " in own else lexicon.articles.of(first)
+    return own
 
 
 def _beside(lexicon: Lexicon, part: RecordType, words: Words) -> str | None:

@@ -34,6 +34,9 @@ FAINTLY = 1e-6
 UNKNOWN = 0.1
 """The factor for every part of a word that is not known."""
 
+UNTEACHABLE = 0.01
+"""The factor for a lesson that cannot be learned as it is."""
+
 LONGER = 0.9
 """The factor for every word."""
 
@@ -60,8 +63,16 @@ def weigh_readings(
     other = max(0.0, 1.0 - sum(p for them in texts for _, p in them))
     known = frozenset(map(word_of, words(s)))
     if len(texts) == 1 and other < _ROUNDING:
-        said, _ = max(texts[0], key=lambda it: it[1] * _word_weight(known, it[0]))
-        return [WeighedMove(said, 1.0)]
+
+        def weight(alternative: tuple[Record, float]) -> float:
+            one, p = alternative
+            fails = _describes_unknown(known, one) and teaches(one)
+            return p * _word_weight(known, one) * (UNTEACHABLE if fails else 1.0)
+
+        def teaches(one: Record) -> bool:
+            return model.judge(one, types["Teaching"]).holds
+
+        return [WeighedMove(max(texts[0], key=weight)[0], 1.0)]
     fits = [_best(s, model, known, them, types=types) for them in texts]
     strange = s.private.strategy.hearing.strange
     whole = sum(it.p for it in fits) + other * strange
@@ -98,6 +109,16 @@ def _best(
     ]
     best = max(fits, key=lambda it: it.p)
     return WeighedMove(best.said, best.p * sum(p for _, p in readings))
+
+
+def _describes_unknown(known: Set[Pred], said: Record) -> bool:
+    """Whether a noun is said of a thing that a new adjective describes: a toy car.
+
+    Such a lesson would be refused, for want of the adjective.
+    """
+    return "c" in said.content and any(
+        it.kind == "adjective" and word_of(it) not in known for it in said.signs
+    )
 
 
 def _word_weight(known: Set[Pred], said: Record) -> float:

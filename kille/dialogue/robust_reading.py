@@ -24,12 +24,32 @@ from kille.dialogue.islands import (
     repair,
     words_of,
 )
-from kille.dialogue.language import LESSONS, Sentence, reader
+from kille.dialogue.language import LESSONS, Sentence, Utterance, reader
+from kille.dialogue.lessons_together import (
+    MOST,
+    are_about_unmarked_things,
+    correct_lesson,
+    doubt_lesson,
+    fill_from,
+    join_lessons,
+)
 from kille.dialogue.lookalikes import replace_lookalikes
-from kille.dialogue.meanings import DialogueTypes, packaged_types, predicate_at
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    packaged_types,
+    predicate_at,
+    value_at,
+)
 from kille.dialogue.parsing import Tree, parts
 from kille.dialogue.state import words as words_in
-from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists, plain_text, word_lists
+from kille.dialogue.word_lists import (
+    NAME,
+    PARTIAL,
+    SAYING,
+    WordLists,
+    plain_text,
+    word_lists,
+)
 from ttr import Record
 
 WHOLE = frozenset(
@@ -73,14 +93,49 @@ VAGUE = FALLBACK | {"alone", "named", "ask_deed"}
 """What may be read of almost any words, so that they are not understood thereby."""
 
 INDIRECT = frozenset(
-    {"named", "alone", "presumed", "meant", "placed", "identity", "quality_alone"}
+    {
+        "named",
+        "also_named",
+        "sided",
+        "alone",
+        "presumed",
+        "meant",
+        "placed",
+        "identity",
+        "quality_alone",
+    }
 )
 """The claims that are always asked about."""
 
-CLAIMS = frozenset((*LESSONS, "relate", *INDIRECT))
+ELLIPTIC = frozenset({"is_not", "is_too", "and_how"})
+"""The claims that say of another thing what was just said: "the right one isn't".
+
+Or of the same thing something else: "and soft".
+"""
+
+GAPPED = frozenset({"gapped", "sided"})
+"""The claims of which one has to stand beside another: "Mug left, cup right"."""
+
+FULL = frozenset({"instruct", "describe", "correct", "reject", "gapped", "sided"})
+"""The claims of which another may be left out in part."""
+
+FOLLOWS = {
+    "is_not": FULL | ELLIPTIC,
+    "is_too": FULL | ELLIPTIC,
+    "and_how": frozenset({"describe", "and_how"}),
+}
+"""After which claims, and nothing else, the elliptic ones may stand."""
+
+CLAIMS = frozenset((*LESSONS, "relate", *INDIRECT, *ELLIPTIC, *GAPPED))
 """The moves that say how things are."""
 
-OVER_BREAKS = frozenset({"correct", "reject", "named", "meant"})
+CORRECTED = {"instruct": "correct", "describe": "correct", "relate": "correct"}
+"""What a lesson is after a no: "Far from it, that's a lamp."."""
+
+ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repeat"})
+"""The questions that a tutor who then says what it is has answered themselves."""
+
+OVER_BREAKS = frozenset({"correct", "reject", "named", "also_named", "meant"})
 """The claims that may go on after a comma: "It is not a cup, it is a mug"."""
 
 _UNSPEAKABLE = re.compile(r"[<>\[\]{}|\\^=@\x00-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e]")
@@ -92,6 +147,10 @@ NEW = 0.8
 
 ASKED = 0.3
 """The factor for a claim in a sentence that ends with a question mark."""
+
+
+DOUBTING = frozenset({"ask_certainty", "ask_whether"})
+"""Those of them after which a lesson corrects what the robot has claimed."""
 
 
 class Situation(NamedTuple):
@@ -111,6 +170,8 @@ class Situation(NamedTuple):
     """The words that it knows."""
     qualities: frozenset[str] = frozenset()
     """Those of them that say how things are."""
+    points: bool = False
+    """The tutor points at something."""
 
 
 class Understanding(NamedTuple):
@@ -151,6 +212,7 @@ def hear_in_parts(
     lists = word_lists(language)
     done: list[Sentence] = []
     asked: list[Sentence] = []
+    types = types or packaged_types()
     remarks: list[Sentence] = []
     missed: list[tuple[Sentence, Understanding]] = []
     for said in sentences:
@@ -163,15 +225,68 @@ def hear_in_parts(
             continue
         if not found.moves:
             missed.append((said, found))
-        for move in found.moves:
-            kind = asked if _is_doubted(move) else remarks if found.is_remark else done
+        if any(map(_says_name, found.moves)):
+            doubts = any(_act(it.readings[0].type) in DOUBTING for it in done)
+            if doubts and situation.asks_whether:
+                right = [correct_lesson(it, types=types) for it in found.moves]
+                found = found._replace(moves=tuple(right))
+            done = [it for it in done if _act(it.readings[0].type) not in ANSWERED]
+        for move in _doubt_together(found.moves, situation, types):
+            aside = found.is_remark or _is_name(move)
+            kind = remarks if aside else asked if _is_doubted(move) else done
             kind.append(move)
-    asked = asked if not any(map(_teaches, done)) else []
+    if any(it.adds for it in asked):
+        asked = [
+            doubt_lesson(it, PARTIAL, types=types) for it in done if _names(it)
+        ] + asked
+        done = [it for it in done if not _names(it)]
+    asked = asked if not any(map(_names, done)) else []
     done = list({_content(it): it for it in reversed(done)}.values())[::-1]
-    moves = (*done, *asked[:1]) or tuple(remarks[:1])
+    moves = (*done, *join_lessons(asked, types=types)) or tuple(remarks[:1])
     if moves:
         missed = [it for it in missed if len(it[1].missed) > 1]
     return Hearing(moves, tuple(missed))
+
+
+def _is_name(it: Sentence) -> bool:
+    """Whether a sentence is no lesson but a name, as in "Anna! This is a cup."."""
+    best = it.readings[0].type
+    return "doubt" in best and value_at(best, "doubt") == NAME
+
+
+def _names(it: Sentence) -> bool:
+    """Whether a sentence says what a thing is, or how."""
+    acts = {_act(one.type) for one in it.readings}
+    return bool(acts & {*NAMING, "describe", "instruct_several", "relate"})
+
+
+def _doubt_together(
+    moves: Sequence[Sentence], situation: Situation, types: DialogueTypes
+) -> Sequence[Sentence]:
+    """The moves of a sentence; if one of its lessons has to be asked about, all have.
+
+    So have several lessons of which nobody knows which thing each is about.
+    """
+    doubted = [_is_doubted(it) for it in moves]
+    lessons = [_teaches(it) for it in moves]
+    open_ = situation.things > 1 and not situation.points
+    if not any(doubted) and not (
+        open_ and are_about_unmarked_things(moves, types=types)
+    ):
+        return moves
+    return [
+        doubt_lesson(it, PARTIAL, types=types) if taught and not in_doubt else it
+        for it, taught, in_doubt in zip(moves, lessons, doubted, strict=True)
+    ]
+
+
+def _says_name(it: Sentence) -> bool:
+    """Whether a sentence says what a thing is, and so answers what it is."""
+    return not _is_name(it) and _act(it.readings[0].type) in NAMING
+
+
+NAMING = ("instruct", "correct")
+"""The moves by which a tutor says what a thing is."""
 
 
 def situation_of(s: Record) -> Situation:
@@ -193,6 +308,7 @@ def situation_of(s: Record) -> Situation:
         things=len(s.view.things),
         known=frozenset(it.form for it in words_in(s)),
         qualities=frozenset(it.form for it in s.private.adjectives),
+        points=bool(s.view.pointed),
     )
 
 
@@ -230,8 +346,8 @@ def read_robustly(
     >>> move.readings[0].type["doubt"].value, said.missed
     ('partial', ("I've", 'found'))
     """
-    lists = word_lists(language)
-    reads = reader(language, types or packaged_types())
+    lists, types = word_lists(language), types or packaged_types()
+    reads = reader(language, types)
     plain = lists.write_out(" ".join(replace_lookalikes(text).split()))
     plain, is_sure = repair(plain, lists)
     if is_sure and plain != text:
@@ -244,29 +360,44 @@ def read_robustly(
         return Understanding((), (), ())
     is_question = plain.rstrip().endswith("?")
     weigh = partial(_weight, situation, is_question)
-    found = best_covers(plain, said, grammar, weigh, lists)
+    found = best_covers(plain, said, grammar, weigh, lists, FOLLOWS)
     covers = [_keep_sound(it, said, situation, is_question) for it in found]
     covers = [it for it in covers if it.islands]
     if not covers:
         return _phrases(plain, said, found)
     ranked = sorted(
         covers,
-        key=lambda it: (_is_fallback(it), -it.weight, it.islands[0].first),
+        key=lambda it: (_is_fallback(it), -_rank(it, said), it.islands[0].first),
     )
 
     def read(cover: Cover, island: Island) -> Sentence:
         """How an island can be read as a move, doubted where it must be."""
         doubt = _doubt(cover, island, said, lists, is_question, is_sure)
         moves = dict.fromkeys(part for tree in island.trees for part in parts(tree))
-        return Sentence(text, reads.readings(text, moves, doubt))
+        if _follows_no(island, cover):
+            moves = {
+                it._replace(rule=CORRECTED.get(it.rule, it.rule)): None for it in moves
+            }
+        readings = reads.readings(text, moves, doubt)
+        return Sentence(text, readings, adds=island.rule == "also_named")
 
     for n, best in enumerate(ranked):
-        heard = [read(best, island) for island in best.islands]
+        heard: list[Sentence] = []
+        for island in best.islands:
+            if _is_taken_up(island, best):
+                continue
+            found_here = read(best, island)
+            if island.rule in ELLIPTIC:
+                found_here = fill_from(found_here, heard, types=types)
+            heard.append(found_here)
         moves = {it.readings[0].type: it for it in reversed(heard) if it.readings}
         if not moves:
             continue
         found_moves = tuple(reversed(moves.values()))
-        if len(found_moves) == len(best.islands) == 1:
+        if (
+            len(found_moves) == len(best.islands) == 1
+            and best.islands[0].rule not in ELLIPTIC
+        ):
             rivals = [
                 (it.weight, read(it, it.islands[0]))
                 for it in ranked[n + 1 :]
@@ -280,6 +411,37 @@ def read_robustly(
             _is_fallback(best),
         )
     return _phrases(plain, said, found)
+
+
+def _rank(cover: Cover, said: Sequence[Word]) -> float:
+    """The weight of a cover; several names in a row are one thing to say."""
+    if _is_list_of_names(cover, said):
+        return cover.weight / ALONE ** (len(cover.islands) - 1)
+    return cover.weight
+
+
+ALONE = 0.2
+"""How much less a name alone counts than what says of a thing that it is called so."""
+
+
+def _follows_no(island: Island, cover: Cover) -> bool:
+    """Whether a lesson comes right after a no of the same sentence: it corrects."""
+    before = [it for it in cover.islands if it.first < island.first]
+    return bool(before) and before[-1].rule == "deny" and island.rule in CORRECTABLE
+
+
+def _is_aside(word: Word) -> bool:
+    return word.is_harmless and not word.joins
+
+
+def _is_taken_up(island: Island, cover: Cover) -> bool:
+    """Whether an island is a no that is said by the correction after it."""
+    after = [it for it in cover.islands if it.first > island.first]
+    return island.rule == "deny" and bool(after) and after[0].rule in CORRECTABLE
+
+
+CORRECTABLE = frozenset({*CORRECTED, "named", "also_named", "alone", "quality_alone"})
+"""The islands that correct where they come after a no."""
 
 
 def _are_rivals(cover: Cover, best: Cover) -> bool:
@@ -303,7 +465,7 @@ def _with_rivals(
         for it in rival.readings:
             weighed.setdefault(it.type, (it, share))
     readings, weights = zip(*weighed.values(), strict=True)
-    return Sentence(best.text, tuple(readings), tuple(weights))
+    return Sentence(best.text, tuple(readings), tuple(weights), best.adds)
 
 
 def _phrases(plain: str, said: Sequence[Word], found: Sequence[Cover]) -> Understanding:
@@ -379,8 +541,14 @@ def _may_stand(
             return begins and situation.things == 1 and not is_question
         case "ask_repeat" if len(cover.islands) > 1:
             return False
+        case "deny" if _is_taken_up(island, cover) and not is_question:
+            return all(it.is_harmless for it in said[: island.first])
         case "affirm" | "deny" if others or is_question:
             return False
+        case _ if rule in ELLIPTIC:
+            return bool(earlier) and earlier[-1].rule in FOLLOWS[rule]
+        case _ if rule in GAPPED and rule != "instruct":
+            return bool(others)
         case "deny" if any(it.rule == "okay" for it in cover.islands):
             return False
         case "affirm" | "deny" if cover.missed:
@@ -391,9 +559,15 @@ def _may_stand(
                 return False
             babble = len({it.form for it in inside}) < len(inside)
             after = not any(it < first for it in cover.missed)
-            aside = LONGEST_ASIDE if after else LONGEST_NAME
-            if is_question or others or babble or len(cover.missed) > aside:
+            far = after or situation.asks_name
+            aside = LONGEST_ASIDE if far else LONGEST_NAME
+            listed = _is_list_of_names(cover, said)
+            if is_question or babble or len(cover.missed) > aside:
                 return False
+            if others and not listed:
+                return False
+        case "reject" if _is_bare(island) and inside[-1].clause > first.clause:
+            return False
         case "instruct" if _is_bare(island) and any(map(_has_target, others)):
             return False
         case "ask_deed" if any(it < first for it in cover.missed):
@@ -412,6 +586,13 @@ def _may_stand(
         for at, it in enumerate(said[: island.first])
     )
     return begins or rule in ANYWHERE or is_claim
+
+
+def _is_list_of_names(cover: Cover, said: Sequence[Word]) -> bool:
+    """Whether all that is said are a few names: "pen, pencil"."""
+    clauses = {said[it.first].clause for it in cover.islands}
+    alone = all(it.rule == "alone" for it in cover.islands)
+    return alone and not cover.missed and len(clauses) == len(cover.islands) <= MOST
 
 
 LONGEST_NAME = 3
@@ -442,7 +623,11 @@ def _doubt(
     rule = island.rule
     if rule not in CLAIMS:
         return ""
-    forms = [it.form for it in said]
+    taken_up = [it for it in cover.islands if _is_taken_up(it, cover)]
+    no = {at for it in taken_up for at in range(it.first, it.after)}
+    forms = [
+        it.form for at, it in enumerate(said) if at not in no and not _is_aside(it)
+    ]
     if lists.is_unreal(forms):
         return SAYING
     near = {it.form for it in cover.missed_near(island, said)}
@@ -451,7 +636,9 @@ def _doubt(
     if near & lists.negations:
         return SAYING
     asks = is_question and all(it.is_harmless for it in said[island.after :])
-    hedged = any(it.rule in HEDGING for it in cover.islands)
+    hedged = any(
+        it.rule in HEDGING and not _is_taken_up(it, cover) for it in cover.islands
+    )
     unsure = rule in INDIRECT or hedged or asks or bool(cover.missed) or not is_sure
     return PARTIAL if unsure else ""
 
@@ -543,7 +730,7 @@ def _is_odd(sign: Record, lists: WordLists) -> bool:
     """Whether what was read as a word has a part that is none of such words'."""
     parts = sign.form.split()
     if sign.kind == "relation":
-        return not lists.fillers.isdisjoint(parts)
+        return parts[0] in lists.articles or not lists.fillers.isdisjoint(parts)
     return any(map(lists.is_closed, parts))
 
 
@@ -552,9 +739,16 @@ def _is_better(said: Sentence, found: Understanding, lists: WordLists) -> bool:
     if not found.moves or found.is_remark:
         return False
     mentions = all(predicate_at(it.type, "e").name == "mention" for it in said.readings)
+    if not any(_is_sound(it, lists) for it in said.readings):
+        return True
     fills = not lists.fillers.isdisjoint(plain_text(said.text).split())
     fills = fills or lists.write_out(said.text) != said.text
     return mentions or fills or not (found.missed or any(map(_is_doubted, found.moves)))
+
+
+def _is_sound(reading: Utterance, lists: WordLists) -> bool:
+    """Whether all words of a reading are ones that such words may be."""
+    return not any(_is_odd(sign, lists) for sign in reading.signs)
 
 
 def _content(it: Sentence) -> object:

@@ -15,10 +15,12 @@ from kille.dialogue.language_files import WORDS, last_change, source
 from ttr.safety.inputs import parse_toml
 
 REMARK, DOUBTFUL, SAYING, PARTIAL = "remark", "doubtful", "saying", "partial"
+NAME, CUT_OFF = "name", "cut off"
 """What a new word of a lesson may be: no word for a thing at all, or perhaps none.
 
 A saying is one as a whole, whatever its words are. What is partial is read from a part
-of a sentence.
+of a sentence. A name is that of one thing or person; of a word that is cut off the
+speaker has said only the beginning.
 """
 
 _PLAIN = re.compile(r"[^\w'’-]+")
@@ -47,6 +49,8 @@ class WordLists:
     """
     repairs: frozenset[tuple[str, ...]] = frozenset()
     """Words between what is said by mistake, and what is said instead."""
+    names: frozenset[str] = frozenset()
+    """Names of persons, which are no words for kinds of things."""
     articles: frozenset[str] = frozenset()
     negations: frozenset[str] = frozenset()
     spoken: Mapping[str, str] = field(default_factory=dict)
@@ -94,7 +98,9 @@ class WordLists:
         words = form.split("_")
         at = next((n for n, it in enumerate(words) if n and it in complements), None)
         head = words[-1 if at is None else at - 1]
-        if form in self.abstract or head in self.abstract:
+        if form in self.names:
+            return NAME
+        if form in self.abstract or head in self.abstract or is_noise(form):
             return REMARK
         if head.endswith(self.endings):
             return REMARK
@@ -116,10 +122,42 @@ class WordLists:
         words = form.split()
         if all(map(self._is_quality, words)):
             return ""
+        if form in self.names:
+            return NAME
+        if is_noise(form):
+            return REMARK
         return REMARK if words[-1] in self.abstract else DOUBTFUL
 
     def _is_quality(self, word: str) -> bool:
         return any(it in self.qualities for it in (word, *word.split("-")[-1:]))
+
+
+_ROWS = ("qwertyuiopå", "asdfghjklöä", "zxcvbnm")
+_VOWELS = frozenset("aeiouyåäöéèüæøáíóúêôàçñ")
+
+
+def is_noise(form: str) -> bool:
+    """Whether a word is none of any language: fingers on the keyboard, or no vowels.
+
+    >>> words = ("cup", "asdfgh", "rhythm", "hgfk", "aaargh", "wug")
+    >>> [it for it in words if is_noise(it)]
+    ['asdfgh', 'hgfk', 'aaargh']
+    """
+    for word in form.split("_"):
+        rows = [*_ROWS, *(it[::-1] for it in _ROWS)]
+        fours = (word[n : n + 4] for n in range(len(word) - 3))
+        if any(four in row for four in fours for row in rows):
+            return True
+        if (
+            len(word) > 3
+            and word.isalpha()
+            and word.isascii()
+            and not _VOWELS & {*word}
+        ):
+            return True
+        if any(a == b == c for a, b, c in zip(word, word[1:], word[2:], strict=False)):
+            return True
+    return False
 
 
 def _spoken(pattern: str) -> str:
@@ -176,6 +214,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         closed=frozenset(data.get("closed", "").split()),
         unreal=_phrases(data.get("unreal", "")),
         repairs=_phrases(data.get("repairs", "")),
+        names=frozenset(data.get("names", "").split()),
         articles=frozenset(data.get("articles", "").split()),
         negations=frozenset(data.get("negations", "").split()),
         spoken=data.get("spoken", {}),

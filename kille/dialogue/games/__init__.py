@@ -28,6 +28,7 @@ from kille.dialogue.games.explaining import EXPLAINING
 from kille.dialogue.games.finding import FINDING
 from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
 from kille.dialogue.games.framing import ASKING_FRAME, FRAMING, SETTLING
+from kille.dialogue.games.gathering import GATHERED, GATHERING
 from kille.dialogue.games.initiating import IDLING, INITIATING, STAYING
 from kille.dialogue.games.instructing import INSTRUCTING
 from kille.dialogue.games.interrupting import REPEATING, cut_off
@@ -89,13 +90,14 @@ def games_with(*answers: Rule) -> Algorithm:
                 YIELDING,
                 MISHEARD,
                 OFFER_ANSWERED,
+                GATHERED,
                 VETTED,
                 FORGET_ANSWERED,
                 ANSWERED,
                 STILL_ANSWERED,
                 SEVERAL_ANSWERED,
                 SETTLING,
-                seq(maybe(CLARIFYING), maybe(first(VETTING, OFFERING))),
+                seq(maybe(CLARIFYING), maybe(first(GATHERING, VETTING, OFFERING))),
             ),
             maybe(FRAMING),
             maybe(REFERRING),

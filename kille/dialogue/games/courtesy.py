@@ -15,5 +15,6 @@ COURTESY = first(
     reply("Okay", "Noted", "The tutor has taken something in, or lets it be."),
     reply("AskDeed", "TellAbilities", "What it cannot do it says, and what it can."),
     reply("Remark", "TakeAsRemark", "What is said of no thing in view is a remark."),
+    reply("NameOne", "TellNames", "It learns words for kinds, not names of one thing."),
     reply("Leave", "Part", "The tutor takes leave, and so does the robot."),
 )

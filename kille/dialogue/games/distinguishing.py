@@ -11,6 +11,7 @@ from kille.dialogue.moves import number_field
 from kille.dialogue.reference import across, thing_at
 from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, RecType, replace
+from ttr.types import TypeNode
 
 LESSONS = (
     "learned",
@@ -34,22 +35,40 @@ def say_which(s: Record, *, model: Model, types: DialogueTypes) -> Record | None
     """It has learned something of one of several things: it says of which."""
     if len(s.view.things) < 2 or not s.private.agenda:
         return None
-    planned, *others = s.private.agenda
-    if predicate_at(planned, "e").name not in LESSONS:
+    told = [_say_which(s, model, it, types=types) for it in s.private.agenda]
+    if all(it is was for it, was in zip(told, s.private.agenda, strict=True)):
         return None
+    return replace(s, {"private.agenda": told})
+
+
+def _say_which(
+    s: Record, model: Model, planned: RecordType, *, types: DialogueTypes
+) -> RecordType:
+    """The planned move, which says of which thing it has learned, if it has."""
+    if predicate_at(planned, "e").name not in LESSONS:
+        return planned
     content = value_at(planned, "content")
     if not isinstance(content, RecordType):
-        return None
+        return planned
+    fields = say_where(s, model, content, types=types)
+    if not fields:
+        return planned
+    return set_to(planned, content=RecType @ set_to(content, **fields))
+
+
+def say_where(
+    s: Record, model: Model, content: RecordType, *, types: DialogueTypes
+) -> dict[str, TypeNode]:
+    """The fields that say which of several things a claim is about; none of one."""
     x = thing_at(content, "target")
-    if x is None or x not in s.view.things:
-        return None
+    if len(s.view.things) < 2 or x is None or x not in s.view.things:
+        return {}
     fields = number_field(s, x, types=types)
     sides = SIDES.get(len(s.view.things))
     if sides:
         place = sides[across(s, model, s.view.things, types=types).index(x)]
         fields["one"] = types["Text"] @ place
-    said = set_to(planned, content=RecType @ set_to(content, **fields))
-    return replace(s, {"private.agenda": (said, *others)})
+    return fields
 
 
 DISTINGUISHING = say_which

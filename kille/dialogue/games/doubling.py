@@ -75,6 +75,24 @@ def ask_either(s: Record, *, types: DialogueTypes) -> Record | None:
     )
 
 
+@rule(answers=("Affirm", "Deny"))
+def ask_either_again(s: Record, *, types: DialogueTypes) -> Record | None:
+    """Yes or no does not say which of the two it is: it asks again."""
+    if not _asks(s, EITHER):
+        return None
+    asked, *rest = s.shared.qud
+    new, old = (it.content for it in asked.options)
+    return plan(
+        replace(s, {"shared.qud": rest}),
+        "AskWhich",
+        old,
+        new,
+        signs=(*asked.options[0].signs, *signs_for(s, old, new)),
+        asks=[asked],
+        types=types,
+    )
+
+
 @rule(answers="Instruct")
 def take_either(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says which of the two it is: the other is unlearned."""
@@ -145,7 +163,7 @@ def _other_name(s: Record, content: RecordType) -> RecordType | None:
     return names[-1] if names else None
 
 
-ANSWERED = first(learn_both, ask_either, take_either, correct_either)
+ANSWERED = first(learn_both, ask_either, ask_either_again, take_either, correct_either)
 """What answers whether it is both, or which of the two it is."""
 
 DOUBLING = ask_both

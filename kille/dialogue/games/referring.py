@@ -91,6 +91,27 @@ def ask_referent(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
 
 
 @rule(answers="Heard")
+def trust_pointing(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """A lesson is about the one thing that is shown, whatever it is said to be like."""
+    content = content_of(s)
+    shown = s.view.pointed or s.view.things
+    if len(shown) != 1 or "target" not in phrases(content) or "rel" in content:
+        return None
+    phrase = phrase_at(content, "target")
+    said_of_it = set(phrase.labels) <= {"x", "look", "a"}
+    if not said_of_it or not _teaches(s, model, types=types):
+        return None
+    if not any(
+        it.kind == "adjective" and mentions(phrase, it) and not _judges(s, model, it)
+        for it in s.shared.latest.signs
+    ):
+        return None
+    plain = set_to(types.record_type("Phrase"), x=types["Ind"] @ shown[0])
+    target = set_to(phrase_at(types.record_type("Asked"), "target"), x=plain["x"])
+    return about(s, set_to(content, target=target), types=types)
+
+
+@rule(answers="Heard")
 def miss_word(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor talks of things by a word that was never learned."""
     said = s.shared.latest
@@ -328,5 +349,11 @@ def _unfitting_phrases(
 
 
 REFERRING = first(
-    refer, cannot_choose, ask_referent, miss_word, miss_second, miss_thing
+    refer,
+    cannot_choose,
+    ask_referent,
+    trust_pointing,
+    miss_word,
+    miss_second,
+    miss_thing,
 )

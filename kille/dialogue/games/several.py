@@ -31,7 +31,7 @@ from kille.dialogue.moves import content_of, issue, number_field, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at, thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Model, Record, RecordType, record, rectype, replace
+from ttr import Model, Record, RecordType, RecType, record, rectype, replace
 from ttr.updates import first
 
 EVERY, ONLY = "AskEvery", "AskOnly"
@@ -236,6 +236,33 @@ def need_single(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "NeedSingle", types=types)
 
 
+@rule(answers="InstructSeveral")
+def ask_single(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> tuple[Record, Model] | None:
+    """One thing is called by a noun without a singular: "These are scissors."."""
+    sign = _noun(s)
+    if len(s.view.things) != 1 or " " not in sign.article:
+        return None
+    content = said_of(s, sign, s.view.things[0], types=types)
+    move, model = model.create(
+        set_to(
+            types.move_type("Heard", "Instruct"),
+            text=types["Text"] @ s.shared.latest.text,
+            signs=types.record_type("Heard")["signs"] @ (sign,),
+            content=RecType @ content,
+        )
+    )
+    asks = [issue("AskMeant", [move])]
+    return plan(s, "AskMeant", content, signs=[sign], asks=asks, types=types), model
+
+
+@rule(answers="Generalise")
+def need_instance(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor says how all of a kind are: it learns that from one that it sees."""
+    return plan(s, "NeedInstance", _noun(s).meaning, signs=[_noun(s)], types=types)
+
+
 @rule(answers="AskPlaces")
 def miss_several(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks where things are, by a word that was never learned."""
@@ -325,7 +352,9 @@ SEVERAL = first(
     ask_only,
     learn_only,
     see_none,
+    ask_single,
     need_single,
+    need_instance,
     miss_several,
     tell_places,
     miss_them,

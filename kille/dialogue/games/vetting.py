@@ -11,12 +11,19 @@ from __future__ import annotations
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.games.doubling import BOTH
-from kille.dialogue.meanings import CLAIMS, DialogueTypes, claims, is_denial, set_to
+from kille.dialogue.meanings import (
+    CLAIMS,
+    DialogueTypes,
+    claims,
+    is_denial,
+    set_to,
+    single_claims,
+)
 from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import in_view
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from kille.dialogue.word_lists import DOUBTFUL, PARTIAL, SAYING
+from kille.dialogue.word_lists import CUT_OFF, DOUBTFUL, NAME, PARTIAL, SAYING
 from ttr import Model, Record, RecType, rectype, replace
 from ttr.updates import first
 
@@ -38,9 +45,34 @@ def ask_meant(s: Record, *, types: DialogueTypes) -> Record | None:
     said = s.shared.latest
     if said.doubt != PARTIAL or ("look" in said.content and not s.view.things):
         return None
-    content = in_view(s, said.content, types=types)
+    told = single_claims(said.content)[0]
+    content = in_view(s, told, types=types)
     asked = issue(MEANT, [replace(said, content=content, doubt="")])
-    return plan(s, MEANT, said.content, signs=said.signs, asks=[asked], types=types)
+    return plan(
+        s,
+        MEANT,
+        told,
+        signs=said.signs,
+        pending=s.shared.pending,
+        asks=[asked],
+        types=types,
+    )
+
+
+@rule(answers="Doubted")
+def tell_names(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says the name of one thing or person: it learns words for kinds."""
+    if s.shared.latest.doubt != NAME or _doubted_sign(s) is None:
+        return None
+    return plan(s, "TellNames", types=types)
+
+
+@rule(answers="Doubted")
+def ask_whole(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor breaks off in the middle of a word: it asks for all of it."""
+    if s.shared.latest.doubt != CUT_OFF or _doubted_sign(s) is None:
+        return None
+    return plan(s, "AskWhole", types=types)
 
 
 @rule(answers="Doubted")
@@ -68,8 +100,32 @@ def ask_kind(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     if sign.kind == "adjective":
         named, model = _as_naming(options[0], sign, model, types=types)
         options = [named, *options]
+        if any("c" in it for it in s.shared.pending):
+            return _ask_name(s, named, types=types), model
     asked = issue(KIND, options)
-    return plan(s, KIND, sign.meaning, signs=[sign], asks=[asked], types=types), model
+    question = plan(
+        s,
+        KIND,
+        sign.meaning,
+        signs=[sign],
+        pending=s.shared.pending,
+        asks=[asked],
+        types=types,
+    )
+    return question, model
+
+
+def _ask_name(s: Record, named: Record, *, types: DialogueTypes) -> Record:
+    """The plan to ask whether a thing that it has named is called by this noun."""
+    return plan(
+        s,
+        MEANT,
+        named.content,
+        signs=named.signs,
+        pending=s.shared.pending,
+        asks=[issue(MEANT, [named])],
+        types=types,
+    )
 
 
 @rule(answers="Affirm")
@@ -151,6 +207,6 @@ def _as_naming(
     return model.create(move)
 
 
-VETTING = first(ask_meant, take_as_remark, ask_kind)
+VETTING = first(ask_meant, tell_names, ask_whole, take_as_remark, ask_kind)
 VETTED = first(take_vetted, ask_how, let_be, let_go)
 """What answers the questions that vetting asks, or takes the lesson back."""

@@ -44,6 +44,20 @@ def move(robot: Agent) -> Record:
     return said.sit
 
 
+def test_a_lesson_learned_from_a_yes_is_what_was_said_first(robot: Agent) -> None:
+    assert robot.hear("I have brought you a mug today.").startswith("Do you mean")
+    assert robot.hear("Yes.") == "Is it both a cup and a mug?"
+    robot.hear("Yes.")
+    assert '("I have brought you a mug today.")' in robot.hear("Why is this a mug?")
+
+
+def test_a_lesson_that_confirms_a_claim_is_the_yes(robot: Agent) -> None:
+    robot.hear("What is this?")
+    robot.hear("Yes.")
+    [lesson] = robot.memory.lessons()[-1:]
+    assert lesson.turn.text == "Yes."
+
+
 def test_a_reason_goes_back_to_its_lesson(robot: Agent, clock: Clock) -> None:
     clock.now += timedelta(minutes=2)
     answer = robot.hear("Why is this a cup?")

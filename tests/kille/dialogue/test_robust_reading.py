@@ -27,7 +27,10 @@ from kille.dialogue.tutoring import hear_sentences
 from kille.dialogue.word_lists import word_lists
 
 HERE = Path(__file__).parent
-MARKS = {"": "", "partial": "?", "saying": "!", "remark": "!", "doubtful": "~"}
+MARKS = {
+    "": "", "partial": "?", "saying": "!", "remark": "!", "doubtful": "~", "name": "@",
+    "cut off": "-",
+}  # fmt: skip
 KNOWN = {
     "en": frozenset({"cup", "mug", "red", "blue", "box", "book"}),
     "sv": frozenset({"kopp", "mugg", "röd", "blå", "låda", "bok"}),

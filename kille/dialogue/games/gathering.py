@@ -1,0 +1,147 @@
+"""Several lessons in one breath: the robot asks about all of them, and learns them.
+
+"Cup on the left, book on the right." – "Do you mean that the one on the left is a cup?
+And that the one on the right is a book?" One yes teaches both. Where nobody has said
+which thing is which, and there are as many as words, they are taken from left to right.
+A content has the further claims under the label `also`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from kille.dialogue.commitments import plan_learning
+from kille.dialogue.games.distinguishing import say_where
+from kille.dialogue.games.referring import about
+from kille.dialogue.games.vetting import MEANT
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    is_denial,
+    set_to,
+    single_claims,
+)
+from kille.dialogue.moves import content_of, issue, plan
+from kille.dialogue.reference import (
+    across,
+    intended_readings,
+    phrase_at,
+    phrases,
+    possible_readings,
+    thing_at,
+)
+from kille.dialogue.rules import rule
+from kille.dialogue.word_lists import PARTIAL
+from ttr import Model, Record, RecordType, replace
+
+MEANT_TOO = "AskMeantToo"
+"""What it asks besides, of what the tutor has said in the same breath."""
+
+UNMARKED = {"x", "look", "d"}
+"""The labels of a phrase that describes no thing, such as "this"."""
+
+
+@rule(answers="Doubted")
+def ask_together(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """The tutor has said several things at once: it asks whether all of it is meant."""
+    said = s.shared.latest
+    told = single_claims(said.content)
+    if said.doubt != PARTIAL or len(told) < 2 or not s.view.things:
+        return None
+    meant = _set_to_things(s, model, told, types=types)
+    if not meant:
+        return None
+    options = [replace(said, content=it, doubt="") for it in meant]
+    asked = s
+    for n, content in enumerate(meant):
+        again = n > 0 and thing_at(content, "target") == thing_at(meant[0], "target")
+        asked = plan(
+            asked,
+            MEANT_TOO if n else MEANT,
+            _shown(s, model, content, again=again, types=types),
+            signs=said.signs,
+            asks=() if n else [issue(MEANT, options)],
+            types=types,
+        )
+    return asked
+
+
+@rule(answers="Affirm")
+def learn_together(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor means all of it: all of it is learned."""
+    if not s.shared.qud or s.shared.qud[0].ask != MEANT:
+        return None
+    asked, *rest = s.shared.qud
+    if len(asked.options) < 2:
+        return None
+    learned = replace(s, {"shared.qud": rest})
+    for option in asked.options:
+        now = {"shared.latest": option}
+        learned = about(replace(learned, now), option.content, types=types)
+        learned = plan_learning(learned, content_of(learned), types=types)
+    return learned
+
+
+def _set_to_things(
+    s: Record, model: Model, told: Sequence[RecordType], *, types: DialogueTypes
+) -> list[RecordType]:
+    """The claims, each set to its thing; none if it is open which things are meant."""
+    found: list[RecordType] = []
+    state = s
+    for content in told:
+        open_ = possible_readings(state, model, content, types=types)
+        meant = intended_readings(state, open_, types=types)
+        if phrases(content) and len(meant) != 1:
+            break
+        found.append(meant[0].content if phrases(content) else content)
+        state = about(state, found[-1], types=types)
+    things = {thing_at(it, "target") for it in found}
+    unmarked = all(_is_unmarked(it) for it in told)
+    if len(found) == len(told) and not (unmarked and len(things) < len(s.view.things)):
+        return found
+    if not unmarked or len(told) != len(s.view.things):
+        return found if len(found) == len(told) else []
+    in_order = across(s, model, s.view.things, types=types)
+    return [
+        _set_to_thing(s, it, x, types=types)
+        for it, x in zip(told, in_order, strict=True)
+    ]
+
+
+def _is_unmarked(content: RecordType) -> bool:
+    """Whether a claim names its thing, and does not say which one it is."""
+    if "c" not in content or is_denial(content) or not phrases(content):
+        return False
+    return set(phrase_at(content, "target").labels) <= UNMARKED
+
+
+def _set_to_thing(
+    s: Record, content: RecordType, x: str, *, types: DialogueTypes
+) -> RecordType:
+    """The claim about a thing, called by nothing."""
+    phrase = set_to(types.record_type("Phrase"), x=types["Ind"] @ x)
+    look = types["Look"] @ s.view.look
+    return set_to(content, look=look, target=set_to(phrase, look=look))
+
+
+def _shown(
+    s: Record,
+    model: Model,
+    content: RecordType,
+    *,
+    again: bool,
+    types: DialogueTypes,
+) -> RecordType:
+    """The claim as the robot asks about it: with the place of its thing."""
+    fields = say_where(s, model, content, types=types)
+    if fields:
+        return set_to(content, **fields)
+    if not again:
+        return content
+    target = phrase_at(types.record_type("Asked"), "target")
+    it = set_to(types.record_type("It"), **dict(target.fields))
+    return set_to(content, target=it)
+
+
+GATHERING = ask_together
+GATHERED = learn_together
+"""What answers whether all of it is meant."""

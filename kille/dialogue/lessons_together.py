@@ -1,0 +1,182 @@
+"""Lessons that are said in one breath: joined to one move, doubted, and filled in.
+
+"A pen, and this is a pencil." makes two claims; the robot asks about them together.
+"The left one is a cup, the right one isn't." leaves out what the second one claims.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from kille.dialogue.language import Sentence, Utterance
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    denial,
+    is_denial,
+    join_claims,
+    merge_of,
+    predicate_at,
+    set_to,
+    value_at,
+)
+from kille.dialogue.word_lists import PARTIAL
+from ttr import Record, RecordType, RecType
+
+TOGETHER = ("instruct", "describe", "reject")
+"""The lessons that are asked about together with others."""
+
+MOST = 3
+"""How many lessons are asked about together, at most."""
+
+
+def doubt_lesson(said: Sentence, doubt: str, *, types: DialogueTypes) -> Sentence:
+    """The lesson, which is asked about before it is learned."""
+    text = types["Text"] @ doubt
+    readings = (
+        Utterance(
+            it.text, it.type if "doubt" in it.type else set_to(it.type, doubt=text)
+        )
+        for it in said.readings
+    )
+    return Sentence(said.text, tuple(readings), said.weights, said.adds)
+
+
+def correct_lesson(said: Sentence, *, types: DialogueTypes) -> Sentence:
+    """The lesson as a correction, if it says what a thing is, or how."""
+    corrects = types.record_type("Correct")["e"]
+    readings = (
+        Utterance(it.text, set_to(it.type, e=corrects))
+        if predicate_at(it.type, "e").name in ("instruct", "describe", "relate")
+        else it
+        for it in said.readings
+    )
+    return Sentence(said.text, tuple(readings), said.weights, said.adds)
+
+
+def join_lessons(
+    asked: Sequence[Sentence], *, types: DialogueTypes
+) -> tuple[Sentence, ...]:
+    """The first of the doubted lessons, joined with what the others claim."""
+    if not asked:
+        return ()
+    first, *others = asked
+    forms = {_form(first.readings[0])}
+    joined = [it for it in others if _may_be_joined(it)]
+    joined = joined if _may_be_joined(first) else []
+    more: list[Utterance] = []
+    for it in joined:
+        best = it.readings[0]
+        new = _form(best) not in forms or "d" not in str(best.content.get("target"))
+        if new and len(more) < MOST - 1:
+            forms.add(_form(best))
+            more.append(best)
+    if not more:
+        return (first,)
+    text = " ".join(dict.fromkeys((first.text, *(it.text for it in more))))
+    readings = tuple(
+        Utterance(text, _join(it, more, text, types))
+        for it in first.readings
+        if _is_partial(it)
+    )
+    return (Sentence(text, readings),)
+
+
+def _join(
+    first: Utterance, others: Iterable[Utterance], text: str, types: DialogueTypes
+) -> RecordType:
+    """The type of saying several things at once."""
+    signs = dict.fromkeys((*first.signs, *(sign for it in others for sign in it.signs)))
+    content = join_claims(first.content, *(it.content for it in others))
+    return set_to(
+        first.type,
+        text=types["Text"] @ text,
+        signs=types.record_type("Heard")["signs"] @ tuple(signs),
+        content=RecType @ content,
+    )
+
+
+def _form(reading: Utterance) -> str:
+    """The word of a lesson, however it is said of its thing."""
+    return next((it.form for it in reading.signs if claims(reading.content, it)), "")
+
+
+def _may_be_joined(said: Sentence) -> bool:
+    best = said.readings[0]
+    return _is_partial(best) and predicate_at(best.type, "e").name in TOGETHER
+
+
+def _is_partial(reading: Utterance) -> bool:
+    return "doubt" in reading.type and value_at(reading.type, "doubt") == PARTIAL
+
+
+def fill_from(
+    said: Sentence, before: Sequence[Sentence], *, types: DialogueTypes
+) -> Sentence:
+    """An elliptic claim, filled with what the claim before it says, or with its thing.
+
+    "The other one isn't" says of another thing what was just said, "and soft" of the
+    same thing something else.
+    """
+    told = next(
+        (it.readings[0] for it in reversed(before) if _claims_something(it)), None
+    )
+    if told is None:
+        return Sentence(said.text, ())
+    sign = next(it for it in told.signs if claims(told.content, it))
+    label = "c" if "c" in told.content else "a"
+    readings = []
+    for it in said.readings:
+        if _claims_something(said):
+            same = set_to(it.content, target=told.content["target"])
+            signs = tuple(dict.fromkeys((*told.signs, *it.signs)))
+            readings.append(_with_content(it, same, signs, types))
+            continue
+        denies = predicate_at(it.type, "e").name == "reject"
+        whole = (
+            denial(told.content)
+            if denies is not is_denial(told.content)
+            else told.content
+        )
+        about = merge_of(types.record_type("Asked"), it.content)
+        content = set_to(about, **{label: whole[label]})
+        signs = (*it.signs, sign)
+        readings.append(_with_content(it, content, signs, types))
+    return Sentence(said.text, tuple(readings))
+
+
+def _with_content(
+    said: Utterance,
+    content: RecordType,
+    signs: tuple[Record, ...],
+    types: DialogueTypes,
+) -> Utterance:
+    heard = types.record_type("Heard")
+    move = set_to(said.type, signs=heard["signs"] @ signs, content=RecType @ content)
+    return Utterance(said.text, move)
+
+
+def _claims_something(said: Sentence) -> bool:
+    return bool(said.readings) and bool(
+        {"c", "a"} & set(said.readings[0].content.labels)
+    )
+
+
+def are_about_unmarked_things(
+    moves: Iterable[Sentence], *, types: DialogueTypes
+) -> bool:
+    """Whether several lessons in nouns say "this" or "that", or nothing, of a thing."""
+    names = [
+        it.readings[0].content
+        for it in moves
+        if it.readings and predicate_at(it.readings[0].type, "e").name == "instruct"
+    ]
+    return sum(_is_unmarked(it, types) for it in names) > 1
+
+
+def _is_unmarked(content: RecordType, types: DialogueTypes) -> bool:
+    target = content.get("target")
+    if not isinstance(target, RecordType) or set(target.labels) > {"x", "look", "d"}:
+        return False
+    shown = [types.record_type(it)["d"] for it in ("This", "That")]
+    return "d" not in target or target["d"] in shown
