@@ -79,7 +79,7 @@ class MoveExecutor:
             "undone": undone or move.undone,
             "lost": lost,
             "reasons": [explainer.reason(it, move.signs) for it in move.explains],
-            "recalled": explainer.recall_words(*move.recalls),
+            "recalled": explainer.recall_words(*move.recalls, among=move.signs),
         }
         return replace(move, done), model
 

@@ -34,6 +34,13 @@ _TALKED_OF: dict[Kind, str] = {
 }
 
 
+RECALLED = 12
+"""How many of the latest lessons in a noun are looked at for how things usually are."""
+
+OFTEN = 0.5
+"""From which degree on an adjective counts as true of what was shown."""
+
+
 def sign_of(word: Word, types: DialogueTypes) -> Record:
     """The sign of a word in memory; an adjective may mean one of another language."""
     means = word.name.removeprefix("is_").replace("_", " ")
@@ -112,11 +119,15 @@ class Explainer:
             reminders=[self._reminder(lesson) for lesson in lessons],
         )
 
-    def recall_words(self, *words: Record) -> list[Record]:
+    def recall_words(
+        self, *words: Record, among: Iterable[Record] = ()
+    ) -> list[Record]:
         """In how many lessons each word was said to hold, as `Recalled`.
 
-        For a single word also the words that it was confused with: those that lessons
-        denied in the turns in which it was taught, the most frequent first.
+        For a single word also the latest of these, the words that it was confused with,
+        which are those that lessons denied in the turns in which it was taught, the
+        most frequent first, and those of the adjectives `among` some words that are
+        true of most things that a noun was taught of.
         """
         alone = len(words) == 1
         taught = self._knowledge.memory.counts()
@@ -125,6 +136,8 @@ class Explainer:
                 sign=word,
                 lessons=float(taught.get((KINDS[word.kind], word_of(word).name), 0)),
                 confused=self._confused_words(word) if alone else [],
+                qualities=self._usual_qualities(word, among) if alone else [],
+                reminders=self._latest_of(word) if alone else [],
             )
             for word in words
         ]
@@ -154,6 +167,28 @@ class Explainer:
             if not it.holds and it.word.kind == KINDS[word.kind] and _turn(it) in taught
         )
         return [other for other, _ in denied.most_common()]
+
+    def _latest_of(self, word: Record) -> list[Record]:
+        """The latest lesson in which a word was said to hold."""
+        lessons = (self._knowledge.memory.lesson(it) for it in self._keys(word))
+        held = [it for it in lessons if it.holds]
+        return [self._reminder(it) for it in held[-1:]]
+
+    def _usual_qualities(self, noun: Record, among: Iterable[Record]) -> list[Record]:
+        """The adjectives that are true of most things that a noun was taught of."""
+        adjectives = [it for it in among if it.kind == "adjective"]
+        if noun.kind != "noun" or not adjectives:
+            return []
+        keys = self._keys(noun)[-RECALLED:]
+        degrees = [self._knowledge.qualities_of(it) for it in keys]
+        held = [it for it in degrees if it is not None]
+        found = []
+        for sign in adjectives:
+            name = word_of(sign).name
+            true = sum(it.get(name, 0.0) >= OFTEN for it in held)
+            if held and true > len(held) / 2:
+                found.append((-true, sign.form, sign))
+        return [sign for _, _, sign in sorted(found, key=lambda it: it[:2])][:2]
 
     def _reasons(self, claim: RecordType, word: Record) -> Reasons | None:
         name, look = word_of(word).name, str(value_at(claim, "look"))

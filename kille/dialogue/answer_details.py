@@ -41,9 +41,8 @@ def details(lexicon: Lexicon, move: Record) -> dict[str, str]:
             "when": _when(data["ages"], reminder),
         }
     if move.recalls:
-        slots |= dict(
-            _of_recalled(data, move.recalled or _without_recall(move.recalls))
-        )
+        recalled = move.recalled or _without_recall(move.recalls)
+        slots |= dict(_of_recalled(lexicon, recalled))
         slots["type"] = str(move.content)
     return slots
 
@@ -135,8 +134,9 @@ def _when(ages: Section, reminder: Record) -> str:
 
 
 def _of_recalled(
-    data: Section, recalled: Sequence[Record]
+    lexicon: Lexicon, recalled: Sequence[Record]
 ) -> Iterator[tuple[str, str]]:
+    data = lexicon.sections
     knows = data["knows"]
     most = knows["most"]
     ordered = sorted(recalled, key=lambda it: (-it.lessons, it.sign.form))
@@ -146,6 +146,17 @@ def _of_recalled(
     yield "words", _join_words(data, words)
     if recalled[0].lessons:
         yield "lessons", _lessons(knows, recalled[0].lessons)
+        yield "times", _often(data, recalled[0].lessons)
+    if recalled[0].lessons > 1:
+        yield "often", _often(data, recalled[0].lessons)
+    for reminder in recalled[0].reminders:
+        yield "lesson", _lesson_text(reminder)
+        yield "when", _when(data["ages"], reminder)
+    if recalled[0].qualities:
+        one, often = knows["qualities"]
+        forms = [lexicon.predicative_form(it.form, "") for it in recalled[0].qualities]
+        wording = one if recalled[0].lessons == 1 else often
+        yield "qualities", wording.format(_join_words(data, forms))
     if recalled[0].confused:
         confused = [f'"{it.form}"' for it in recalled[0].confused]
         yield "confused", _join_words(data, confused)
@@ -153,7 +164,10 @@ def _of_recalled(
 
 def _without_recall(words: Iterable[Record]) -> list[Record]:
     """Records of words of which nothing was recalled."""
-    return [record(sign=word, lessons=0.0, confused=[]) for word in words]
+    nothing: dict[str, object] = dict.fromkeys(
+        ("confused", "qualities", "reminders"), ()
+    )
+    return [record(nothing, sign=word, lessons=0.0) for word in words]
 
 
 def _word_with_count(knows: Section, recalled: Record) -> str:
@@ -163,6 +177,15 @@ def _word_with_count(knows: Section, recalled: Record) -> str:
         return form
     lessons = _lessons(knows, recalled.lessons)
     return str(knows["word"].format(word=form, lessons=lessons))
+
+
+def _often(data: Section, count: float) -> str:
+    """How often something was: once, twice, three times."""
+    wordings = data["knows"]["often"]
+    numbers = data["listing"]["numbers"]
+    n = int(count)
+    number = numbers[n - 1] if n <= len(numbers) else str(n)
+    return str(wordings[min(n, len(wordings)) - 1]).format(n=number)
 
 
 def _lessons(knows: Section, count: float) -> str:

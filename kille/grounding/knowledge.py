@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Protocol, Self
 
 import numpy as np
 
+from kille.dialogue.meanings import predicate_name
 from kille.grounding.generics import Generic, Generics
 from kille.grounding.reasons import Reasons, Share, best_rival, shares_of
 from kille.memory import (
@@ -238,6 +239,27 @@ class Knowledge:
             self.memory.forget_word(kind, name)
             self._forget(*lessons)
         return keys
+
+    def qualities_of(self, key: int) -> Mapping[str, float] | None:
+        """How probably each adjective is true of what a lesson in a noun showed.
+
+        None for a lesson that denies its noun, or of which no picture was kept.
+        """
+        lesson = self.memory.lesson(key)
+        if not isinstance(lesson, ObjectLesson) or not lesson.holds:
+            return None
+        picture = self.memory.picture(key)
+        if picture is None or picture.crop is None:
+            return None
+        try:
+            palette = colours_of(*restore_crop(picture.crop))
+        except ValueError:
+            return None
+        named = {} if palette is None else self.colours.degrees(palette)
+        return {
+            **self.attributes.degrees(_of_cues(lesson.seen.traits)),
+            **{f"{SAID_OF_THINGS}{predicate_name(it)}": p for it, p in named.items()},
+        }
 
     # --- why -------------------------------------------------------------------------
 

@@ -1,24 +1,32 @@
-"""How many cups are there? The robot counts, and says which ones it is not sure of."""
+"""How many cups are there? The robot counts, and says which ones it is not sure of.
+
+Whether all of them are red it answers by how many are.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from kille.dialogue.beliefs import knows
 from kille.dialogue.games.surveying import in_view
-from kille.dialogue.meanings import DialogueTypes, mentions
-from kille.dialogue.moves import content_of, plan
-from kille.dialogue.reference import PhraseJudge, phrase_at
+from kille.dialogue.meanings import DialogueTypes, mentions, set_to
+from kille.dialogue.moves import content_of, number_field, plan
+from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, record
 from ttr.updates import first
 
 
-@rule(answers="AskCount")
+@rule(answers=("AskCount", "AskAll"))
 def miss_counted(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The tutor asks how many there are of what was never learned."""
-    counted = phrase_at(content_of(s), "counted")
+    """The tutor asks how many there are, or if all are, by a word never learned."""
+    content = content_of(s)
+    asked = [phrase_at(content, it) for it in ("counted", "among") if it in content]
     for sign in s.shared.latest.signs:
-        if mentions(counted, sign) and not knows(words(s), sign):
+        if knows(words(s), sign):
+            continue
+        if any(mentions(it, sign) for it in asked):
             act = f"Unknown{sign.kind.capitalize()}"
             return plan(s, act, sign.meaning, signs=[sign], types=types)
     return None
@@ -42,4 +50,30 @@ def count(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     return plan(s, "TellCount", content, signs=s.shared.latest.signs, types=types)
 
 
-COUNTING = first(miss_counted, count)
+@rule(answers="AskAll")
+def count_all(s: Record, *, model: Model, types: DialogueTypes) -> Record:
+    """The tutor asks if something is so of all: it says of how many it is."""
+    content, bands = content_of(s), s.private.strategy.bands
+    judge = PhraseJudge(s, model, types=types)
+    things: Sequence[str] = s.view.things
+    if "among" in content:
+        things = fits_well(s, judge.fits(phrase_at(content, "among")))
+    if not things:
+        return plan(s, "SeeNothing", types=types)
+    fits = judge.fits(phrase_at(content, "counted"), things)
+    sure = [x for x in things if x in fits and fits[x].weakest >= bands.sure]
+    unlikely = [x for x in things if x not in fits or fits[x].weakest < bands.likely]
+    if len(sure) + len(unlikely) < len(things):
+        return plan(s, "AdmitWhether", types=types)
+    act = "SayOnly" if sure else "SayNone"
+    if not unlikely:
+        act = {1: "SaySingle", 2: "SayBoth"}.get(len(things), "SayAll")
+    sign = record(meaning=phrase_at(content, "counted"))
+    seen = [record(sit=record(x=x), sign=sign, p=1.0) for x in sure]
+    told = in_view(s, seen, (), (), types=types)
+    if len(sure) == 1:
+        told = set_to(told, **number_field(s, sure[0], types=types))
+    return plan(s, act, told, points=sure[:1], types=types)
+
+
+COUNTING = first(miss_counted, count, count_all)

@@ -43,7 +43,7 @@ def know_nothing(s: Record, *, types: DialogueTypes) -> Record:
 
 @rule(answers="AskMeaning")
 def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The tutor asks what a word means: it says the type, and what it was told."""
+    """The tutor asks what a word means: of what it learned it, and what it was told."""
     known = {word_of(sign): sign for sign in words(s)}
     for said in s.shared.latest.signs:
         sign = known.get(word_of(said))
@@ -54,7 +54,7 @@ def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
                 s,
                 act,
                 meaning,
-                signs=[sign],
+                signs=[sign, *s.private.adjectives],
                 recalls=[sign],
                 pending=claims,
                 types=types,
@@ -63,9 +63,11 @@ def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
     return None
 
 
-@rule(answers="AskMeaning")
+@rule(answers=("AskMeaning", "AskTaught"))
 def miss_meaning(s: Record, *, types: DialogueTypes) -> Record:
     """The word was never learned."""
+    if not s.shared.latest.signs:
+        return plan(s, "KnowNothing", types=types)
     sign = s.shared.latest.signs[0]
     act = f"Unknown{sign.kind.capitalize()}"
     return plan(
@@ -73,4 +75,28 @@ def miss_meaning(s: Record, *, types: DialogueTypes) -> Record:
     )
 
 
-KNOWING = first(tell_words, know_nothing, tell_meaning, miss_meaning)
+@rule(answers="AskTaught")
+def tell_taught(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor asks if or when a word was taught: it recalls the latest lesson.
+
+    Of no word in particular, it is the word of the latest lesson of this dialogue.
+    """
+    known = {word_of(sign): sign for sign in words(s)}
+    said = s.shared.latest.signs or [it.sign for it in s.private.lessons[-1:]]
+    for sign in said:
+        if word_of(sign) not in known:
+            continue
+        sign, claims = known[word_of(sign)], s.shared.pending
+        return plan(
+            s,
+            "TellTaught",
+            sign.meaning,
+            signs=[sign],
+            recalls=[sign],
+            pending=claims,
+            types=types,
+        )
+    return None
+
+
+KNOWING = first(tell_words, know_nothing, tell_meaning, tell_taught, miss_meaning)

@@ -246,7 +246,15 @@ def _latest_lessons(model: Model, count: int) -> list[Record]:
 
 
 def _recollection(model: Model, sign: Record) -> Record:
-    return record(sign=sign, lessons=float(len(keys_of(model, sign))), confused=[])
+    found = word(model, word_of(sign))
+    lessons = [] if found is None else [it for it in found.lessons if it.holds]
+    return record(
+        sign=sign,
+        lessons=float(len(keys_of(model, sign))),
+        confused=[],
+        qualities=[],
+        reminders=[_reminder(sign, it) for it in lessons[-1:]],
+    )
 
 
 def _reason(model: Model, claim: RecordType) -> Record:

@@ -38,6 +38,9 @@ REMINDER = record(
 
 CUES = [("paint", 0.4), ("form", 0.3), ("size", 0.2), ("hue", 0.1)]
 
+MORE: dict[str, Any] = {"qualities": [], "reminders": []}
+"""What is recalled of a word besides."""
+
 
 def reasoning(planned: TypeNode, model: Model) -> tuple[Record, Model]:
     """A body that has reasons, and counts lessons."""
@@ -47,7 +50,9 @@ def reasoning(planned: TypeNode, model: Model) -> tuple[Record, Model]:
         record(claim=claim, p=0.87, cues=cues, reminders=[REMINDER])
         for claim in move.explains
     ]
-    recalled = [record(sign=it, lessons=2.0, confused=[]) for it in move.recalls]
+    recalled = [
+        record(sign=it, lessons=2.0, **MORE, confused=[]) for it in move.recalls
+    ]
     return replace(move, {"reasons": reasons, "recalled": recalled}), model
 
 
@@ -211,7 +216,7 @@ def test_what_it_knows_best_comes_first_and_what_nobody_taught_has_no_count(
     def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
         move, model = model.create(planned)
         counted = [
-            record(sign=it, lessons=lessons[it.form], confused=[])
+            record(sign=it, lessons=lessons[it.form], **MORE, confused=[])
             for it in move.recalls
         ]
         return replace(move, {"recalled": counted}), model
@@ -241,14 +246,50 @@ def test_of_many_words_some_are_named(scene: Callable[..., Any]) -> None:
     ],
 )
 def test_what_a_word_means_is_a_type(table: Any, text: str, meaning: object) -> None:
-    assert str(meaning) in table.hear(text)
+    table.hear(text)
+    [said] = table.state.private.last
+    assert str(meaning) in str(said["content"].value)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("What is a cup?", "A cup is what you showed me twice."),
+        ("What does behind mean?", '"behind" says how two things stand; you showed me'),
+        ("Have you seen a cup before?", "You have not shown me that."),
+        ("Have you ever seen a unicorn?", "I have not learned what a unicorn is."),
+    ],
+)
+def test_what_a_word_means_is_said_in_words(table: Any, text: str, told: str) -> None:
+    assert table.hear(text).startswith(told)
+
+
+def test_when_a_word_was_taught(scene: Callable[..., Any]) -> None:
+    def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
+        move, model = model.create(planned)
+        recalled = [
+            record(
+                sign=it, lessons=3.0, confused=[], qualities=[], reminders=[REMINDER]
+            )
+            for it in move.recalls
+        ]
+        return replace(move, {"recalled": recalled}), model
+
+    robot = scene(1, nouns=["cup"], act=act)
+    said = robot.hear("When did I show you a cup?")
+    assert said.startswith("You showed me a cup three times, the last time ")
+    assert robot.hear("What was the last thing I taught you?") == (
+        "I do not know any words yet."
+    )
+    robot.hear("This is a cup.")
+    assert robot.hear("What was the last thing I taught you?") == said
 
 
 @pytest.mark.parametrize(
     ("confused", "told"),
     [
-        ([], "I learned it in 2 lessons."),
-        (["mug"], 'I learned it in 2 lessons, and I may take it for "mug".'),
+        ([], "is what you showed me twice."),
+        (["mug"], 'is what you showed me twice. I may take it for "mug".'),
         (["mug", "bowl"], 'I may take it for "mug" and "bowl".'),
     ],
 )
@@ -259,7 +300,7 @@ def test_what_it_may_take_a_word_for(
         move, model = model.create(planned)
         others = list(map(noun, confused))
         recalled = [
-            record(sign=it, lessons=2.0, confused=others) for it in move.recalls
+            record(sign=it, lessons=2.0, **MORE, confused=others) for it in move.recalls
         ]
         return replace(move, {"recalled": recalled}), model
 

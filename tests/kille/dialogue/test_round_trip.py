@@ -111,6 +111,9 @@ TOLD_BESIDES = {
     "words": "recalled",
     "lessons": "recalled",
     "confused": "confused",
+    "times": "recalled",
+    "often": "recalled",
+    "qualities": "recalled",
     "type": "recalled",
     "lost": "lost",
 }
@@ -156,8 +159,15 @@ def besides(
     reason = record(claim=Rec, p=0.8, cues=shares, reminders=reminders)
     confused = [noun("mug"), noun("bowl")] if "confused" in told else []
     lessons = chance.choice([1.0, 2.0, 17.0]) if {"lessons", "words"} & slots else 0.0
-    known = [record(sign=sign, lessons=lessons, confused=confused)]
-    known += [record(sign=noun("bowl"), lessons=1.0, confused=[])] * ("words" in slots)
+    several = {"often": 3.0, "times": 1.0}
+    lessons = next((several[it] for it in several if it in slots), lessons)
+    rest = {
+        "qualities": [sign] if "qualities" in slots else [],
+        "reminders": [reminder] if "when" in slots else [],
+    }
+    known = [record(rest, sign=sign, lessons=lessons, confused=confused)]
+    bowl = record(rest, sign=noun("bowl"), lessons=1.0, confused=[])
+    known += [bowl] * ("words" in slots)
     rival = {"rival_degree", "distance"} & slots
     asked = "cues" in slots or "reminder" in told
     return {
@@ -230,6 +240,7 @@ TOLD_OF = {
     "tell_part": "Asked",
     "take_frame": "ByLandmark",
     "ask_meaning": "Word",
+    "ask_taught": "Word",
     "forget_word": "Word",
 }
 """What else the content of a tutor's move says; Word: that the word itself is meant."""
