@@ -28,7 +28,7 @@ def phrase(lexicon: Lexicon, part: RecordType, words: Words, style: str) -> str 
     nouns = [it for it in _predicates(part, "c") if it in words]
     own = [words[it] for it in _predicates(part, "a") if it in words]
     talk = [it.name for it in _discourse(part)]
-    beside = _beside(lexicon, part, words)
+    beside = place_words(lexicon, part, words)
     marking = [name for name in talk if name in lexicon.marking]
     alone = [lexicon.referring[name] for name in talk if name in lexicon.referring]
     if not (nouns or own or marking or alone or beside):
@@ -103,14 +103,30 @@ def _indefinite(lexicon: Lexicon, noun: Record | None, first: str) -> str:
     return own
 
 
-def _beside(lexicon: Lexicon, part: RecordType, words: Words) -> str | None:
+def place_words(lexicon: Lexicon, part: RecordType, words: Words) -> str | None:
     """The words of a phrase for where its thing is."""
     landmark = part.get("landmark")
+    if "b" in part and isinstance(landmark, RecordType):
+        return _between(lexicon, landmark, words)
     relation = next((it for it in _predicates(part, "rel") if it in words), None)
     if relation is None or not isinstance(landmark, RecordType):
         return None
     named = phrase(lexicon, landmark, words, "definite")
     return f"{words[relation].form} {named}" if named else None
+
+
+def _between(lexicon: Lexicon, flank: RecordType, words: Words) -> str | None:
+    """The words for being between two things, as far as there are any."""
+    other = flank.get("landmark")
+    listing = lexicon.sections["listing"]
+    one = phrase(lexicon, flank, words, "definite")
+    two = None
+    if isinstance(other, RecordType):
+        two = phrase(lexicon, other, words, "definite")
+    if one and two:
+        return str(listing["amid"].format(one, two))
+    several = phrase(lexicon, flank, words, "counted")
+    return str(listing["amid_both"].format(several)) if several else None
 
 
 def claimed_predicates(field: TypeNode | None) -> Iterator[Pred]:

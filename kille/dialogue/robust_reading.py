@@ -61,9 +61,8 @@ STRICT = frozenset(
     {
         "mention",
         "take_frame",
-        "about_name",
-        "about_quality",
-        "about_place",
+        "about",
+        "about_where",
         "ask_repeat",
         "forget_that",
         "forget_last",
@@ -159,7 +158,7 @@ class Situation(NamedTuple):
     asks_name: bool = False
     """The robot has asked what a thing is."""
     asked: str = "name"
-    """What the tutor has asked of a thing last: its name, quality or place."""
+    """What the tutor has asked of a thing last: its name or quality."""
     asks_which: bool = False
     """It has asked which thing is meant."""
     asks_whether: bool = False
@@ -172,6 +171,8 @@ class Situation(NamedTuple):
     """Those of them that say how things are."""
     points: bool = False
     """The tutor points at something."""
+    colours: frozenset[str] = frozenset()
+    """Those of them that say of what colour things are."""
 
 
 class Understanding(NamedTuple):
@@ -309,6 +310,7 @@ def situation_of(s: Record) -> Situation:
         known=frozenset(it.form for it in words_in(s)),
         qualities=frozenset(it.form for it in s.private.adjectives),
         points=bool(s.view.pointed),
+        colours=frozenset(it.form for it in s.private.colours),
     )
 
 
@@ -317,12 +319,8 @@ ANSWERS = {
         "assert_quality", "hedge_quality", "guess_quality", "doubt_quality",
         "admit_quality",
     },
-    "place": {
-        "assert_place", "hedge_place", "guess_place", "doubt_place", "admit_place",
-        "need_landmark",
-    },
 }  # fmt: skip
-"""What the robot says to a question for a quality or a place."""
+"""What the robot says to a question for a quality."""
 
 ASKING_NAME = frozenset({"admit_name", "ask_thing", "ask_again", "ask_which"})
 """What the robot says when it wants to be told what a thing is."""
@@ -667,14 +665,22 @@ def _weight(situation: Situation, is_question: bool, tree: Tree) -> float:
         case "presumed":
             new = any(it not in situation.known for it in _new_words(move))
             return weight * (0.05 if new else 0.0)
-        case "about_name" | "about_quality" | "about_place":
-            return weight * (1.0 if rule == f"about_{situation.asked}" else 0.1)
+        case "about" if _has_part(move, "it"):
+            return 0.0
+        case "about":
+            return weight * (0.02 if situation.asks_which else 0.9)
+        case "about_where":
+            known = all(it in situation.known for it in _new_words(move))
+            return weight * (0.9 if known or len(parts(move)) > 1 else 0.0)
         case "okay" if situation.asks_whether:
             return weight * 0.9
         case "ask_deed" | "count_sort":
             return weight * 0.5
         case "choice":
             return weight * 2.0
+        case "choice_colour":
+            named = all(it in situation.colours for it in _new_words(parts(move)[1]))
+            return weight * (2.0 if named else 0.0)
         case "instruct" if len(parts(move)) == 1:
             return weight * 0.6
     return weight
@@ -687,6 +693,11 @@ def _new_words(tree: Tree) -> Iterable[str]:
             yield from _new_words(child)
         elif child.terminal not in ("A", "PREP", "OF", "SIDE", "ARTICLE"):
             yield child.text.lower()
+
+
+def _has_part(tree: Tree, rule: str) -> bool:
+    """Whether a part, or a part of it, is made by a rule."""
+    return any(it.rule == rule or _has_part(it, rule) for it in parts(tree))
 
 
 def _is_fallback(cover: Cover) -> bool:

@@ -16,7 +16,13 @@ from zlib import crc32
 from kille.dialogue.answer_details import details
 from kille.dialogue.lexicon import Lexicon, Wordings
 from kille.dialogue.meanings import DialogueTypes, word_of
-from kille.dialogue.phrases import Words, claimed_predicates, noun_phrase, phrase
+from kille.dialogue.phrases import (
+    Words,
+    claimed_predicates,
+    noun_phrase,
+    phrase,
+    place_words,
+)
 from kille.dialogue.sentence_suggestions import suggest_sentence
 from kille.dialogue.view_lists import either, list_slots
 from kille.dialogue.word_lists import plain_text
@@ -145,6 +151,10 @@ def _slots(
         sign = next((it for it in words.values() if it.meaning is field), None)
         if sign is not None and label not in (*_PARTS, *lexicon.styles):
             yield from _forms(lexicon, label, sign)
+        elif label == "amid" and isinstance(field, RecordType):
+            between = place_words(lexicon, field, words)
+            if between is not None:
+                yield label, between
         elif isinstance(field, RecordType):
             yield from _phrase_slots(lexicon, label, field, words)
         elif isinstance(field, Singleton) and isinstance(

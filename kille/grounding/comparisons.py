@@ -27,6 +27,7 @@ SIZES_APART = 0.12
 PLACES_APART = 0.03
 """The deviation of the difference of two distances that are the same, in metres."""
 
+_ASIDE, _ASIDE_APART = 0.35, 0.1  # of the distance: how far off the line is between
 _LEAST_POINTS = 20
 _ENDS = (2, 98)  # percentiles: what is farther out is noise
 _FLATTEST = 0.004  # metres: what is flatter is not told to be
@@ -123,6 +124,29 @@ def superlative_degree(
     ]
     sign = SUPERLATIVES[word]
     return min((_normal(sign * it / PLACES_APART) for it in others), default=1.0)
+
+
+def degree_between(x: Point, one: Point, other: Point) -> float:
+    """How probably a thing is between two others, by where they are.
+
+    It is between their places along the line from one to the other, and not farther off
+    it than a third of the way.
+
+    >>> left, right = Point(-0.2, 0.0, 1.0), Point(0.2, 0.0, 1.0)
+    >>> round(degree_between(Point(0.0, 0.0, 1.02), left, right), 2)
+    1.0
+    >>> round(degree_between(Point(0.3, 0.0, 1.0), left, right), 2)
+    0.0
+    """
+    line = np.subtract(other, one)
+    length = float(np.linalg.norm(line))
+    if length < PLACES_APART:
+        return 0.0
+    to = np.subtract(x, one)
+    along = float(to @ line) / length
+    aside = float(np.linalg.norm(to - along / length * line)) / length
+    ends = min(along, length - along) / PLACES_APART
+    return _normal(ends) * _normal((_ASIDE - aside) / _ASIDE_APART)
 
 
 def _normal(deviations: float) -> float:

@@ -19,6 +19,7 @@ from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
 from kille.grounding.comparisons import (
     COMPARISONS,
     SUPERLATIVES,
+    degree_between,
     degree_of,
     superlative_degree,
 )
@@ -246,6 +247,14 @@ class WitnessFunctions:
             return UNKNOWN
         return degree_of(word, one, other)
 
+    def between(self, x: str, y: str, z: str, handle: str) -> Degree:
+        """The degree of `between(x, y, z, look)`; [0, 1] for unknown places."""
+        seen = [self.percept(it, handle) for it in (x, y, z)]
+        places = [None if it is None else it.region.place for it in seen]
+        if any(it is None for it in places) or len({x, y, z}) < 3:
+            return UNKNOWN
+        return degree_between(*(it for it in places if it is not None))
+
     def in_model(
         self,
         model: Model,
@@ -265,6 +274,7 @@ class WitnessFunctions:
         types = types or packaged_types()
         if types["across"] not in model.facts.functions:
             model = model.witnessed(types["across"], by=self.across)
+            model = model.witnessed(types["between"], by=self.between)
             for name in (*COMPARISONS, *SUPERLATIVES):
                 by = partial(self.comparative, name)
                 model = model.witnessed(types[name], by=by)

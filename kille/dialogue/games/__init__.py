@@ -18,6 +18,7 @@ from kille.dialogue.games.classifying import CLASSIFYING, STILL_ANSWERED
 from kille.dialogue.games.colouring import COLOURING
 from kille.dialogue.games.comparing import COMPARING
 from kille.dialogue.games.confirming import CONFIRMING
+from kille.dialogue.games.continuing import CONTINUING
 from kille.dialogue.games.correcting import CORRECTING
 from kille.dialogue.games.counting import COUNTING
 from kille.dialogue.games.courtesy import COURTESY
@@ -97,7 +98,10 @@ def games_with(*answers: Rule) -> Algorithm:
                 STILL_ANSWERED,
                 SEVERAL_ANSWERED,
                 SETTLING,
-                seq(maybe(CLARIFYING), maybe(first(GATHERING, VETTING, OFFERING))),
+                seq(
+                    maybe(CLARIFYING),
+                    maybe(first(GATHERING, VETTING, CONTINUING, OFFERING)),
+                ),
             ),
             maybe(FRAMING),
             maybe(REFERRING),

@@ -7,7 +7,7 @@ does not decide.
 
 from __future__ import annotations
 
-from kille.dialogue.games.finding import name_thing
+from kille.dialogue.games.placing import name_thing
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -52,7 +52,8 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     if asks_which:
         return _plan(s, "TellMore", swapped, signs, y, types=types)
     if all(_is_called(called, it) for it in ("target", "landmark")):
-        return _plan(s, "SayRather", swapped, signs, y, types=types)
+        rival = denial(called)
+        return plan(s, "SayRather", swapped, rival, signs=signs, types=types)
     return _plan(s, "SayNo", denial(called), signs, x, types=types)
 
 

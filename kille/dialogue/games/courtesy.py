@@ -13,6 +13,7 @@ COURTESY = first(
     reply("Greet", "GreetBack", "A greeting is returned."),
     reply("Thank", "Welcome", "Thanks are acknowledged."),
     reply("Okay", "Noted", "The tutor has taken something in, or lets it be."),
+    reply("AskSelf", "Introduce", "Asked who it is, it says what it does."),
     reply("AskDeed", "TellAbilities", "What it cannot do it says, and what it can."),
     reply("Remark", "TakeAsRemark", "What is said of no thing in view is a remark."),
     reply("NameOne", "TellNames", "It learns words for kinds, not names of one thing."),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import beliefs_about, is_sure, names_of, thinks
-from kille.dialogue.games.placing import landmark_for
-from kille.dialogue.meanings import DialogueTypes, merge_of, set_to
+from kille.dialogue.beliefs import beliefs_about, is_sure
+from kille.dialogue.games.placing import landmark_for, name_thing
+from kille.dialogue.meanings import DialogueTypes, set_to
 from kille.dialogue.moves import (
     content_of,
     nouns_said,
@@ -51,23 +51,6 @@ def plan_pointing(
         s, act, content, signs=signs, pending=claims, points=[x], types=types
     )
     return replace(planned, {"view.focus": (x,), "view.pointed": (x,)})
-
-
-def name_thing(
-    s: Record, model: Model, phrase: RecordType, x: str
-) -> tuple[RecordType, list[Record]]:
-    """The phrase for a thing, with a noun if it has no words: "the biggest one".
-
-    The noun is given as well; where the robot has none worth saying, none is added.
-    """
-    if any(label in phrase for label in ("c", "a", "rel")):
-        return phrase, []
-    names = names_of(s, model, x)
-    if not thinks(s, names):
-        return phrase, []
-    noun = names[0].sign
-    meaning = set_to(noun.meaning, look=phrase["look"], x=phrase["x"])
-    return merge_of(phrase, meaning), [noun]
 
 
 def _where(

@@ -10,10 +10,11 @@ from kille.dialogue.beliefs import (
     relations_of,
     thinks,
 )
-from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.meanings import DialogueTypes, mentions, merge_of, set_to
 from kille.dialogue.moves import content_of, nouns_said, placement, plan
-from kille.dialogue.reference import phrase_at, thing_at
+from kille.dialogue.reference import PhraseJudge, phrase_at, thing_at
 from kille.dialogue.rules import rule
+from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, record, replace
 from ttr.updates import first
 
@@ -83,6 +84,23 @@ def landmark_for(s: Record, model: Model, thing: Record) -> Record | None:
     return best
 
 
+def name_thing(
+    s: Record, model: Model, phrase: RecordType, x: str
+) -> tuple[RecordType, list[Record]]:
+    """The phrase for a thing, with a noun if it has no words: "the biggest one".
+
+    The noun is given as well; where the robot has none worth saying, none is added.
+    """
+    if any(label in phrase for label in ("c", "a", "rel")):
+        return phrase, []
+    names = names_of(s, model, x)
+    if not thinks(s, names):
+        return phrase, []
+    noun = names[0].sign
+    meaning = set_to(noun.meaning, look=phrase["look"], x=phrase["x"])
+    return merge_of(phrase, meaning), [noun]
+
+
 def _plan_place(
     s: Record,
     thing: Record,
@@ -127,4 +145,40 @@ def _plan_place(
     )
 
 
-PLACING = first(say_place, need_place)
+@rule(answers="AskBetween")
+def miss_between(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor asks what is between things by a word that was never learned."""
+    amid = phrase_at(content_of(s), AMID)
+    for sign in s.shared.latest.signs:
+        if mentions(amid, sign) and not knows(words(s), sign):
+            act = f"Unknown{sign.kind.capitalize()}"
+            return plan(s, act, sign.meaning, signs=[sign], types=types)
+    return None
+
+
+@rule(answers="AskBetween")
+def tell_between(s: Record, *, model: Model, types: DialogueTypes) -> Record:
+    """The tutor asks if a thing is between two others: it says if it sees that.
+
+    That is no lesson, and is measured.
+    """
+    content, signs = content_of(s), s.shared.latest.signs
+    x = str(thing_at(content, "target"))
+    if x not in s.view.placed:
+        return plan(s, "NeedDepth", types=types)
+    amid = phrase_at(content, AMID)
+    others = [y for y in s.shared.salient if y != x]
+    judge = PhraseJudge(replace(s, {"shared.salient": others}), model, types=types)
+    fits = judge.fits(amid, [x])
+    likely = s.private.strategy.bands.likely
+    is_so = x in fits and fits[x].weakest >= likely
+    act = "SayBetween" if is_so else "DenyBetween"
+    target, called = name_thing(s, model, phrase_at(content, "target"), x)
+    told = set_to(content, target=target)
+    return plan(s, act, told, signs=[*signs, *called], types=types)
+
+
+AMID = "amid"
+"""The label of the phrase that says between which things a thing is."""
+
+PLACING = first(say_place, need_place, miss_between, tell_between)

@@ -257,12 +257,6 @@ def ask_single(
     return plan(s, "AskMeant", content, signs=[sign], asks=asks, types=types), model
 
 
-@rule(answers="Generalise")
-def need_instance(s: Record, *, types: DialogueTypes) -> Record:
-    """The tutor says how all of a kind are: it learns that from one that it sees."""
-    return plan(s, "NeedInstance", _noun(s).meaning, signs=[_noun(s)], types=types)
-
-
 @rule(answers="AskPlaces")
 def miss_several(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks where things are, by a word that was never learned."""
@@ -354,7 +348,6 @@ SEVERAL = first(
     see_none,
     ask_single,
     need_single,
-    need_instance,
     miss_several,
     tell_places,
     miss_them,

@@ -8,7 +8,7 @@ again for every combination of the others.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TypeVar
 
@@ -23,6 +23,9 @@ Claim = tuple[Pred, tuple[Object, ...]]
 
 THING, LOOK, FRONT, OTHER = ("x",), ("look",), ("frame",), ("landmark", "x")
 """Where a phrase has its thing, the look, the perspective, and what it is beside."""
+
+THIRD = ("landmark", "landmark", "x")
+"""Where it has the second of two things that its thing is between."""
 
 
 @dataclass(frozen=True)
@@ -43,9 +46,14 @@ class PhraseParts:
         """The claims about the thing alone, if it is x."""
         return _ground(self.claims, {THING: x, LOOK: look})
 
-    def said_of_both(self, x: str, y: str, look: str, front: str) -> Iterator[Claim]:
-        """The claims about the thing and its landmark, if they are x and y."""
-        places = {THING: x, OTHER: y, LOOK: look, FRONT: front}
+    def said_of_both(
+        self, x: str, y: str, look: str, front: str, third: str = ""
+    ) -> Iterator[Claim]:
+        """The claims about the thing and its landmark, if they are x and y.
+
+        `third` is the landmark of the landmark, where something is between the two.
+        """
+        places = {THING: x, OTHER: y, LOOK: look, FRONT: front, THIRD: third}
         return _ground(self.relations, places)
 
 
@@ -75,16 +83,30 @@ def take_apart(
     said = [T for _, field in phrase.fields for T in _ptypes(field)]
     plain = [T for T in said if T.pred not in choosing]
     x = phrase["x"]
+    beside = (
+        take_apart(landmark, choosing) if isinstance(landmark, RecordType) else None
+    )
+    if beside is not None and any(_mentions(T, THIRD) for T in plain):
+        beside = _with_second(beside)
     return PhraseParts(
         thing=str(x.value) if isinstance(x, Singleton) else None,
         claims=tuple(T for T in plain if not _mentions(T, OTHER)),
         qualities=frozenset(T.pred for T in _ptypes(phrase.get("a"))),
         relations=tuple(T for T in plain if _mentions(T, OTHER)),
         choices=tuple(T.pred for T in said if T.pred in choosing),
-        landmark=take_apart(landmark, choosing)
-        if isinstance(landmark, RecordType)
-        else None,
+        landmark=beside,
     )
+
+
+def _with_second(flank: PhraseParts) -> PhraseParts:
+    """One of two things that something is between, with the other as its landmark.
+
+    The other is described in the same way if it is not described: "between the cups".
+    """
+    other = flank.landmark
+    if other is None or other.claims or other.choices or other.landmark or other.thing:
+        return flank
+    return replace(flank, landmark=replace(flank, landmark=None))
 
 
 def _ptypes(field: TypeNode | None) -> Iterator[PType]:

@@ -367,16 +367,17 @@ class PhraseJudge:
             for other in nearby:
                 if best is not None and alone.p * other.p <= best.p:
                     break  # no relation is more than certain
-                if other.things[0] != x:
+                if x not in other.things:
                     both = self._both(part, alone, other)
                     best = both if best is None or both.p > best.p else best
             if best is not None and best.p > 0.0:
                 yield x, best
 
     def _both(self, part: PhraseParts, alone: PhraseFit, other: PhraseFit) -> PhraseFit:
-        (x,), (y, *_) = alone.things, other.things
+        (x,), (y, *further) = alone.things, other.things
         s = self._s
-        claims = part.said_of_both(x, y, s.view.look, front_of(s, y))
+        third = further[0] if further else ""
+        claims = part.said_of_both(x, y, s.view.look, front_of(s, y), third)
         degrees = [self.degree(P, *args) for P, args in claims]
         return PhraseFit(
             alone.p * other.p * prod(degrees),

@@ -294,6 +294,17 @@ def _any(
     return things
 
 
+def _flanks(
+    s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+) -> Sequence[str]:
+    """The two things that were talked about last, or else those at both ends."""
+    said = [str(x) for x in s.shared.salient if x in things]
+    if len(said) > 1:
+        return said[:2]
+    row = across(s, model, things, types=types)
+    return list(dict.fromkeys((*row[:1], *row[-1:])))
+
+
 def _most(comparative: str) -> Choice:
     def choose_most(
         s: Record, model: Model, things: Sequence[str], types: DialogueTypes
@@ -303,10 +314,20 @@ def _most(comparative: str) -> Choice:
     return choose_most
 
 
+def _middle(
+    s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+) -> Sequence[str]:
+    """The middle one of the things, or the two that are next to the middle."""
+    row = across(s, model, things, types=types)
+    return row[(len(row) - 1) // 2 : len(row) // 2 + 1]
+
+
 CHOICES: Mapping[str, Choice] = {
     "mentioned": _most_salient,
     "other": _other,
+    "middle": _middle,
     "any_other": _any,
+    "flank": _flanks,
     "leftmost": _nth(0),
     "first": _nth(0),
     "second": _nth(1),

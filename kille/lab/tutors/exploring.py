@@ -13,6 +13,7 @@ from random import Random
 
 from hypothesis import strategies as st
 
+from kille.dialogue import robust_reading
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import (
     CLAIMS,
@@ -63,6 +64,9 @@ NONSENSE = (
     "cup " * 90,
 )
 """What means nothing in any grammar."""
+
+IN_PARTS = ("ask_deed", "ask_self", "remark")
+"""The moves that are understood in a part of a sentence only."""
 
 OTHERS = 5
 """How often it is not clear what was said, and something happens, as each move is."""
@@ -273,13 +277,25 @@ def _worldless_sayings(talk: WorldTalk, act: str) -> Sayings:
     return WorldTalk(talk.words, World()).sayings(act)
 
 
-def _sample_texts(options: Sayings) -> st.SearchStrategy[str]:
-    """Sample one of these, as a text."""
-    return st.sampled_from(options).map(lambda one: one.text)
+def _sample_texts(options: Sayings) -> st.SearchStrategy[object]:
+    """Sample one of these, as a text, or as an event."""
+    return st.sampled_from(options).map(event_or_text)
+
+
+def event_or_text(one: Saying) -> object:
+    """The text of what is said, or its event where only its parts are understood."""
+    if one.act not in IN_PARTS:
+        return one.text
+    language, types = one.words.language, one.words.types
+    sentences = understand(one.text, language, types=types)
+    around = robust_reading.Situation(things=1)
+    heard = robust_reading.hear_in_parts(sentences, around, language, types=types)
+    return hear_sentences(*heard.moves[:1])
 
 
 def _sample_unclear(said: Sequence[Sayings]) -> st.SearchStrategy[object]:
     """Sample events in which one of two texts was heard."""
+    said = [them for them in said if them[0].act not in IN_PARTS]
     random = Random(len(said))
     pairs = [
         (random.choice(random.choice(said)), random.choice(random.choice(said)), p)

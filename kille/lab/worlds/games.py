@@ -26,6 +26,7 @@ from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from kille.lab.worlds.perception import (
     across,
+    between,
     comparative,
     number_of,
     thing,
@@ -90,6 +91,7 @@ def model_of(
     model = blank_model(types).witnessed(types["Look"], by=_is_look)
     for number in range(1, len(world.things) + 1):
         model = model.given(thing(number), types["Ind"])
+    model = model.witnessed(types["between"], by=_between)
     for name in COMPARATIVES.values():
         model = model.witnessed(types[name], by=partial(_compare, name))
     return with_known_words(model.witnessed(types["across"], by=_across), signs)
@@ -123,6 +125,10 @@ def world_of(s: Record) -> World:
 
 def _is_look(name: object) -> bool:
     return isinstance(name, str) and World.from_name(name) is not None
+
+
+def _between(x: str, y: str, z: str, look: str) -> float | tuple[float, float]:
+    return between(x, y, z, look)
 
 
 def _compare(

@@ -14,6 +14,7 @@ from ttr.aliases import former_names
 __all__ = [
     "Vector",
     "across",
+    "between",
     "colour",
     "comparative",
     "direction",
@@ -35,6 +36,9 @@ Vector = tuple[float, ...]
 
 TRAITS = 4
 """The number of features of a kind."""
+
+ASIDE = 0.35
+"""How far off the line between two things another may be, of their distance."""
 
 LOOKS = 0.25
 """The difference between two looks at a thing, relative to that of two things."""
@@ -196,6 +200,33 @@ def comparative(word: str, x: str, y: str, look: str) -> float | tuple[float, fl
         for it in (x, y)
     )
     return 0.5 if one == other else float((one > other) is more)
+
+
+def between(x: str, y: str, z: str, look: str) -> float | tuple[float, float]:
+    """Whether a thing is between two others in a look, on the line or beside it.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> row = [Thing("cup", "red", place=(n, 3)) for n in (2, 5, 7)]
+    >>> look = World(tuple(row)).name
+    >>> between("o2", "o1", "o3", look), between("o1", "o2", "o3", look)
+    (1.0, 0.0)
+    """
+    world = World.from_name(look)
+    numbers = [number_of(it) for it in (x, y, z)]
+    if world is None or not {*numbers} <= {*world.in_view} or not world.deep:
+        return 0.0, 1.0
+    if len({*numbers}) < 3:
+        return 0.0, 1.0
+    (ax, ay), (bx, by) = (
+        world.offset(numbers[0], numbers[1]),
+        world.offset(numbers[2], numbers[1]),
+    )
+    far = bx * bx + by * by
+    if not far:
+        return 0.0
+    along = (ax * bx + ay * by) / far
+    aside = abs(ax * by - ay * bx) / far
+    return float(0.0 < along < 1.0 and aside < ASIDE)
 
 
 def oddness(world: World, number: int) -> float:

@@ -259,6 +259,8 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
             return [Matter()]
         case ["comparative", "the_landmark", "the_target"]:
             return _comparisons(talk)
+        case ["amid", "the_target"]:
+            return _flanked(talk)
         case ["word"]:
             return map(word_matter, talk.words.all)
         case ["counted"] | ["a_counted"]:
@@ -304,6 +306,28 @@ def _comparisons(talk: WorldTalk) -> Iterator[Claim]:
         for sign in talk.words.comparatives.values():
             phrases = talk.colour_phrase(x), talk.colour_phrase(y)
             yield Claim(sign, *phrases, template="Comparison")
+
+
+@dataclass(frozen=True)
+class Flanked(Phrase):
+    """A phrase for being between two things."""
+
+    flanks: tuple[Phrase, ...] = ()
+
+    def meaning(self, types: DialogueTypes) -> RecordType:
+        """What it means: the second thing is the landmark of the first."""
+        one, other = (it.meaning(types) for it in self.flanks)
+        flank = merge_of(one, rectype(landmark=other))
+        return merge_of(types.record_type("Between"), rectype(landmark=flank))
+
+
+def _flanked(talk: WorldTalk) -> Iterator[Matter]:
+    """That a thing is between two others."""
+    for x, y, z in islice(permutations(talk.world.in_view, 3), 2 * PAIRS):
+        flanks = talk.colour_phrase(y), talk.colour_phrase(z)
+        signs = tuple(sign for it in flanks for sign in it.signs)
+        amid = Flanked("", signs, flanks)
+        yield Matter("", (("target", talk.colour_phrase(x)), ("amid", amid)))
 
 
 def _all_facing(talk: WorldTalk) -> Iterator[Matter]:

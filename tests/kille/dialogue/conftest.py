@@ -63,6 +63,8 @@ class Scene:
         for sign in (*signs, *map(relation, seen)):
             word = word_of(sign)
             arity = 2 if sign.kind == "relation" else 1
+            if word.name in ("between",):
+                word, arity = theory()[word.name], 3
             by = partial(degree, known or {}, word.name, arity)
             model = model.witnessed(word, by=by)
         self.game: Game = tutoring(signs, model=model, **settings)

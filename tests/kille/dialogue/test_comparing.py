@@ -128,3 +128,66 @@ def test_comparatives_mean_the_same_in_swedish(scene: Callable[..., Any]) -> Non
     assert robot.acts("Vilken är större, koppen eller boken?") != ["unknown_relation"]
     [said] = understand("Koppen är större än boken.", "sv")
     assert said.readings[0].type["content"].value["rel"].pred.name == "bigger_than"
+
+
+# --- between --------------------------------------------------------------------------
+
+ROW = {
+    CUP: 0.9,
+    BOOK: 0.95,
+    ("banana", "o3"): 0.9,
+    ("between", "o2", "o1", "o3"): 1.0,
+    ("between", "o2", "o3", "o1"): 1.0,
+}
+
+
+@pytest.fixture
+def row(scene: Callable[..., Any]) -> Any:
+    """A cup, a book and a banana, from left to right."""
+    return scene(3, nouns=["cup", "book", "banana"], seen=["between"], known=ROW)
+
+
+@pytest.mark.parametrize(
+    ("asked", "answer"),
+    [
+        ("What is between the cup and the banana?", "This is a book."),
+        (
+            "Which one is between the cup and the banana?",
+            "This is the book between the cup and the banana: #2.",
+        ),
+        (
+            "Is the book between the cup and the banana?",
+            "Yes, the book is between the cup and the banana.",
+        ),
+        (
+            "The book is between the banana and the cup.",
+            "Yes, the book is between the banana and the cup.",
+        ),
+        (
+            "Is the cup between the book and the banana?",
+            "No, the cup is not between the book and the banana.",
+        ),
+        ("Is the book between the cup and the fork?", "I have not learned what a fork"),
+    ],
+)
+def test_what_is_between(row: Any, asked: str, answer: str) -> None:
+    assert row.hear(asked).startswith(answer)
+
+
+def test_between_the_two_that_were_talked_about(row: Any) -> None:
+    row.hear("Where is the cup?")
+    row.hear("Where is the banana?")
+    assert row.hear("What is between them?") == "This is a book."
+    assert row.hear("Is the book between the two?") == "Yes, it is between the two."
+
+
+def test_between_things_of_a_kind(scene: Callable[..., Any]) -> None:
+    known = {("cup", "o1"): 0.9, ("cup", "o3"): 0.9, **ROW}
+    del known["banana", "o3"]
+    robot = scene(3, nouns=["cup", "book"], seen=["between"], known=known)
+    assert robot.hear("What is between the cups?") == "This is a book."
+
+
+def test_between_is_no_lesson(row: Any) -> None:
+    row.hear("The cup is between the book and the banana.")
+    assert not row.state.private.lessons

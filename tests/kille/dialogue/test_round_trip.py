@@ -230,6 +230,7 @@ TOLD_OF = {
     "mention": "Asked",
     "ask_name": "Asked",
     "ask_place": "Asked",
+    "ask_also": "Asked",
     "ask_quality": "Asked",
     "ask_find": "Asked",
     "ask_view": "Scene",
@@ -297,6 +298,12 @@ def a_move(
             WORDS.extend(nouns)
             choices = {f"choice{n:02}": it.meaning for n, it in enumerate(nouns, 1)}
             content = merge(record_type("Scene"), rectype(choices))
+        elif slot == "amid":
+            one, other = (noun(it) for it in chance.sample(NOUNS[language], 2))
+            WORDS.extend([one, other])
+            flank = merge(one.meaning, rectype(landmark=other.meaning))
+            amid = merge(record_type("Between"), rectype(landmark=flank))
+            content = merge(content, rectype(amid=amid))
         elif slot.startswith("rival_the_"):
             part = slot.split("_")[-1]
             while rival is Rec or rival[part] == content[part]:
@@ -325,6 +332,9 @@ SAID = [
     if style == "paper" or wordings != lexicon(language).says[act]
 ]
 
+IN_PARTS = ("ask_deed", "ask_self", "remark")
+"""The moves that are understood in a part of a sentence only."""
+
 LESS = {
     ("ask_count", "How many things are there?"),
     ("ask_count", "Hur många saker finns det?"),
@@ -336,7 +346,9 @@ TOLD = [
     for language in LANGUAGES
     for act, wordings in lexicon(language).tells.items()
     for wording in wordings
-    if (act, wording) not in LESS and not {"front", "by"} & set(slots_of(wording))
+    if act not in IN_PARTS
+    and (act, wording) not in LESS
+    and not {"front", "by"} & set(slots_of(wording))
 ]
 
 

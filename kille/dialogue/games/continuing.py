@@ -1,0 +1,103 @@
+"""And this one? The tutor asks of another thing what was asked last.
+
+Which question that is, the robot's last answer shows. The tutor's move becomes that
+question, about the thing that they name now, and the games answer it.
+
+Source: Ginzburg 2012 (fragments are resolved on the question under discussion).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from kille.dialogue.commitments import affirmation, kind_of
+from kille.dialogue.meanings import DialogueTypes, predicate_at, set_to, value_at
+from kille.dialogue.moves import content_of, words_in
+from kille.dialogue.rules import rule
+from kille.dialogue.state import words
+from ttr import Model, Record, RecordType, RecType, rectype, replace
+from ttr.updates import first
+
+Update = tuple[Record, Model]
+
+ANSWERED: Mapping[str, frozenset[str]] = {
+    "AskQuality": frozenset(
+        {
+            "assert_quality",
+            "hedge_quality",
+            "guess_quality",
+            "doubt_quality",
+            "admit_quality",
+        }
+    ),
+    "AskPlace": frozenset(
+        {
+            "assert_place",
+            "hedge_place",
+            "guess_place",
+            "doubt_place",
+            "admit_place",
+            "need_landmark",
+            "need_depth",
+        }
+    ),
+    "AskWhether": frozenset(
+        {"say_yes", "say_no", "say_rather", "say_probably", "admit_whether"}
+    ),
+    "AskFind": frozenset({"point_out"}),
+}
+"""The questions, and what the robot says to them; else it was asked what a thing is."""
+
+CLAIM = ("look", "frame", "scale", "landmark", "c", "a", "rel")
+"""What a claim says of its target, by labels."""
+
+
+@rule(answers="AskAlso")
+def ask_same(s: Record, *, model: Model, types: DialogueTypes) -> Update:
+    """The tutor asks the same of another thing: it is heard as that question."""
+    said = s.shared.latest
+    asked, content = _last_question(s), content_of(s)
+    if asked == "AskWhether":
+        content = _claim_of(s, content, types=types)
+        asked = asked if kind_of(content) else "AskName"
+    signs = tuple(dict.fromkeys((*said.signs, *words_in(_spoken(s), content))))
+    question = set_to(
+        types.move_type("Heard", asked),
+        text=types["Text"] @ said.text,
+        signs=types.record_type("Heard")["signs"] @ signs,
+        content=RecType @ content,
+    )
+    move, model = model.create(question)
+    return replace(s, {"shared.latest": move}), model
+
+
+def _last_question(s: Record) -> str:
+    """What the robot was asked last, as its answer shows."""
+    for it in s.private.last[-1:]:
+        act = predicate_at(it, "e").name
+        return next(
+            (asked for asked, them in ANSWERED.items() if act in them), "AskName"
+        )
+    return "AskName"
+
+
+def _claim_of(s: Record, content: RecordType, *, types: DialogueTypes) -> RecordType:
+    """What was asked last of a thing, of the thing that a content is about."""
+    answer = s.private.last[-1]
+    rather = predicate_at(answer, "e").name == "say_rather"
+    claim = value_at(answer, "rival" if rather else "content")
+    assert isinstance(claim, RecordType)
+    claim = affirmation(claim)
+    fields = {label: claim[label] for label in CLAIM if label in claim}
+    if "frame" in fields:
+        fields["frame"] = types["Front"]
+    return rectype({**fields, "look": types["Look"], "target": content["target"]})
+
+
+def _spoken(s: Record) -> list[Record]:
+    """The words that are known, and those of the robot's last answer."""
+    said = value_at(s.private.last[-1], "signs") if s.private.last else ()
+    return [*words(s), *said]
+
+
+CONTINUING = first(ask_same)
