@@ -27,9 +27,10 @@ from kille.dialogue.games.confirming import (
     wonder_why,
 )
 from kille.dialogue.games.costing import CORRECTED
-from kille.dialogue.games.courtesy import COURTESY, REPEATING
+from kille.dialogue.games.courtesy import COURTESY
 from kille.dialogue.games.initiating import ask_relation
 from kille.dialogue.games.instructing import learn_relation, learn_word, need_places
+from kille.dialogue.games.interrupting import repeat
 from kille.dialogue.games.listening import GLANCED, SAID, SEEN, hear
 from kille.dialogue.games.naming import (
     admit_name,
@@ -72,7 +73,7 @@ RULES = first(
     seq(
         hear,
         maybe(CORRECTED),
-        first(REPEATING, maybe(CLARIFYING)),
+        first(repeat, maybe(CLARIFYING)),
         maybe(REFERRING),
         maybe(first(CONFIRMING, INSTRUCTING, NAMING, PLACING, COURTESY)),
     ),
