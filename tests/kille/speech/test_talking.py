@@ -171,6 +171,8 @@ def test_a_tutor_at_a_terminal_presses_enter_and_speaks(
         (("--hear", "no-such.wav"), "no-such.wav cannot be read"),
         (("--hear", __file__), "is not a WAV file"),
         (("--lang", "sv", "--hear", "device"), "only English can be heard"),
+        (("--barge-in",), "--barge-in needs an open microphone: --hear always"),
+        (("--hear", "device", "--barge-in"), "--barge-in needs an open microphone"),
         (("--say", "opera"), "there is no voice 'opera'"),
         (("--say", "no/such/folder.wav"), "cannot be written"),
     ],
