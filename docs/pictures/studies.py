@@ -7,13 +7,22 @@ python docs/pictures/studies.py FOLDER
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
-from itertools import chain
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, combinations
 from pathlib import Path
+
+import numpy as np
 
 from kille.lab import log
 from kille.lab.measures import ScoredDialogue, kappas, score_dialogue, vocabulary
-from kille.lab.measures.measures import ACCURACY
+from kille.lab.measures.comparison import differences
+from kille.lab.measures.measures import (
+    ACCURACY,
+    CORRECTIONS,
+    TO_CRITERION,
+    TURNS,
+    WORDS,
+)
 from kille.lab.reports.drawing import drawing
 from kille.lab.reports.findings import Theories, estimate_measure, group_by_theory
 from kille.lab.reports.repeated_tests import restrict_to_phase
@@ -49,12 +58,17 @@ def main() -> None:
         "why_was_kappa_low": why_was_kappa_low,
         "does_correction_pay": does_correction_pay,
         "what_is_a_cup": what_is_a_cup,
+        "do_explanations_pay": do_explanations_pay,
     }
     for name, figure in drawn.items():
+        if not (folder / name).exists():
+            continue
         dialogues = [score_dialogue(*it) for it in log.read(folder / name)]
         names = list(log.study(folder / name).theories)
         picture = drawing(figure(group_by_theory(names, dialogues)))
         picture.savefig(HERE / f"{name}.png", dpi=110, facecolor="white")
+        if name == "do_explanations_pay":
+            sys.stdout.writelines(explained_differences(dialogues))
 
 
 def why_was_kappa_low(theories: Theories) -> Figure:
@@ -109,6 +123,44 @@ def what_is_a_cup(theories: Theories) -> Figure:
     }
     told = {"xlabel": "lessons of each kind", "ylabel": "other pictures named right"}
     return Figure("curves", "", {"x": list(LESSONS.values()), "series": series, **told})
+
+
+def do_explanations_pay(theories: Theories) -> Figure:
+    """How many answers it takes until five in a row are right, by tutor and scene."""
+    [them] = theories.values()
+    tutors = list(dict.fromkeys(it.run.tutor for it in them))
+    series = {
+        scene: interval_series(
+            [
+                estimate_measure(TO_CRITERION, of_cause(them, (it, scene)))
+                for it in tutors
+            ]
+        )
+        for scene in dict.fromkeys(it.run.scene for it in them)
+    }
+    told = {"xlabel": "answers until five in a row are right"}
+    return Figure("intervals", "", {"labels": tutors, "series": series, **told})
+
+
+SPENT = (TO_CRITERION, ACCURACY, TURNS, WORDS, CORRECTIONS)
+"""What the teachers who explain are compared by."""
+
+
+def explained_differences(dialogues: Sequence[ScoredDialogue]) -> Iterator[str]:
+    """Each measure for each tutor and scene, and its differences, seed by seed."""
+    tutors = list(dict.fromkeys(it.run.tutor for it in dialogues))
+    for scene in dict.fromkeys(it.run.scene for it in dialogues):
+        of = {it: of_cause(dialogues, (it, scene)) for it in tutors}
+        for tutor, them in of.items():
+            for measure in SPENT:
+                told = estimate_measure(measure, them)
+                yield f"{scene}: {tutor}: {measure.name} {told}\n"
+        for one, other in combinations(tutors, 2):
+            pairs = list(zip(of[one], of[other], strict=True))
+            found = differences(SPENT, pairs, np.random.default_rng(1))
+            for name, it in found.items():
+                told = f"{it.estimate}, p = {it.p:.4f}"
+                yield f"{scene}: {other} − {one}: {name} {told}\n"
 
 
 if __name__ == "__main__":

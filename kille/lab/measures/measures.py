@@ -213,6 +213,30 @@ QUESTIONS = _mean_over_dialogues(
 LESSONS = _mean_over_dialogues(
     "lessons", "lessons that the robot kept of a dialogue", lambda it: it.lessons
 )
+IN_A_ROW = 5
+"""How many answers in a row are right where something has been learned."""
+
+
+def _answers_to_criterion(dialogue: ScoredDialogue) -> float:
+    """How many answers there were until so many in a row were right, with these.
+
+    All of them, and one more, where that never was.
+    """
+    row = 0
+    for count, answer in enumerate(dialogue.answers, start=1):
+        row = row + 1 if answer.is_right else 0
+        if row == IN_A_ROW:
+            return count
+    return len(dialogue.answers) + 1
+
+
+TO_CRITERION = _mean_over_dialogues(
+    "to criterion",
+    f"answers of a dialogue until {IN_A_ROW} in a row were right; all of them and one "
+    "more where that never was",
+    _answers_to_criterion,
+    better=-1,
+)
 SECONDS = _mean_over_dialogues(
     "seconds",
     "how long a dialogue took to play, which differs from machine to machine",

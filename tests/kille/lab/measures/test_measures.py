@@ -20,6 +20,7 @@ from kille.lab.measures.measures import (
     MARGIN,
     QUESTIONS,
     REFERENCES,
+    TO_CRITERION,
     TURNS,
     WORDS,
     estimate,
@@ -137,6 +138,16 @@ def test_effort_is_counted_by_dialogue() -> None:
     found = [value(it, talks) for it in (TURNS, WORDS, CORRECTIONS, QUESTIONS)]
     assert found == [1.0, 2.5, 0.5, 0.5]
     assert [it.phase for it in talks[0].efforts] == ["teach", "test"]
+
+
+@pytest.mark.parametrize(
+    ("right", "count"),
+    [("11111", 5), ("0111110", 6), ("1101101111", 11), ("", 1), ("11110" * 3, 16)],
+)
+def test_answers_to_criterion_end_with_five_in_a_row(right: str, count: int) -> None:
+    answers = [asked("near", "near" if it == "1" else "far") for it in right]
+    played = score_dialogue(Run("a", "Ann", "table", 1), Played((), tuple(answers)), 0)
+    assert value(TO_CRITERION, [played]) == count
 
 
 def test_of_nothing_there_is_no_number() -> None:
