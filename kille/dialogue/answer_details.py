@@ -148,7 +148,7 @@ def _of_recalled(
         yield "lessons", _lessons(knows, recalled[0].lessons)
         yield "times", _often(data, recalled[0].lessons)
     if recalled[0].lessons > 1:
-        yield "often", _often(data, recalled[0].lessons)
+        yield "several_times", _often(data, recalled[0].lessons)
     for reminder in recalled[0].reminders:
         yield "lesson", _lesson_text(reminder)
         yield "when", _when(data["ages"], reminder)

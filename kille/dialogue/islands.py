@@ -38,6 +38,9 @@ BLANKED = 0.9
 COVERS = 12
 """How many covers of the rest of a sentence are kept: the best ones."""
 
+BOUND = 4
+"""How many of those that begin with an island that has to follow another."""
+
 _MOST = 48
 """Words; what is longer is no sentence that a tutor says to a robot."""
 
@@ -246,7 +249,12 @@ def _covers_from(
         key = tuple(one[:3] for one in it.islands)
         if key not in best or best[key].weight < it.weight:
             best[key] = it
-    return nlargest(COVERS, best.values(), key=lambda it: it.weight)
+    bound = [it for it in best.values() if it.islands and it.islands[0].rule in follows]
+    free = [it for it in best.values() if it not in bound]
+    return [
+        *nlargest(COVERS, free, key=lambda it: it.weight),
+        *nlargest(BOUND, bound, key=lambda it: it.weight),
+    ]
 
 
 def _islands(

@@ -37,6 +37,7 @@ from kille.dialogue.word_lists import (
     CUT_OFF,
     DOUBTFUL,
     NAME,
+    PARTIAL,
     REMARK,
     SAYING,
     plain_text,
@@ -246,11 +247,26 @@ class Reader:
         self, text: str, moves: Iterable[Tree], doubt: str = ""
     ) -> tuple[Utterance, ...]:
         """The different readings of a move; a lesson is doubted for this reason."""
-        each = [self._heard_types(text, move, doubt) for move in moves]
+        agreeing_first = sorted(moves, key=lambda it: not self._agrees(it, text))
+        each = [self._heard_types(text, it, doubt) for it in agreeing_first]
         types = (T for them in zip_longest(*each) for T in them if T is not None)
         return tuple(
             Utterance(text, T) for T in islice(dict.fromkeys(types), _READINGS)
         )
+
+    def _agrees(self, move: Tree, text: str) -> bool:
+        """Whether an adjective that may be neuter is said of what may be neuter.
+
+        "Flaskan är spräckt" has no neuter form: *flaskan* is none, nor is *den*.
+        """
+        found = list(_tokens(move))
+        if not any(it.terminal == "NEUTER" for it in found):
+            return True
+        about = [it.text.lower() for it in found if it.terminal == "DEFINITE"]
+        common = self._lexicon.common_gender
+        if not common:
+            return True
+        return re.search(common, " ".join(about[:1]) or text.lower()) is None
 
     def _heard_types(
         self, text: str, move: Tree, partly: str = ""
@@ -265,7 +281,9 @@ class Reader:
                 signs=self._types.record_type("Heard")["signs"] @ signs,
                 content=RecType @ content,
             )
-            doubt = is_lesson and self._doubt(signs, content, text)
+            doubt = self._doubt(signs, content, text) if is_lesson else ""
+            if any(it.rule == "material" for it in parts(move)):
+                doubt = partly = PARTIAL if doubt == DOUBTFUL else doubt
             doubt = SAYING if is_saying else doubt
             doubt = REMARK if doubt == DOUBTFUL and partly else doubt or partly
             if doubt == QUALIFIED:
@@ -375,6 +393,15 @@ class Reader:
         ]
         known = self._lexicon.vocabulary
         yield from sorted(found_forms, key=lambda it: it[0] not in known)[:_FORMS]
+
+
+def _tokens(tree: Tree) -> Iterator[Token]:
+    """The words of a tree, also those of its parts, in order."""
+    for child in tree.children:
+        if isinstance(child, Tree):
+            yield from _tokens(child)
+        else:
+            yield child
 
 
 _CUT_OFF = re.compile(r"\b(\w{1,2})(?:\.\.+|…|-+)\s*$")

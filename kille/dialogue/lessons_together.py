@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Set
 
 from kille.dialogue.language import Sentence, Utterance
 from kille.dialogue.meanings import (
@@ -30,12 +30,18 @@ MOST = 3
 """How many lessons are asked about together, at most."""
 
 
-def doubt_lesson(said: Sentence, doubt: str, *, types: DialogueTypes) -> Sentence:
-    """The lesson, which is asked about before it is learned."""
+def doubt_lesson(
+    said: Sentence, doubt: str, *, anew: bool = False, types: DialogueTypes
+) -> Sentence:
+    """The lesson, which is asked about before it is learned.
+
+    A doubt that it has already stays, unless it is to be set anew.
+    """
     text = types["Text"] @ doubt
     readings = (
         Utterance(
-            it.text, it.type if "doubt" in it.type else set_to(it.type, doubt=text)
+            it.text,
+            it.type if "doubt" in it.type and not anew else set_to(it.type, doubt=text),
         )
         for it in said.readings
     )
@@ -55,14 +61,25 @@ def correct_lesson(said: Sentence, *, types: DialogueTypes) -> Sentence:
 
 
 def join_lessons(
-    asked: Sequence[Sentence], *, types: DialogueTypes
+    asked: Sequence[Sentence],
+    qualities: Set[str] = frozenset(),
+    *,
+    types: DialogueTypes,
 ) -> tuple[Sentence, ...]:
-    """The first of the doubted lessons, joined with what the others claim."""
+    """The first of the doubted lessons, joined with what the others claim.
+
+    Left out is what calls a thing by a word for how things are: "not a real one".
+    """
     if not asked:
         return ()
     first, *others = asked
     forms = {_form(first.readings[0])}
-    joined = [it for it in others if _may_be_joined(it)]
+    joined = [
+        it
+        for it in others
+        if _may_be_joined(it)
+        and (it.adds or _says_how(it) or _form(it.readings[0]) not in qualities)
+    ]
     joined = joined if _may_be_joined(first) else []
     more: list[Utterance] = []
     for it in joined:
@@ -94,6 +111,10 @@ def _join(
         signs=types.record_type("Heard")["signs"] @ tuple(signs),
         content=RecType @ content,
     )
+
+
+def _says_how(said: Sentence) -> bool:
+    return "a" in said.readings[0].content
 
 
 def _form(reading: Utterance) -> str:

@@ -67,6 +67,8 @@ class Lexicon:
     """Words after which a noun of several words has no ending: the "of" in it."""
     sayings: re.Pattern[str] | None
     marking: Mapping[str, str]
+    common_gender: str
+    """An expression for what an adjective beside it is not neuter of, if any."""
     styles: Mapping[str, Style]
     vocabulary: frozenset[str]
     """The words in the lexicon itself."""
@@ -187,10 +189,11 @@ def _lexicon(language: str, wording: str, _: int) -> Lexicon:
         complements=frozenset(complements),
         sayings=_any_of(data.get("sayings", {}).get("patterns", ())),
         marking=phrases["marking"],
+        common_gender=phrases.get("common_gender", ""),
         styles={
             name: Style(table)
             for name, table in phrases.items()
-            if name not in ("referring", "marking", "complements")
+            if name not in ("referring", "marking", "complements", "common_gender")
         },
         vocabulary=frozenset(
             chain(

@@ -125,7 +125,7 @@ FOLLOWS = {
 }
 """After which claims, and nothing else, the elliptic ones may stand."""
 
-CLAIMS = frozenset((*LESSONS, "relate", *INDIRECT, *ELLIPTIC, *GAPPED))
+CLAIMS = frozenset((*LESSONS, "relate", "turned", *INDIRECT, *ELLIPTIC, *GAPPED))
 """The moves that say how things are."""
 
 CORRECTED = {"instruct": "correct", "describe": "correct", "relate": "correct"}
@@ -134,7 +134,7 @@ CORRECTED = {"instruct": "correct", "describe": "correct", "relate": "correct"}
 ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repeat"})
 """The questions that a tutor who then says what it is has answered themselves."""
 
-OVER_BREAKS = frozenset({"correct", "reject", "named", "also_named", "meant"})
+OVER_BREAKS = frozenset({"correct", "reject", "named", "also_named", "meant", "turned"})
 """The claims that may go on after a comma: "It is not a cup, it is a mug"."""
 
 _UNSPEAKABLE = re.compile(r"[<>\[\]{}|\\^=@\x00-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e]")
@@ -243,16 +243,22 @@ def hear_in_parts(
         done = [it for it in done if not _names(it)]
     asked = asked if not any(map(_names, done)) else []
     done = list({_content(it): it for it in reversed(done)}.values())[::-1]
-    moves = (*done, *join_lessons(asked, types=types)) or tuple(remarks[:1])
+    told = join_lessons(asked, lists.qualities, types=types)
+    moves = (*done, *told) or tuple(remarks[:1])
     if moves:
         missed = [it for it in missed if len(it[1].missed) > 1]
     return Hearing(moves, tuple(missed))
 
 
+def _is_doubted_for(it: Sentence, why: str) -> bool:
+    """Whether the best reading of a sentence is in doubt for this reason."""
+    best = it.readings[0].type if it.readings else None
+    return best is not None and "doubt" in best and value_at(best, "doubt") == why
+
+
 def _is_name(it: Sentence) -> bool:
     """Whether a sentence is no lesson but a name, as in "Anna! This is a cup."."""
-    best = it.readings[0].type
-    return "doubt" in best and value_at(best, "doubt") == NAME
+    return _is_doubted_for(it, NAME)
 
 
 def _names(it: Sentence) -> bool:
@@ -387,6 +393,9 @@ def read_robustly(
             found_here = read(best, island)
             if island.rule in ELLIPTIC:
                 found_here = fill_from(found_here, heard, types=types)
+            if island.rule == "is_not" and _is_doubted_for(heard[-1], SAYING):
+                heard.pop()  # "One might think it's a bowl, but it isn't."
+                found_here = doubt_lesson(found_here, PARTIAL, types=types, anew=True)
             heard.append(found_here)
         moves = {it.readings[0].type: it for it in reversed(heard) if it.readings}
         if not moves:
@@ -426,10 +435,6 @@ def _follows_no(island: Island, cover: Cover) -> bool:
     """Whether a lesson comes right after a no of the same sentence: it corrects."""
     before = [it for it in cover.islands if it.first < island.first]
     return bool(before) and before[-1].rule == "deny" and island.rule in CORRECTABLE
-
-
-def _is_aside(word: Word) -> bool:
-    return word.is_harmless and not word.joins
 
 
 def _is_taken_up(island: Island, cover: Cover) -> bool:
@@ -575,7 +580,8 @@ def _may_stand(
     if is_claim and rule not in OVER_BREAKS and inside[-1].clause > first.clause:
         return False
     ends = all(it.is_harmless for it in said[island.after :])
-    if is_claim and is_question and ends and (rule == "alone" or _is_bare(island)):
+    bare = rule == "alone" or (_is_bare(island) and rule != "named")
+    if is_claim and is_question and ends and bare:
         return False
     courteous = [it for it in cover.islands if it.rule in COURTESY]
     polite = {at for it in courteous for at in range(it.first, it.after)}
@@ -623,9 +629,9 @@ def _doubt(
         return ""
     taken_up = [it for it in cover.islands if _is_taken_up(it, cover)]
     no = {at for it in taken_up for at in range(it.first, it.after)}
-    forms = [
-        it.form for at, it in enumerate(said) if at not in no and not _is_aside(it)
-    ]
+    runs = lists.harmless_runs([it.form for it in said])
+    no |= {at for run in runs if len(run) > 1 for at in run}  # "if you like"
+    forms = [it.form for at, it in enumerate(said) if at not in no]
     if lists.is_unreal(forms):
         return SAYING
     near = {it.form for it in cover.missed_near(island, said)}
@@ -672,6 +678,8 @@ def _weight(situation: Situation, is_question: bool, tree: Tree) -> float:
         case "about_where":
             known = all(it in situation.known for it in _new_words(move))
             return weight * (0.9 if known or len(parts(move)) > 1 else 0.0)
+        case "instruct_some":
+            return weight * 0.5
         case "okay" if situation.asks_whether:
             return weight * 0.9
         case "ask_deed" | "count_sort":
@@ -750,16 +758,22 @@ def _is_better(said: Sentence, found: Understanding, lists: WordLists) -> bool:
     if not found.moves or found.is_remark:
         return False
     mentions = all(predicate_at(it.type, "e").name == "mention" for it in said.readings)
-    if not any(_is_sound(it, lists) for it in said.readings):
+    if not found.missed and any(_spans_break(it) for it in said.readings):
         return True
     fills = not lists.fillers.isdisjoint(plain_text(said.text).split())
     fills = fills or lists.write_out(said.text) != said.text
     return mentions or fills or not (found.missed or any(map(_is_doubted, found.moves)))
 
 
-def _is_sound(reading: Utterance, lists: WordLists) -> bool:
-    """Whether all words of a reading are ones that such words may be."""
-    return not any(_is_odd(sign, lists) for sign in reading.signs)
+def _spans_break(reading: Utterance) -> bool:
+    """Whether some word of a reading goes on after a comma: "lamp, also called …"."""
+    text = " ".join(reading.text.lower().split())
+    unbroken = " ".join(_COMMA.sub(" ", text).split())
+    several = (it.form for it in reading.signs if " " in it.form)
+    return any(it not in text and it in unbroken for it in several)
+
+
+_COMMA = re.compile(r"[,;:]")
 
 
 def _content(it: Sentence) -> object:

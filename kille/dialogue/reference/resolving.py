@@ -198,6 +198,7 @@ def possible_readings(
     Two phrases are set to two things. Readings without any probability are left out.
     """
     types = types or packaged_types()
+    content = _take_from_claim(s, content, types=types)
     judging = PhraseJudge(s, model, types=types)
     open_ = phrases(content)
     taken = {thing_at(content, label) for label in PARTS if label not in open_}
@@ -229,6 +230,25 @@ def _only_one(s: Record, fits: Mapping[str, PhraseFit]) -> Sequence[str]:
     """What a phrase means, if only one thing fits it well: "it" is another one."""
     well = fits_well(s, fits)
     return well if len(well) == 1 else ()
+
+
+def _take_from_claim(
+    s: Record, content: RecordType, *, types: DialogueTypes
+) -> RecordType:
+    """The content about the things of the claim that it answers: "No, behind it."
+
+    Only where it says in words of neither of two things which it is.
+    """
+    claim = s.shared.pending[0] if s.shared.pending else content
+    if "rel" not in content or "rel" not in claim or not phrases(content):
+        return content
+    target, landmark = (phrase_at(content, part) for part in PARTS)
+    plain, it = types.record_type("Phrase"), types.record_type("It")["d"]
+    if target.labels != plain.labels or landmark.get("d") not in (None, it):
+        return content
+    if set(landmark.labels) - {"x", "look", "d"}:
+        return content
+    return set_to(content, **{part: phrase_at(claim, part) for part in PARTS})
 
 
 def _things_without_words(
