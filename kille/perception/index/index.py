@@ -126,8 +126,8 @@ class Index:
         """The nearest descriptors to RootSIFT descriptors (n, 128), of all words.
 
         The ten nearest of each part, and the nearest of each word among the newest.
-        Of repeated features only the first is searched for: the others are compared
-        with what it found.
+        Of repeated features only the first is searched for in the parts: the others are
+        compared with what it found.
         """
         self._catch_up()
         columns = self._word_columns()
@@ -135,7 +135,7 @@ class Index:
             self._exact = Exact(thin_views(self._tail, _EXACT), columns)
         if self._owners is None:
             self._owners = [self._words_of(*serving) for serving in self._serving]
-        found = [self._exact.neighbours(query, repeats)]
+        found = [self._exact.neighbours(query)]
         for (part, _), owners in zip(self._serving, self._owners, strict=True):
             found.append(part.neighbours(query, owners, repeats))
         return Neighbours(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise, starmap
 from threading import Event
@@ -61,41 +61,22 @@ class Exact:
         self._spans = list(starmap(slice, pairwise([*firsts.tolist(), len(owners)])))
         self._rows = rooted(stack_descriptors(ordered))
 
-    def neighbours(self, query: Rows, repeats: Repeats | None = None) -> Neighbours:
-        """The nearest descriptor of each word, one column for each word.
-
-        Where features are repeated, only the first of each is compared with all
-        descriptors, and the others with the nearest to it.
-        """
+    def neighbours(self, query: Rows) -> Neighbours:
+        """The nearest descriptor of each word, one column for each word."""
         words = np.broadcast_to(self._words, (len(query), len(self._words)))
         if not len(self._words):
             return Neighbours(words, np.empty((len(query), 0), np.float32))
-        if repeats is None:
-            return Neighbours(words, apart(self._greatest_products(query)))
-        alike = np.empty(words.shape, np.float32)
-        for start in range(0, len(repeats.firsts), _AT_ONCE):
-            firsts = repeats.firsts[start : start + _AT_ONCE]
-            same = repeats.same - start
-            these = np.flatnonzero((same >= 0) & (same < len(firsts)))
-            found = self._rows[self._nearest_rows(query[firsts])]
-            alike[these] = products_with_found(found, query[these], same[these])
+        alike = np.empty((len(query), len(self._words)), np.float32)
+        for some, products in self._products(query):
+            for word, own in enumerate(self._spans):
+                products[:, own].max(axis=1, out=alike[some, word])
         return Neighbours(words, apart(alike))
 
-    def _greatest_products(self, query: Rows) -> Rows:
-        """The dot product (n, words) with the nearest descriptor of each word."""
-        greatest = np.empty((len(query), len(self._words)), np.float32)
+    def _products(self, query: Rows) -> Iterator[tuple[slice, Rows]]:
+        """The dot products of some of the query at a time with all descriptors."""
         for start in range(0, len(query), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
-            products = query[some] @ self._rows.T
-            for word, own in enumerate(self._spans):
-                products[:, own].max(axis=1, out=greatest[some, word])
-        return greatest
-
-    def _nearest_rows(self, query: Rows) -> NDArray[np.intp]:
-        """The row (n, words) of the nearest descriptor of each word."""
-        products = query @ self._rows.T
-        own = [products[:, it].argmax(axis=1) + it.start for it in self._spans]
-        return np.stack(own, axis=1)
+            yield some, query[some] @ self._rows.T
 
 
 class Part:

@@ -122,14 +122,3 @@ def test_descriptors_are_the_same_gathered_or_kept(
     for one, other in zip(found[:2], found[2:], strict=True):
         assert np.array_equal(one.words, other.words)
         assert np.array_equal(one.distances, other.distances)
-
-
-def test_what_the_newest_views_have_is_the_same_however_much_is_compared_at_once(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    _, query, repeats = looked()
-    whole = taught().neighbours(query, repeats)
-    monkeypatch.setattr(index_parts, "_AT_ONCE", 7)
-    piecemeal = taught().neighbours(query, repeats)
-    assert np.array_equal(whole.words, piecemeal.words)
-    assert whole.distances == pytest.approx(piecemeal.distances, abs=2e-3)
