@@ -177,6 +177,13 @@ def _with_content(
     return Utterance(said.text, move)
 
 
+def is_about_it(said: Sentence, *, types: DialogueTypes) -> bool:
+    """Whether a sentence is about what was just spoken of, called "it"."""
+    target = said.readings[0].content.get("target") if said.readings else None
+    it = types.record_type("It")["d"]
+    return isinstance(target, RecordType) and target.get("d") == it
+
+
 def _claims_something(said: Sentence) -> bool:
     return bool(said.readings) and bool(
         {"c", "a"} & set(said.readings[0].content.labels)

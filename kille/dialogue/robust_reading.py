@@ -31,6 +31,7 @@ from kille.dialogue.lessons_together import (
     correct_lesson,
     doubt_lesson,
     fill_from,
+    is_about_it,
     join_lessons,
 )
 from kille.dialogue.lookalikes import replace_lookalikes
@@ -125,7 +126,9 @@ FOLLOWS = {
 }
 """After which claims, and nothing else, the elliptic ones may stand."""
 
-CLAIMS = frozenset((*LESSONS, "relate", "turned", *INDIRECT, *ELLIPTIC, *GAPPED))
+CLAIMS = frozenset(
+    (*LESSONS, "relate", "turned", "other_place", *INDIRECT, *ELLIPTIC, *GAPPED)
+)
 """The moves that say how things are."""
 
 CORRECTED = {"instruct": "correct", "describe": "correct", "relate": "correct"}
@@ -134,7 +137,9 @@ CORRECTED = {"instruct": "correct", "describe": "correct", "relate": "correct"}
 ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repeat"})
 """The questions that a tutor who then says what it is has answered themselves."""
 
-OVER_BREAKS = frozenset({"correct", "reject", "named", "also_named", "meant", "turned"})
+OVER_BREAKS = frozenset(
+    {"correct", "reject", "named", "also_named", "meant", "turned", "other_place"}
+)
 """The claims that may go on after a comma: "It is not a cup, it is a mug"."""
 
 _UNSPEAKABLE = re.compile(r"[<>\[\]{}|\\^=@\x00-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e]")
@@ -183,6 +188,17 @@ class Understanding(NamedTuple):
     missed: tuple[str, ...]
     is_remark: bool = False
     """Whether it only is taken as a remark."""
+
+
+def prepare_to_read(
+    language: str = "en", *, types: DialogueTypes | None = None
+) -> None:
+    """Read the grammars of a language now, so that the first sentence takes no longer.
+
+    It takes half a second of a core, and nothing where it has been done before.
+    """
+    reader(language, types or packaged_types()).sentences("hm")
+    read_robustly("hm", Situation(), language, types=types)
 
 
 class Hearing(NamedTuple):
@@ -393,7 +409,11 @@ def read_robustly(
             found_here = read(best, island)
             if island.rule in ELLIPTIC:
                 found_here = fill_from(found_here, heard, types=types)
-            if island.rule == "is_not" and _is_doubted_for(heard[-1], SAYING):
+            seems = heard and (
+                _is_doubted_for(heard[-1], SAYING)
+                or is_about_it(found_here, types=types)
+            )
+            if island.rule == "is_not" and seems:
                 heard.pop()  # "One might think it's a bowl, but it isn't."
                 found_here = doubt_lesson(found_here, PARTIAL, types=types, anew=True)
             heard.append(found_here)
@@ -543,6 +563,8 @@ def _may_stand(
             begins = all(it.is_harmless for it in said[: island.first])
             return begins and situation.things == 1 and not is_question
         case "ask_repeat" if len(cover.islands) > 1:
+            return False
+        case "other_place" if cover.missed or not situation.asks_whether:
             return False
         case "deny" if _is_taken_up(island, cover) and not is_question:
             return all(it.is_harmless for it in said[: island.first])

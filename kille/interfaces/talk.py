@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 from kille.agent.agent import Agent
@@ -16,6 +17,7 @@ from kille.agent.story_log import StoryLog
 from kille.agent.story_replay import language_of_file
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
+from kille.dialogue.robust_reading import prepare_to_read
 from kille.interfaces.formatting import Account, things_in_view, whole_account
 from kille.interfaces.live_prompt import (
     Show,
@@ -183,6 +185,9 @@ class _Conversation:
         if self._typed:
             self._welcome()
         self._answer("@ look")
+        if self._typed:
+            prepare = partial(prepare_to_read, self._language, types=self._robot.types)
+            Thread(target=prepare, daemon=True).start()  # while the tutor types
         for line in self._lines():
             if isinstance(line, SpeechHypotheses) or not sys.stdin.isatty():
                 self._print(

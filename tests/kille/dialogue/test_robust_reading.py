@@ -20,6 +20,7 @@ from kille.dialogue.robust_reading import (
     Situation,
     hear_in_parts,
     needs_parts,
+    prepare_to_read,
     read_robustly,
     situation_of,
 )
@@ -162,6 +163,19 @@ def test_a_long_text_is_not_read_by_its_parts() -> None:
 @pytest.mark.parametrize("text", ["<b>cup", "a cup = 1", "\x1b]0;cup\x07", "[cup]"])
 def test_what_is_no_talk_is_not_read(text: str) -> None:
     assert not read_robustly(text, Situation(things=1)).moves
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_prepared_changes_nothing(language: str) -> None:
+    prepare_to_read(language)
+    prepare_to_read(language)
+    assert not read_robustly("", Situation(), language).moves
+
+
+def test_what_was_only_seeming_is_what_is_denied() -> None:
+    for text in ("It might look like a bowl, but it isn't.", "a bowl, but it isn't"):
+        found = read_robustly(text, Situation(things=1))
+        assert moves_of(found.moves) == "reject? bowl"
 
 
 def test_a_sentence_of_the_grammar_needs_no_parts() -> None:
