@@ -112,7 +112,7 @@ TOLD_BESIDES = {
     "lessons": "recalled",
     "confused": "confused",
     "times": "recalled",
-    "often": "recalled",
+    "several_times": "recalled",
     "qualities": "recalled",
     "type": "recalled",
     "lost": "lost",
@@ -159,7 +159,7 @@ def besides(
     reason = record(claim=Rec, p=0.8, cues=shares, reminders=reminders)
     confused = [noun("mug"), noun("bowl")] if "confused" in told else []
     lessons = chance.choice([1.0, 2.0, 17.0]) if {"lessons", "words"} & slots else 0.0
-    several = {"often": 3.0, "times": 1.0}
+    several = {"several_times": 3.0, "times": 1.0}
     lessons = next((several[it] for it in several if it in slots), lessons)
     rest = {
         "qualities": [sign] if "qualities" in slots else [],
