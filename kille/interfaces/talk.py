@@ -18,6 +18,7 @@ from kille.agent.story_replay import language_of_file
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
 from kille.dialogue.robust_reading import prepare_to_read
+from kille.dialogue.state import words
 from kille.interfaces.formatting import Account, things_in_view, whole_account
 from kille.interfaces.live_prompt import (
     Show,
@@ -55,6 +56,7 @@ Lines that begin with @ change what there is to see:
   @ look                        what is in view
   @ picture [FILE.png]          a picture of it, with the numbers and names
   @ why [FILE.png]              the reason that it gave last, as a picture
+  @ meaning cup                 the type that a word means
   @ trace                       what the latest turn did to the state, in full
   @ things                      all that can be shown
   @ scene SENSOR                look through another sensor
@@ -327,6 +329,8 @@ class _Conversation:
                 return self._things()
             case "trace":
                 return self._trace()
+            case "meaning":
+                return self._meaning(rest)
             case "" | "help":
                 self._print(COMMANDS)
                 return ""
@@ -372,6 +376,16 @@ class _Conversation:
         latest = self._robot.exchanges[-1:]
         lines = [line for turn in latest for line in whole_account(turn)]
         self._print_account(lines or ["The latest turn changed nothing."])
+        return ""
+
+    def _meaning(self, form: str) -> str:
+        """Shows the types that a word means, one for each kind of word that it is."""
+        known = words(self._robot.state)
+        found = [it for it in known if it.form == form.strip().lower()]
+        for it in found:
+            self._print(f"{it.form} ({it.kind}): {it.meaning}")
+        if not found:
+            complain(f'the word "{form}" is not known: "What do you know?" lists all')
         return ""
 
     def _print_account(self, lines: Iterable[str]) -> None:

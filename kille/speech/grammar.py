@@ -43,6 +43,37 @@ _TEACHING = frozenset({"instruct", "correct"})
 _NAMING = frozenset({"naming", "plain"})
 """The moves that teach nouns, and the rules in which these then stand."""
 
+UNHEARD = frozenset(
+    {
+        "compared",
+        "_compared",
+        "comparison",
+        "ask_more",
+        "ask_all",
+        "ask_also",
+        "ask_between",
+        "ask_taught",
+        "placed_between",
+        "between",
+        "of_all_so",
+        "of_these_so",
+        "so_several",
+        "side_there",
+        "what_most",
+        "_which_most",
+        "_which_of_them",
+        "_how_many_of",
+        "_what_one_is",
+        "_after",
+        "_any_of_them",
+        "_most",
+        "_measured",
+        "_amid",
+        "middle",
+    }
+)
+"""The rules that are not listened for: the more may be said, the worse it is heard."""
+
 _NESTED = 2
 """How often a rule may stand within itself, counting itself: "the cup by the box"."""
 
@@ -140,6 +171,8 @@ class _Unfolding:
 
     def _rule(self, name: str, around: tuple[str, ...], teaching: str) -> State:
         """What a rule finds, within the rules around it that may hold themselves."""
+        if name in UNHEARD:
+            return NOTHING
         if name in SLOTS:
             taught = name == SLOTS[0] and teaching in _NAMING
             return sequence([TAUGHT if taught else name])

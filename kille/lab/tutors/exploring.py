@@ -87,6 +87,9 @@ def exploring_tutor(
     `shares` are those of `ttr.testing.Tutor`.
     """
     words = vocabulary(language, types)
+    for act in IN_PARTS:  # they are read now, and not while dialogues are drawn
+        for one in _worldless_sayings(WorldTalk(words, World()), act):
+            event_or_text(one)
     moves, replies = partial(_moves, words), partial(_replies, words)
     return Tutor(moves=moves, replies=replies, **shares)
 
@@ -282,6 +285,7 @@ def _sample_texts(options: Sayings) -> st.SearchStrategy[object]:
     return st.sampled_from(options).map(event_or_text)
 
 
+@lru_cache(256)
 def event_or_text(one: Saying) -> object:
     """The text of what is said, or its event where only its parts are understood."""
     if one.act not in IN_PARTS:

@@ -5,12 +5,14 @@ ttr test kille.lab.tutors.tested_game:game
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache, lru_cache
 
 from hypothesis import strategies as st
 
+from kille.dialogue.language import LANGUAGES
+from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes
-from kille.lab.tutors.exploring import exploring_tutor
+from kille.lab.tutors.exploring import IN_PARTS, exploring_tutor
 from kille.lab.tutors.question_answers import DROPPING, answer_test
 from kille.lab.worlds.games import simulated_game
 from kille.lab.worlds.robot_profiles import ROBOTS
@@ -20,8 +22,24 @@ from ttr.testing import Roles
 
 
 def words(event: Record) -> str | None:
-    """How the tutor worded an event; None for what was not said."""
-    return str(event.text) if "text" in event else None
+    """How the tutor worded an event; None for what was not said.
+
+    What is understood in a part only is no event that its words are read as.
+    """
+    if "text" not in event or str(event.text) in _texts_in_parts():
+        return None
+    return str(event.text)
+
+
+@cache
+def _texts_in_parts() -> frozenset[str]:
+    """What is said to the robot of which it understands a part only."""
+    return frozenset(
+        text
+        for language in LANGUAGES
+        for act in IN_PARTS
+        for text in lexicon(language).tells[act]
+    )
 
 
 def roles_in(language: str, types: DialogueTypes | None = None) -> Roles:

@@ -536,3 +536,8 @@ def test_a_pipe_that_closes_ends_the_talk_quietly(memory: Path) -> None:
         assert child.stderr.read() == ""
     assert child.returncode == 141
     Memory.open(memory).close()
+
+
+def test_what_a_word_means_is_a_type_on_demand(kille: Run) -> None:
+    said = talked(kille, f"{SHOWN}This is a cup.\n@ meaning cup\n")
+    assert "cup (noun): [look : Look, x : Ind, c : cup(x, look)]" in said
