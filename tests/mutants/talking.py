@@ -41,9 +41,11 @@ from kille.dialogue.games.naming import (
 )
 from kille.dialogue.games.placing import PLACING
 from kille.dialogue.games.referring import REFERRING
+from kille.dialogue.language import understand
 from kille.dialogue.meanings import noun, predicate_at, relation, theory, word_of
+from kille.dialogue.robust_reading import Situation, hear_in_parts
 from kille.dialogue.state import blank_model
-from kille.dialogue.tutoring import tutoring
+from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.lab.worlds.dialogue_properties import RETRACTED
 from ttr import Model, Record, RecordType, record
 from ttr.judging import Judgement
@@ -184,6 +186,17 @@ SAYS = (
     "Help.",
     "Colourless green ideas.",
 )
+
+
+def heard_in_part(text: str) -> object:
+    """The event of saying what the robot understands in part only."""
+    heard = hear_in_parts(understand(text), Situation(things=1))
+    return hear_sentences(*heard.moves[:1])
+
+
+IN_PARTS = tuple(map(heard_in_part, ("Pick it up.", "Who are you?", "I am tired.")))
+"""What is not its job, who it is, and a remark."""
+
 CLAIMS = ("Yes.", "Yes.", "No.", "No.", "This is a box.")
 UNCLEAR = {"look4", "look8"}
 """Where two things might be a box."""
@@ -222,7 +235,10 @@ def latest_act(state: Record, model: Model) -> str:
 
 
 tutor = Tutor(
-    moves=(*SAYS, *LOOKED[::2], *GLIMPSED), replies=replies, answers=0.6, wanders=0.3
+    moves=(*SAYS, *IN_PARTS, *LOOKED[::2], *GLIMPSED),
+    replies=replies,
+    answers=0.6,
+    wanders=0.3,
 )
 
 MISSING = {"see_nothing", "see_no_such"}
@@ -247,6 +263,9 @@ FITTING = {
     "thank": {"welcome"},
     "okay": {"noted"},
     "leave": {"part"},
+    "ask_deed": {"tell_abilities"},
+    "ask_self": {"introduce"},
+    "remark": {"take_as_remark"},
 }
 """What the robot may answer to what the tutor does."""
 

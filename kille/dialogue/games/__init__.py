@@ -39,8 +39,8 @@ from kille.dialogue.games.mishearing import MISHEARD
 from kille.dialogue.games.naming import NAMING
 from kille.dialogue.games.noticing import WATCHING
 from kille.dialogue.games.offering import OFFER_ANSWERED, OFFERING
-from kille.dialogue.games.placing import PLACING
-from kille.dialogue.games.referring import REFERRING
+from kille.dialogue.games.placing import BETWEEN, PLACING
+from kille.dialogue.games.referring import CHOOSING, REFERRING
 from kille.dialogue.games.several import SEVERAL, SEVERAL_ANSWERED
 from kille.dialogue.games.surveying import SURVEYING
 from kille.dialogue.games.vetting import VETTED, VETTING
@@ -60,6 +60,7 @@ ANSWERING = first(
     SEVERAL,
     NAMING,
     PLACING,
+    BETWEEN,
     COMPARING,
     CHECKING,
     COLOURING,
@@ -104,7 +105,7 @@ def games_with(*answers: Rule) -> Algorithm:
                 ),
             ),
             maybe(FRAMING),
-            maybe(REFERRING),
+            maybe(first(CHOOSING, REFERRING)),
             maybe(ASKING_FRAME),
             maybe(first(*ANSWERING.parts, *answers)),
             maybe(EXEMPLIFYING),

@@ -181,4 +181,6 @@ def tell_between(s: Record, *, model: Model, types: DialogueTypes) -> Record:
 AMID = "amid"
 """The label of the phrase that says between which things a thing is."""
 
-PLACING = first(say_place, need_place, miss_between, tell_between)
+PLACING = first(say_place, need_place)
+BETWEEN = first(miss_between, tell_between)
+"""What answers whether a thing is between two others."""

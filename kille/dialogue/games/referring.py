@@ -348,12 +348,9 @@ def _unfitting_phrases(
             yield alone
 
 
+CHOOSING = first(cannot_choose)
+"""What answers which thing is the biggest, where that cannot be seen."""
+
 REFERRING = first(
-    refer,
-    cannot_choose,
-    ask_referent,
-    trust_pointing,
-    miss_word,
-    miss_second,
-    miss_thing,
+    refer, ask_referent, trust_pointing, miss_word, miss_second, miss_thing
 )
