@@ -13,12 +13,17 @@ from types import TracebackType
 from typing import Self
 
 from kille.agent.actions import MoveExecutor
-from kille.agent.attention import Attention, AttentiveSensor, NumberedLook
+from kille.agent.attention import (
+    Attention,
+    AttentiveSensor,
+    NumberedLook,
+    is_same_thing,
+)
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import Event, Exchange, RobotSentence
 from kille.agent.explanations import criterion_of_lesson, kind_of_lesson, sign_of
 from kille.agent.reason_pictures import reason_picture
-from kille.agent.silence import Silence, missing
+from kille.agent.silence import Silence, missing_things
 from kille.dialogue.beliefs import is_sure, names_of, thinks
 from kille.dialogue.commitments import as_told
 from kille.dialogue.games.clarifying import asks_which
@@ -46,7 +51,6 @@ from kille.grounding.word_meanings import WordMeanings
 from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
 from kille.perception.prominence import prominences
-from kille.perception.segment import overlap
 from kille.scene import Colour, Percept
 from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.stage_commands import perform
@@ -58,7 +62,6 @@ from ttr.semantics.perceptual import Meaning, Speaker
 from ttr.types import Singleton
 from ttr.updates import Game, Run, Step
 
-_SAME_THING = 0.5  # overlap of a thing with itself in another look
 _POINTING = re.compile(r"#([0-9]{1,6})\b")
 
 TUTOR = "tutor"
@@ -331,7 +334,7 @@ class Agent:
         before = self._witnesses.percept(x, s.view.look)
         if x not in s.view.things or before is None:
             return ""
-        if overlap(before.region, thing.region) < _SAME_THING:
+        if not is_same_thing(before, thing):
             return ""
         beliefs = as_told(s, names_of(s, self.model, x))
         if not thinks(s, beliefs):
@@ -552,7 +555,10 @@ class Agent:
         view = self.gaze.look()
         self._silence = self._silence.after(view.look, self._time)
         asks = self._silence.ends_with_question(state)
-        came, went = missing(view.look, before.look), missing(before.look, view.look)
+        came, went = (
+            missing_things(view.look, before.look),
+            missing_things(before.look, view.look),
+        )
         remarks = self._silence.ends_with_remark(state, bool(came or went))
         if not is_free() or not (asks or remarks):
             self.gaze.attention = attention

@@ -157,7 +157,7 @@ def _match_earlier(
     left = list(percepts)
     found = []
     for then in () if before is None else before.look.percepts:
-        again = next((now for now in left if _same(now, then)), None)
+        again = next((now for now in left if is_same_thing(now, then)), None)
         left = [percept for percept in left if percept is not again]
         found.append(again)
     return found
@@ -185,7 +185,8 @@ def _first(order: Sequence[Percept], seen: Look) -> int | None:
     return order.index(seen.percepts[0]) + 1 if order else None
 
 
-def _same(one: Percept, other: Percept) -> bool:
+def is_same_thing(one: Percept, other: Percept) -> bool:
+    """Whether things of two looks stand at one place."""
     return overlap(one.region, other.region) >= _SAME
 
 

@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from datetime import datetime
 
+from kille.agent.attention import is_same_thing
 from kille.grounding.witness_functions import thing_name
-from kille.perception.segment import overlap
 from kille.scene import Look
 from ttr import Record
-
-_SAME = 0.5
-"""The overlap of a thing with itself in another look, if it has not moved."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +43,7 @@ class Silence:
         """The silence at a later look: what has moved is not still."""
         before = self.seen
         is_still = before is not None and not (
-            missing(before, seen) or missing(seen, before)
+            missing_things(before, seen) or missing_things(seen, before)
         )
         moved = self.still_since if is_still else time
         return replace(self, now=time, seen=seen, still_since=moved)
@@ -66,10 +63,10 @@ class Silence:
         return bool(self.still >= turns.remark)
 
 
-def missing(one: Look, other: Look) -> tuple[str, ...]:
+def missing_things(one: Look, other: Look) -> tuple[str, ...]:
     """The names of the things in a look that stand nowhere in another one."""
     return tuple(
         thing_name(number)
         for number, it in enumerate(one.percepts, start=1)
-        if not any(overlap(it.region, to.region) >= _SAME for to in other.percepts)
+        if not any(is_same_thing(it, to) for to in other.percepts)
     )
