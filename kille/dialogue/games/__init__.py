@@ -11,7 +11,7 @@ Source: Dobnik and de Graaf 2017, section 3.
 
 from __future__ import annotations
 
-from kille.dialogue.games.acknowledging import ACKNOWLEDGING, EXEMPLIFYING
+from kille.dialogue.games.abstaining import ACKNOWLEDGING, EXEMPLIFYING
 from kille.dialogue.games.checking import CHECKING
 from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
 from kille.dialogue.games.classifying import CLASSIFYING, STILL_ANSWERED
@@ -36,9 +36,9 @@ from kille.dialogue.games.interrupting import REPEATING, cut_off
 from kille.dialogue.games.knowing import KNOWING
 from kille.dialogue.games.listening import GLANCED, LISTENING, SAID, SEEN
 from kille.dialogue.games.mishearing import MISHEARD
+from kille.dialogue.games.misspelling import OFFER_ANSWERED, OFFERING
 from kille.dialogue.games.naming import NAMING
 from kille.dialogue.games.noticing import WATCHING
-from kille.dialogue.games.offering import OFFER_ANSWERED, OFFERING
 from kille.dialogue.games.placing import BETWEEN, PLACING
 from kille.dialogue.games.referring import CHOOSING, REFERRING
 from kille.dialogue.games.several import SEVERAL, SEVERAL_ANSWERED
