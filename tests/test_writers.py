@@ -23,6 +23,7 @@ WRITERS = {
     "ttr/safety/inputs.py": "prompts",
     "ttr/safety/unforeseen_errors.py": "the error that nobody foresaw",
     "ttr/testing/hash_seeds.py": "digests, read by the process that asked for them",
+    "kille/interfaces/live_prompt.py": "the prompt, again and again",
     "kille/interfaces/standard_streams.py": "what the commands of kille complain of",
     "kille/interfaces/terminal.py": "what the commands of kille print",
     "kille/lab/people/typed_lines.py": "what people in a study are shown",

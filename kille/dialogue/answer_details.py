@@ -104,7 +104,7 @@ def cue_shares(lexicon: Lexicon, reason: Record) -> Mapping[str, float]:
     >>> from kille.dialogue.lexicon import lexicon
     >>> cues = [record(name="hue", share=0.75), record(name="size", share=0.25)]
     >>> cue_shares(lexicon("sv"), record(cues=cues))
-    {'färg': 0.75, 'storlek': 0.25}
+    {'färgen': 0.75, 'storleken': 0.25}
     """
     return dict(_named_shares(lexicon.sections, reason.cues))
 

@@ -136,6 +136,8 @@ def _strategy(mode: str, wording: str, turns: str, folder: str, _: int) -> Recor
     mode = mode or data["default"]["mode"]
     wording = wording or data["default"]["wording"]
     wants, words = _look_up(data["modes"], mode), _look_up(data["wordings"], wording)
+    if "like" in words:
+        words = {**_look_up(data["wordings"], words["like"]), **words}
     learning = Stake(**wants["learning"])
     return record(
         mode=mode,

@@ -27,7 +27,7 @@ from kille.dialogue.games.confirming import (
     wonder_why,
 )
 from kille.dialogue.games.costing import CORRECTED
-from kille.dialogue.games.courtesy import COURTESY
+from kille.dialogue.games.courtesy import COURTESY as ALL_COURTESY
 from kille.dialogue.games.initiating import ask_relation
 from kille.dialogue.games.instructing import learn_relation, learn_word, need_places
 from kille.dialogue.games.interrupting import repeat
@@ -40,7 +40,8 @@ from kille.dialogue.games.naming import (
     recognise,
 )
 from kille.dialogue.games.placing import PLACING
-from kille.dialogue.games.referring import REFERRING
+from kille.dialogue.games.referring import REFERRING as REFERRING_TO_WHAT_IS_SEEN
+from kille.dialogue.games.referring import trust_pointing
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import noun, predicate_at, relation, theory, word_of
 from kille.dialogue.robust_reading import Situation, hear_in_parts
@@ -70,6 +71,12 @@ CLARIFYING = first(
 )
 CONFIRMING = first(learn_confirmed, ask_which, wonder_what, ask_again, wonder_why)
 INSTRUCTING = first(learn_word, learn_relation, need_places)
+REFERRING = first(
+    *(it for it in REFERRING_TO_WHAT_IS_SEEN.parts if it is not trust_pointing)
+)
+COURTESY = first(
+    *(it for it in ALL_COURTESY.parts if it.name != "TellNames to NameOne")
+)
 NAMING = seq(maybe(recognise), first(assert_name, hedge_name, guess_name, admit_name))
 RULES = first(
     seq(

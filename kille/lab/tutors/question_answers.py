@@ -85,6 +85,8 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
                 | "AskBoth"
                 | "AskKindStill"
                 | "AskForget"
+                | "AskForgetAll"
+                | "AskMeant"
                 | "AskEvery"
                 | "AskOnly"
             ),

@@ -14,7 +14,9 @@ from ttr.aliases import former_names
 __all__ = [
     "Vector",
     "across",
+    "between",
     "colour",
+    "comparative",
     "direction",
     "distance",
     "glance_event",

@@ -72,7 +72,8 @@ def test_the_best_is_expected_to_be_worth_most(ps: list[float]) -> None:
 
 def ways(wording: str) -> Mapping[str, Stake]:
     """What each way of speaking is worth, the strongest first."""
-    stakes = shipped()["wordings"][wording]["stakes"]
+    wordings = shipped()["wordings"]
+    stakes = wordings[wordings[wording].get("like", wording)]["stakes"]
     return {name: Stake(**stakes[name]) for name in ("assert", "think", "doubt")}
 
 
