@@ -20,7 +20,7 @@ from kille.agent.attention import (
     is_same_thing,
 )
 from kille.agent.dialogue_log import DialogueLog
-from kille.agent.exchanges import Event, Exchange, RobotSentence
+from kille.agent.exchanges import Event, EventClock, Exchange, RobotSentence
 from kille.agent.explanations import criterion_of_lesson, kind_of_lesson, sign_of
 from kille.agent.reason_pictures import reason_picture
 from kille.agent.silence import Silence, missing_things
@@ -112,9 +112,8 @@ class Agent:
         self.gaze = AttentiveSensor(sensor, scans)
         self.language = language
         self._mode, self._wording, self._turns = mode, wording, turns
-        self._now, self._record_event = now, record_event
+        self._clock, self._record_event = EventClock(now), record_event
         self._learners, self._change = learners, change
-        self._time = self._read_clock()
         self._lexicon = lexicon(language)
         self.exchanges: list[Exchange] = []
         with ExitStack() as failing:
@@ -151,9 +150,9 @@ class Agent:
         known = list({word_of(it): it for it in signs}.values())
         self._looks = 0
         self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
-        self._log = DialogueLog(memory, lambda: self._time)
+        self._log = DialogueLog(memory, self._clock)
         executor = MoveExecutor(
-            knowledge, witnesses, self.gaze, self._log, lambda: self._time, self.types
+            knowledge, witnesses, self.gaze, self._log, self._clock, self.types
         )
         game = tutoring(
             known,
@@ -171,7 +170,7 @@ class Agent:
         )
         self.game: Game = game if self._change is None else self._change(game)
         self._now_at = self.game.begin()
-        self._silence = Silence.begin(self._time)
+        self._silence = Silence.begin(self._clock())
         self._latest: Exchange | None = None
 
     def _colour_words(self, known: Iterable[str]) -> Iterator[Record]:
@@ -195,7 +194,7 @@ class Agent:
     @property
     def time(self) -> datetime:
         """When the latest event happened: at first, that the robot woke."""
-        return self._time
+        return self._clock()
 
     # --- what a user does ------------------------------------------------------------
 
@@ -390,20 +389,15 @@ class Agent:
 
         What the event was may only be known when it has happened.
         """
-        self._time = self._read_clock()
+        self._clock.go_on()
         answer = event()
         line = line if isinstance(line, str) else line()
         if answer or line != WATCH:
-            self._silence = Silence.begin(self._time)
+            self._silence = Silence.begin(self._clock())
         if self._record_event is not None:
             said = tuple(answer.split("\n")) if answer else ()
-            self._record_event(Event(self._time, line, said))
+            self._record_event(Event(self._clock(), line, said))
         return answer
-
-    def _read_clock(self) -> datetime:
-        """What time it is, in whole milliseconds, as logs and memories keep it."""
-        now = self._now()
-        return now.replace(microsecond=now.microsecond // 1000 * 1000)
 
     def _take_turn(self, turn: Callable[[], TurnResult]) -> str:
         """Take a turn and keep it for good, or none of it if anything fails.
@@ -437,7 +431,7 @@ class Agent:
             if not numbers or not self.state.shared.qud:
                 return self._look_around()
             words = self._lexicon.pointing
-        exchange, now = Exchange(text, None, (), (), self._time), self._now_at
+        exchange, now = Exchange(text, None, (), (), self._clock()), self._now_at
         sentences = self._sentences(words, text if len(numbers) == 1 else "")
         full = [self._in_full(it, now.state) for it in sentences]
         situation = situation_of(now.state)
@@ -491,7 +485,7 @@ class Agent:
         text = " | ".join(f"{text} {p:g}" for text, p in texts)
         text = text if ways else max(texts, key=lambda it: it[1])[0]
         event = hear_sentences(*sentences, p=[p for _, p in texts])
-        so_far = Exchange(text, None, (), (), self._time)
+        so_far = Exchange(text, None, (), (), self._clock())
         return self._answer(Sentence(text, ways), event, so_far, self._now_at)
 
     def _answer(
@@ -537,7 +531,7 @@ class Agent:
         moves += [it.judgement for it in said[: whole + bool(left)]]
         unsaid = [it.judgement.type for it in rest if it.judgement is not None]
         if not unsaid:
-            return Exchange("", None, (), (), self._time), self._now_at
+            return Exchange("", None, (), (), self._clock()), self._now_at
         made = [it.sit for it in moves if it is not None]
         event = record(
             unsaid=unsaid,
@@ -553,7 +547,7 @@ class Agent:
         # What was pointed at is looked for like all else: it may have gone.
         self.gaze.attention = Attention(view=before)
         view = self.gaze.look()
-        self._silence = self._silence.after(view.look, self._time)
+        self._silence = self._silence.after(view.look, self._clock())
         asks = self._silence.ends_with_question(state)
         came, went = (
             missing_things(view.look, before.look),
@@ -562,7 +556,7 @@ class Agent:
         remarks = self._silence.ends_with_remark(state, bool(came or went))
         if not is_free() or not (asks or remarks):
             self.gaze.attention = attention
-            return Exchange("", None, (), (), self._time), self._now_at
+            return Exchange("", None, (), (), self._clock()), self._now_at
         self._log.begin_look()
         self._silence = replace(self._silence, asked=asks or self._silence.asked)
         about = {
@@ -580,7 +574,7 @@ class Agent:
         said = tuple(RobotSentence(self.game.say(move), move) for move in turn.said)
         for it in said:
             self._log.record_said(it.text, str(it.judgement))
-        return Exchange("", None, turn.trace, said, self._time), turn.run
+        return Exchange("", None, turn.trace, said, self._clock()), turn.run
 
     def _sentences(self, words: str, numbered: str) -> tuple[Sentence, ...]:
         """The sentences of a text; in "What is #2?" the number counts as "this"."""

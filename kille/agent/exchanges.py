@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from datetime import datetime
 
@@ -54,6 +54,26 @@ class Exchange:
     def answer(self) -> str:
         """What was said, one sentence a line; empty for silence."""
         return "\n".join(said.text for said in self.said)
+
+
+class EventClock:
+    """A clock that is read once for each event, and stands still while it happens.
+
+    It gives whole milliseconds, as logs and memories keep them.
+    """
+
+    def __init__(self, now: Callable[[], datetime]) -> None:
+        self._now = now
+        self.go_on()
+
+    def go_on(self) -> None:
+        """Read what time it is now."""
+        now = self._now()
+        self._time = now.replace(microsecond=now.microsecond // 1000 * 1000)
+
+    def __call__(self) -> datetime:
+        """When the latest event happened."""
+        return self._time
 
 
 @dataclass(frozen=True)

@@ -644,3 +644,18 @@ def test_how_things_stand_can_be_shown_as_a_reason() -> None:
         assert told[-1] == "The cup is to the left of the book."
         assert "stand as they did" in robot.hear("Why?")
         assert robot.reason_picture() is not None
+
+
+def test_a_robot_that_nobody_has_any_more_is_let_go_at_once() -> None:
+    """It refers to itself nowhere, so that its looks do not wait to be collected."""
+    robot = awake()
+    tell(robot, "@show cup", "This is a cup.", "What is this?", "Why?")
+    robot.close()
+    gc.collect()
+    gone = weakref.ref(robot)
+    gc.disable()
+    try:
+        del robot
+        assert gone() is None
+    finally:
+        gc.enable()
