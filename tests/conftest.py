@@ -17,7 +17,7 @@ OPTIONAL = ("data", "oracle", "ros", "speech")
 
 settings.register_profile("dev", max_examples=50, deadline=None)
 settings.register_profile(
-    "ci", max_examples=100, derandomize=True, deadline=None, print_blob=True
+    "ci", max_examples=60, derandomize=True, deadline=None, print_blob=True
 )
 settings.register_profile("deep", max_examples=5_000, deadline=None)
 settings.register_profile("release", max_examples=100_000, deadline=None)

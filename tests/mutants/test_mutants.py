@@ -20,7 +20,7 @@ RARE = {
 """How many dialogues it takes where the fault is that something never happens."""
 
 SLOW = {*RARE, "travel-decides-for-ever"}
-"""Mutants that take long to be found."""
+"""Mutants that take too long to be found for every day."""
 
 
 @cache
@@ -59,7 +59,7 @@ def parameter(mutant: Mutant):
 
 
 def marks_of(name: str) -> list[pytest.MarkDecorator]:
-    return [pytest.mark.slow] if name in SLOW else []
+    return [pytest.mark.deep] if name in SLOW else []
 
 
 @pytest.mark.parametrize("mutant", [*map(parameter, MUTANTS)])
@@ -114,7 +114,7 @@ def test_it_is_the_property_that_says_what_is_wrong(name, found):
     assert property_ == found
 
 
-@pytest.mark.slow
+@pytest.mark.deep
 def test_only_the_rule_that_is_never_applied_is_called_dead():
     _, why = found_in(by_name("tutoring-never-guesses"))
     assert why.startswith("guess_name is never applied")
