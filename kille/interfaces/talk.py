@@ -41,6 +41,7 @@ from kille.speech.sound import SoundError
 from kille.speech.synthesis import SYNTHESISERS, Stop, Voice, voice
 from ttr import TTRError
 from ttr.dialogues.stories import StoryError
+from ttr.misspellings import nearest_names
 from ttr.safety.files import why_unwritten
 from ttr.safety.inputs import ask_line
 from ttr.safety.limits import UTTERANCE, InputLimitError
@@ -62,6 +63,8 @@ Lines that begin with @ change what there is to see:
   @ scene SENSOR                look through another sensor
   @ restart                     a new dialogue, with the same memory
 Ctrl-D or "Goodbye." ends the conversation; what was learned stays."""
+
+_COMMANDS = tuple(re.findall(r"^  @ ([a-z]+)", COMMANDS, re.MULTILINE))
 
 _PROMPT = "U> "
 
@@ -334,6 +337,9 @@ class _Conversation:
             case "" | "help":
                 self._print(COMMANDS)
                 return ""
+            case _ if near := _misspelt_command(verb):
+                complain(f"there is no command @ {verb}: did you mean @ {near}?")
+                return ""
         answer = self._robot.do(command)
         if verb == "point":
             answer = self._robot.look()
@@ -380,6 +386,9 @@ class _Conversation:
 
     def _meaning(self, form: str) -> str:
         """Shows the types that a word means, one for each kind of word that it is."""
+        if not form.strip():
+            complain("@ meaning needs a word: write, for example, @ meaning cup")
+            return ""
         known = words(self._robot.state)
         found = [it for it in known if it.form == form.strip().lower()]
         for it in found:
@@ -415,6 +424,13 @@ class _Conversation:
 
     def _print(self, text: str, style: str = "") -> None:
         self._out.print(text, markup=False, style=style or None)
+
+
+def _misspelt_command(verb: str) -> str:
+    """The command after @ that is meant by what is none, or nothing."""
+    if verb in _COMMANDS:
+        return ""
+    return "".join(nearest_names(verb, _COMMANDS))
 
 
 @contextmanager

@@ -541,3 +541,20 @@ def test_a_pipe_that_closes_ends_the_talk_quietly(memory: Path) -> None:
 def test_what_a_word_means_is_a_type_on_demand(kille: Run) -> None:
     said = talked(kille, f"{SHOWN}This is a cup.\n@ meaning cup\n")
     assert "cup (noun): [look : Look, x : Ind, c : cup(x, look)]" in said
+
+
+@pytest.mark.parametrize(
+    ("typed", "complaint"),
+    [
+        ("@ mening cup", "there is no command @ mening: did you mean @ meaning?"),
+        ("@ pictrue", "there is no command @ pictrue: did you mean @ picture?"),
+        ("@ shwo cup", "there is no command @ shwo: did you mean @ show?"),
+        ("@ meaning", "@ meaning needs a word: write, for example, @ meaning cup"),
+    ],
+)
+def test_a_mistaken_command_is_answered_by_what_was_meant(
+    kille: Run, typed: str, complaint: str
+) -> None:
+    outcome = kille("talk", "--sensor", EMPTY, typed=f"{typed}\n")
+    assert outcome.code == 0
+    assert outcome.err == f"kille: {complaint}\n"
