@@ -57,7 +57,7 @@ def facts(options: argparse.Namespace) -> Iterator[dict[str, object]]:
             rules.update(
                 {name: report.coverage.rules[name] for name in report.coverage.names}
             )
-            if wrong := report.told():
+            if wrong := report.explain_failure():
                 break
         spent = time.process_time() - start
         yield {
