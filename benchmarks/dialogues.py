@@ -42,7 +42,7 @@ def reports(
             turns=options.turns,
             examples=min(BATCH, left),
             seed=seed,
-        ).played()
+        ).run()
 
 
 def facts(options: argparse.Namespace) -> Iterator[dict[str, object]]:

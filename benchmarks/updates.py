@@ -219,7 +219,7 @@ def dialogues(count: int) -> None:
     ).run()
     spent = time.perf_counter() - start
     print(f"{count:,} dialogues of ten turns: {spent:.0f} s; limit for 10,000: 300 s")
-    print(found.told())
+    print(found.explain_failure())
 
 
 def main() -> None:
