@@ -71,8 +71,8 @@ def _sigmoid(x: NDArray[np.floating]) -> Array:
 
 
 # The means (k 4, c0 .55, a .1; near: k 1.5, b 1) were found by prototypes, on people's
-# judgements of blocks: on these no figure is held out. The widths let a word be twice as
-# sharp or four times as vague, and its border be 30 degrees elsewhere.
+# judgements of blocks: on these no figure is held out. The widths let a word be twice
+# as sharp or four times as vague, and its border be 30 degrees elsewhere.
 SHARPNESS = _axis([1, 2, 4, 8], 4, 3)
 BORDER = _axis([-0.05, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 0.95], 0.55, 0.3)
 FADING = _axis([0, 0.1, 0.4], 0.1, 0.15)
