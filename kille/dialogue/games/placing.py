@@ -15,7 +15,7 @@ from kille.dialogue.moves import content_of, nouns_said, placement, plan
 from kille.dialogue.reference import PhraseJudge, phrase_at, thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Model, Record, RecordType, record, replace
+from ttr import Model, Record, RecordType, record, rectype, replace
 from ttr.updates import first
 
 Update = tuple[Record, Model]
@@ -160,22 +160,38 @@ def miss_between(s: Record, *, types: DialogueTypes) -> Record | None:
 def tell_between(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     """The tutor asks if a thing is between two others: it says if it sees that.
 
-    That is no lesson, and is measured.
+    That is no lesson, and is measured. In between it says that it does not know.
     """
     content, signs = content_of(s), s.shared.latest.signs
     x = str(thing_at(content, "target"))
     if x not in s.view.placed:
         return plan(s, "NeedDepth", types=types)
-    amid = phrase_at(content, AMID)
-    others = [y for y in s.shared.salient if y != x]
-    judge = PhraseJudge(replace(s, {"shared.salient": others}), model, types=types)
-    fits = judge.fits(amid, [x])
-    likely = s.private.strategy.bands.likely
-    is_so = x in fits and fits[x].weakest >= likely
-    act = "SayBetween" if is_so else "DenyBetween"
+    p = _degree_between(s, model, phrase_at(content, AMID), x, types=types)
+    if p is None:
+        return plan(s, "SeeNoSuch", types=types)
+    bands = s.private.strategy.bands
+    act = "AdmitWhether"
+    if p >= bands.sure or p <= bands.unlikely:
+        act = "SayBetween" if p >= bands.sure else "DenyBetween"
     target, called = name_thing(s, model, phrase_at(content, "target"), x)
     told = set_to(content, target=target)
     return plan(s, act, told, signs=[*signs, *called], types=types)
+
+
+def _degree_between(
+    s: Record, model: Model, amid: RecordType, x: str, *, types: DialogueTypes
+) -> float | None:
+    """How probably x is between the things of a phrase; None if these are not seen."""
+    others = [y for y in s.shared.salient if y != x]
+    judge = PhraseJudge(replace(s, {"shared.salient": others}), model, types=types)
+    flanks = rectype({label: T for label, T in amid.fields if label != "b"})
+    seen = judge.fits(flanks, [x])
+    if x not in seen or seen[x].weakest < s.private.strategy.bands.likely:
+        return None
+    found = judge.fits(amid, [x])
+    if x not in found:
+        return 0.0
+    return judge.degree(types["between"], *found[x].things, s.view.look)
 
 
 AMID = "amid"

@@ -191,3 +191,41 @@ def test_between_things_of_a_kind(scene: Callable[..., Any]) -> None:
 def test_between_is_no_lesson(row: Any) -> None:
     row.hear("The cup is between the book and the banana.")
     assert not row.state.private.lessons
+
+
+@pytest.mark.parametrize(
+    ("p", "answer", "i_svar"),
+    [
+        (
+            0.9,
+            "Yes, the book is between the cup and the banana.",
+            "Ja, boken är mellan koppen och bananen.",
+        ),
+        (0.5, "I do not know.", "Det vet jag inte."),
+        (0.2, "I do not know.", "Det vet jag inte."),
+        (
+            0.1,
+            "No, the book is not between the cup and the banana.",
+            "Nej, boken är inte mellan koppen och bananen.",
+        ),
+    ],
+)
+def test_how_sure_it_says_what_is_between(
+    scene: Callable[..., Any], p: float, answer: str, i_svar: str
+) -> None:
+    between = {("between", "o2", "o1", "o3"): p}
+    known = {CUP: 0.9, BOOK: 0.9, ("banana", "o3"): 0.9, **between}
+    robot = scene(3, nouns=["cup", "book", "banana"], seen=["between"], known=known)
+    assert robot.hear("Is the book between the cup and the banana?") == answer
+    known = {("kopp", "o1"): 0.9, ("bok", "o2"): 0.9, ("banan", "o3"): 0.9, **between}
+    nouns = ["kopp", "bok", "banan"]
+    swedish = scene(3, nouns=nouns, seen=["between"], known=known, language="sv")
+    assert swedish.hear("Är boken mellan koppen och bananen?") == i_svar
+
+
+def test_what_is_not_seen_has_nothing_between(scene: Callable[..., Any]) -> None:
+    known = {CUP: 0.9, BOOK: 0.9}
+    nouns = ["cup", "book", "banana"]
+    robot = scene(3, nouns=nouns, seen=["between"], known=known)
+    asked = "Is the book between the cup and the banana?"
+    assert robot.hear(asked) == "I do not see what you mean."
