@@ -80,6 +80,9 @@ LESSONS = (
 )
 """The moves that say what a thing is, or how: for them words are vetted."""
 
+TELL_PART = "tell_part"
+"""The move that says of a thing which part it has: no lesson, but perhaps a remark."""
+
 QUALIFIED = "qualified"
 """What a noun of several words is that may be an adjective and a noun."""
 
@@ -282,6 +285,9 @@ class Reader:
                 content=RecType @ content,
             )
             doubt = self._doubt(signs, content, text) if is_lesson else ""
+            if move.rule == TELL_PART:
+                judged = self._doubt(signs, content, text)
+                doubt = judged if judged != PARTIAL else ""
             if any(it.rule == "material" for it in parts(move)):
                 doubt = partly = PARTIAL if doubt == DOUBTFUL else doubt
             doubt = SAYING if is_saying else doubt
@@ -292,9 +298,10 @@ class Reader:
 
     def _doubt(self, signs: Iterable[Record], content: RecordType, text: str) -> str:
         """Why the word of a lesson may be none that is said of things, or nothing."""
-        if "counted" in content or "component" in content:
-            said = (it for it in signs if it.meaning != content.get("subject"))
-            said = (it for it in said if it.kind == "noun")
+        if "component" in content:
+            said = (it for it in signs if it.meaning == content["component"])
+        elif "counted" in content:
+            said = (it for it in signs if it.kind == "noun")
         else:
             said = (it for it in signs if claims(content, it))
         for sign in said:
@@ -302,6 +309,8 @@ class Reader:
                 return CUT_OFF
             if not sign.article and is_proper_name(sign.form, text):
                 return NAME
+            if "component" in content:
+                return self._lists.judge_part(sign.form, self._lexicon.complements)
             if sign.kind == "noun":
                 judged = self._lists.judge_noun(sign.form, self._lexicon.complements)
                 return judged or (QUALIFIED if self._is_qualified(sign.form) else "")

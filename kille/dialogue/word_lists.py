@@ -19,8 +19,8 @@ NAME, CUT_OFF = "name", "cut off"
 """What a new word of a lesson may be: no word for a thing at all, or perhaps none.
 
 A saying is one as a whole, whatever its words are. What is partial is read from a part
-of a sentence. A name is that of one thing or person; of a word that is cut off the
-speaker has said only the beginning.
+of a sentence, or perhaps not meant so. A name is that of one thing or person; of a word
+that is cut off the speaker has said only the beginning.
 """
 
 _PLAIN = re.compile(r"[^\w'’-]+")
@@ -34,6 +34,10 @@ class WordLists:
     doubtful: frozenset[str] = frozenset()
     qualities: frozenset[str] = frozenset()
     endings: tuple[str, ...] = ()
+    parts: frozenset[str] = frozenset()
+    """Nouns for what things have, such as handles."""
+    aspects: frozenset[str] = frozenset()
+    """Nouns for how things are as a whole: no parts of them."""
     harmless: frozenset[tuple[str, ...]] = frozenset()
     """Words and phrases that may be left out of a sentence without a change."""
     fillers: frozenset[str] = frozenset()
@@ -96,8 +100,7 @@ class WordLists:
         """
         form = form.replace(" ", "_")
         words = form.split("_")
-        at = next((n for n, it in enumerate(words) if n and it in complements), None)
-        head = words[-1 if at is None else at - 1]
+        head = _head(form, complements)
         if form in self.names:
             return NAME
         if form in self.abstract or head in self.abstract or is_noise(form):
@@ -109,6 +112,24 @@ class WordLists:
         if words[0] in self.doubtful and len(words) > 1:
             return DOUBTFUL
         return DOUBTFUL if form in self.doubtful or head in self.doubtful else ""
+
+    def judge_part(self, form: str, complements: Iterable[str] = ()) -> str:
+        """`REMARK` or `PARTIAL` for a noun that may be no part of a thing, or "".
+
+        >>> english = word_lists("en")
+        >>> parts = ("handle", "big handle", "nice colour", "idea", "blorp")
+        >>> [english.judge_part(it) for it in parts]
+        ['', '', 'remark', 'remark', 'partial']
+        """
+        head = _head(form.replace(" ", "_"), complements)
+        if head in self.parts:
+            return ""
+        if head in self.aspects:
+            return REMARK
+        judged = self.judge_noun(form, complements)
+        if judged in (REMARK, NAME):
+            return judged
+        return PARTIAL if self.parts else ""
 
     def judge_quality(self, form: str) -> str:
         """The same of a word that is said without an article: "this is sugar".
@@ -130,6 +151,13 @@ class WordLists:
 
     def _is_quality(self, word: str) -> bool:
         return any(it in self.qualities for it in (word, *word.split("-")[-1:]))
+
+
+def _head(form: str, complements: Iterable[str]) -> str:
+    """The word of a noun that says what it is: the last, or the one before "of"."""
+    words = form.split("_")
+    at = next((n for n, it in enumerate(words) if n and it in complements), None)
+    return words[-1 if at is None else at - 1]
 
 
 _ROWS = ("qwertyuiopå", "asdfghjklöä", "zxcvbnm")
@@ -208,6 +236,8 @@ def _word_lists(language: str, _: int) -> WordLists:
         doubtful=frozenset(data.get("doubtful", "").split()),
         qualities=frozenset(data.get("qualities", "").split()),
         endings=tuple(data.get("abstract_endings", "").split()),
+        parts=frozenset(data.get("parts", "").split()),
+        aspects=frozenset(data.get("aspects", "").split()),
         harmless=_phrases(data.get("harmless", "") + " " + data.get("fillers", "")),
         fillers=frozenset(data.get("fillers", "").split()),
         joining=frozenset(data.get("joining", "").split()),

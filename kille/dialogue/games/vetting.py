@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import kind_of
+from kille.dialogue.criteria import COMPONENT
 from kille.dialogue.games.doubling import BOTH
 from kille.dialogue.meanings import (
     CLAIMS,
@@ -44,6 +45,9 @@ def ask_meant(s: Record, *, types: DialogueTypes) -> Record | None:
     """Only a part of the sentence was understood: it asks whether that is meant."""
     said = s.shared.latest
     if said.doubt != PARTIAL or ("look" in said.content and not s.view.things):
+        return None
+    part = said.content.get(COMPONENT)
+    if part and any(it.content.get(COMPONENT) == part for it in s.private.criteria):
         return None
     told = single_claims(said.content)[0]
     content = in_view(s, told, types=types)
@@ -176,8 +180,8 @@ def _doubted_sign(s: Record) -> Record | None:
     content = said.content
     if "counted" in content:
         named = [it for it in said.signs if it.kind == "noun"]
-    elif "component" in content:
-        named = [it for it in said.signs if it.meaning == content["component"]]
+    elif COMPONENT in content:
+        named = [it for it in said.signs if it.meaning == content[COMPONENT]]
     else:
         named = [it for it in said.signs if claims(content, it)]
     new = [it for it in named if not knows(words(s), it)]
