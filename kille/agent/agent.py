@@ -36,12 +36,9 @@ from kille.dialogue.meanings import (
     types_of,
     word_of,
 )
-from kille.dialogue.robust_reading import (
-    Situation,
-    hear_in_parts,
-    needs_parts,
-    situation_of,
-)
+from kille.dialogue.robust_reading.situations import Situation, situation_of
+from kille.dialogue.robust_reading.text_hearing import hear_in_parts
+from kille.dialogue.robust_reading.whole_sentences import needs_parts
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.dialogue.wording import did_not_understand

@@ -17,7 +17,7 @@ from kille.agent.story_log import StoryLog
 from kille.agent.story_replay import language_of_file
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
-from kille.dialogue.robust_reading import prepare_to_read
+from kille.dialogue.robust_reading.text_hearing import prepare_to_read
 from kille.dialogue.state import words
 from kille.interfaces.formatting import Account, things_in_view, whole_account
 from kille.interfaces.live_prompt import (

@@ -44,7 +44,8 @@ from kille.dialogue.games.referring import REFERRING as REFERRING_TO_WHAT_IS_SEE
 from kille.dialogue.games.referring import trust_pointing
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import noun, predicate_at, relation, theory, word_of
-from kille.dialogue.robust_reading import Situation, hear_in_parts
+from kille.dialogue.robust_reading.situations import Situation
+from kille.dialogue.robust_reading.text_hearing import hear_in_parts
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.lab.worlds.dialogue_properties import RETRACTED

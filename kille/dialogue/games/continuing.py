@@ -8,8 +8,7 @@ Source: Ginzburg 2012 (fragments are resolved on the question under discussion).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
+from kille.dialogue.answered_questions import last_question
 from kille.dialogue.commitments import affirmation, kind_of
 from kille.dialogue.meanings import DialogueTypes, predicate_at, set_to, value_at
 from kille.dialogue.moves import content_of, words_in
@@ -20,34 +19,6 @@ from ttr.updates import first
 
 Update = tuple[Record, Model]
 
-ANSWERED: Mapping[str, frozenset[str]] = {
-    "AskQuality": frozenset(
-        {
-            "assert_quality",
-            "hedge_quality",
-            "guess_quality",
-            "doubt_quality",
-            "admit_quality",
-        }
-    ),
-    "AskPlace": frozenset(
-        {
-            "assert_place",
-            "hedge_place",
-            "guess_place",
-            "doubt_place",
-            "admit_place",
-            "need_landmark",
-            "need_depth",
-        }
-    ),
-    "AskWhether": frozenset(
-        {"say_yes", "say_no", "say_rather", "say_probably", "admit_whether"}
-    ),
-    "AskFind": frozenset({"point_out"}),
-}
-"""The questions, and what the robot says to them; else it was asked what a thing is."""
-
 CLAIM = ("look", "frame", "scale", "landmark", "c", "a", "rel")
 """What a claim says of its target, by labels."""
 
@@ -56,7 +27,7 @@ CLAIM = ("look", "frame", "scale", "landmark", "c", "a", "rel")
 def ask_same(s: Record, *, model: Model, types: DialogueTypes) -> Update:
     """The tutor asks the same of another thing: it is heard as that question."""
     said = s.shared.latest
-    asked, content = _last_question(s), content_of(s)
+    asked, content = last_question(s), content_of(s)
     if asked == "AskWhether":
         content = _claim_of(s, content, types=types)
         asked = asked if kind_of(content) else "AskName"
@@ -69,16 +40,6 @@ def ask_same(s: Record, *, model: Model, types: DialogueTypes) -> Update:
     )
     move, model = model.create(question)
     return replace(s, {"shared.latest": move}), model
-
-
-def _last_question(s: Record) -> str:
-    """What the robot was asked last, as its answer shows."""
-    for it in s.private.last[-1:]:
-        act = predicate_at(it, "e").name
-        return next(
-            (asked for asked, them in ANSWERED.items() if act in them), "AskName"
-        )
-    return "AskName"
 
 
 def _claim_of(s: Record, content: RecordType, *, types: DialogueTypes) -> RecordType:

@@ -13,7 +13,6 @@ from random import Random
 
 from hypothesis import strategies as st
 
-from kille.dialogue import robust_reading
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import (
     CLAIMS,
@@ -22,6 +21,8 @@ from kille.dialogue.meanings import (
     value_at,
     word_of,
 )
+from kille.dialogue.robust_reading import situations
+from kille.dialogue.robust_reading.text_hearing import hear_in_parts
 from kille.dialogue.tutoring import hear_sentences
 from kille.lab.tutors.leading_topics import (
     Situation,
@@ -292,8 +293,8 @@ def event_or_text(one: Saying) -> object:
         return one.text
     language, types = one.words.language, one.words.types
     sentences = understand(one.text, language, types=types)
-    around = robust_reading.Situation(things=1)
-    heard = robust_reading.hear_in_parts(sentences, around, language, types=types)
+    around = situations.Situation(things=1)
+    heard = hear_in_parts(sentences, around, language, types=types)
     return hear_sentences(*heard.moves[:1])
 
 

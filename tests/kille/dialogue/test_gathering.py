@@ -10,7 +10,8 @@ import pytest
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import is_denial
 from kille.dialogue.reference import thing_at
-from kille.dialogue.robust_reading import hear_in_parts, situation_of
+from kille.dialogue.robust_reading.situations import situation_of
+from kille.dialogue.robust_reading.text_hearing import hear_in_parts
 from kille.dialogue.tutoring import hear_sentences
 from ttr import Record, replace
 

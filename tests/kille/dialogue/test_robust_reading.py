@@ -12,18 +12,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.dialogue.islands import best_covers, blank_harmless, words_of
 from kille.dialogue.language import LANGUAGES, Sentence, understand
 from kille.dialogue.meanings import predicate_at
-from kille.dialogue.robust_reading import (
-    CLAIMS,
-    Situation,
-    hear_in_parts,
-    needs_parts,
-    prepare_to_read,
-    read_robustly,
-    situation_of,
-)
+from kille.dialogue.robust_reading.clause_words import blank_harmless, words_of
+from kille.dialogue.robust_reading.covers import best_covers
+from kille.dialogue.robust_reading.island_kinds import CLAIMS
+from kille.dialogue.robust_reading.sentence_reading import read_robustly
+from kille.dialogue.robust_reading.situations import Situation, situation_of
+from kille.dialogue.robust_reading.text_hearing import hear_in_parts, prepare_to_read
+from kille.dialogue.robust_reading.whole_sentences import needs_parts
 from kille.dialogue.tutoring import hear_sentences
 from kille.dialogue.word_lists import word_lists
 

@@ -14,7 +14,8 @@ from kille.dialogue.meanings import (
     predicate_at,
     set_at,
 )
-from kille.dialogue.robust_reading import Situation, hear_in_parts
+from kille.dialogue.robust_reading.situations import Situation
+from kille.dialogue.robust_reading.text_hearing import hear_in_parts
 from kille.lab.study import Theory
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.tutors.exploring import IN_PARTS, exploring_tutor, happenings, is_true

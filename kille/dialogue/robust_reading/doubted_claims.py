@@ -1,0 +1,52 @@
+"""Why what an island claims is not learned at once, but asked about or passed over."""
+
+from __future__ import annotations
+
+from kille.dialogue.robust_reading.clause_words import are_harmless
+from kille.dialogue.robust_reading.covers import Cover
+from kille.dialogue.robust_reading.island_kinds import CLAIMS, INDIRECT
+from kille.dialogue.robust_reading.islands import Island
+from kille.dialogue.robust_reading.self_repairs import RepairedSentence
+from kille.dialogue.robust_reading.sound_covers import is_taken_up
+from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists
+
+HEDGING = frozenset({"okay", "affirm", "deny", "ask_deed"})
+"""The moves beside which a claim is asked about: "Maybe, this is a cup."."""
+
+
+def doubt_about(
+    island: Island, cover: Cover, sentence: RepairedSentence, lists: WordLists
+) -> str:
+    """Why what an island claims is not learned at once, or nothing.
+
+    It is a `SAYING` beside what is not so, or with a "not" that would be left out, and
+    `PARTIAL` where the tutor may be asked.
+    """
+    rule, words = island.rule, sentence.words
+    if rule not in CLAIMS:
+        return ""
+    if lists.is_unreal(_forms_left(cover, sentence, lists)):
+        return SAYING
+    near = {it.form for it in cover.missed_near(island, words)}
+    if rule in INDIRECT:
+        near |= {it.form for it in words[island.first : island.after]}
+    if near & lists.negations:
+        return SAYING
+    asks = sentence.is_question and are_harmless(words[island.after :])
+    hedged = any(
+        it.rule in HEDGING and not is_taken_up(it, cover) for it in cover.islands
+    )
+    left_out = bool(cover.missed) or not sentence.is_certain
+    return PARTIAL if rule in INDIRECT or hedged or asks or left_out else ""
+
+
+def _forms_left(
+    cover: Cover, sentence: RepairedSentence, lists: WordLists
+) -> list[str]:
+    """The words without a no that a correction says, and without harmless phrases."""
+    forms = [it.form for it in sentence.words]
+    taken_up = [it for it in cover.islands if is_taken_up(it, cover)]
+    gone = {at for it in taken_up for at in range(it.first, it.after)}
+    runs = lists.harmless_runs(forms)
+    gone |= {at for run in runs if len(run) > 1 for at in run}  # "if you like"
+    return [it for at, it in enumerate(forms) if at not in gone]

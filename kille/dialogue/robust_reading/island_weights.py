@@ -1,0 +1,81 @@
+"""How well a reading of an island fits what the talk is about.
+
+Source: Lison 2013, for weighing readings by the state of the dialogue.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from kille.dialogue.parsing import Tree, parts
+from kille.dialogue.robust_reading.island_kinds import CLAIMS
+from kille.dialogue.robust_reading.islands import START
+from kille.dialogue.robust_reading.situations import Situation
+
+NEW = 0.8
+"""The factor for every word of an island that the robot does not know."""
+
+ASKED = 0.3
+"""The factor for a claim in a sentence that ends with a question mark."""
+
+
+def weigh_island(situation: Situation, is_question: bool, tree: Tree) -> float:
+    """The weight of a reading: 1 for what fits well, 0 for what is none here."""
+    move = parts(tree)[0]
+    rule = move.rule if tree.rule == START else tree.rule
+    weight = NEW ** sum(it not in situation.known for it in _new_words(move))
+    if is_question and rule in CLAIMS:
+        weight *= ASKED
+    return weight * _fit(situation, rule, move)
+
+
+def _fit(situation: Situation, rule: str, move: Tree) -> float:
+    """How well a move fits what the talk is about."""
+    match rule:
+        case "affirm" | "deny":
+            return 1.0 if situation.asks_whether else 0.95
+        case "mention":
+            return 1.0 if situation.asks_which else 0.02
+        case "take_frame" | "remark":
+            return 0.02
+        case "alone":
+            return 0.5 if situation.asks_name else 0.25
+        case "quality_alone":
+            known = all(it in situation.qualities for it in _new_words(move))
+            return 0.5 if known or situation.asked == "AskQuality" else 0.0
+        case "presumed":
+            new = any(it not in situation.known for it in _new_words(move))
+            return 0.05 if new else 0.0
+        case "about" if _has_part(move, "it"):
+            return 0.0
+        case "about":
+            return 0.02 if situation.asks_which else 0.9
+        case "about_where":
+            known = all(it in situation.known for it in _new_words(move))
+            return 0.9 if known or len(parts(move)) > 1 else 0.0
+        case "instruct_some" | "ask_deed" | "count_sort":
+            return 0.5
+        case "okay":
+            return 0.9 if situation.asks_whether else 1.0
+        case "choice":
+            return 2.0
+        case "choice_colour":
+            named = all(it in situation.colours for it in _new_words(parts(move)[1]))
+            return 2.0 if named else 0.0
+        case "instruct" if len(parts(move)) == 1:
+            return 0.6
+    return 1.0
+
+
+def _new_words(tree: Tree) -> Iterable[str]:
+    """The words in a part that may be learned, part by part."""
+    for child in tree.children:
+        if isinstance(child, Tree):
+            yield from _new_words(child)
+        elif child.terminal not in ("A", "PREP", "OF", "SIDE", "ARTICLE"):
+            yield child.text.lower()
+
+
+def _has_part(tree: Tree, rule: str) -> bool:
+    """Whether a part, or a part of it, is made by a rule."""
+    return any(it.rule == rule or _has_part(it, rule) for it in parts(tree))

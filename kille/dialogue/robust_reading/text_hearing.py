@@ -1,0 +1,201 @@
+"""What is heard of a text of several sentences: its moves, and what is missed.
+
+A lesson that the robot asks about comes last, and others are asked about with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from kille.dialogue.language import Sentence, reader
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    packaged_types,
+    predicate_at,
+    value_at,
+)
+from kille.dialogue.robust_reading.island_kinds import CLAIMS
+from kille.dialogue.robust_reading.lessons_together import (
+    are_about_unmarked_things,
+    correct_lesson,
+    doubt_lesson,
+    join_lessons,
+)
+from kille.dialogue.robust_reading.sentence_reading import Understanding, read_robustly
+from kille.dialogue.robust_reading.situations import Situation
+from kille.dialogue.robust_reading.whole_sentences import are_parts_better, is_weak
+from kille.dialogue.word_lists import NAME, PARTIAL, WordLists, word_lists
+
+SELF_ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repeat"})
+"""The questions that a tutor who then says what it is has answered themselves."""
+
+DOUBTING = frozenset({"ask_certainty", "ask_whether"})
+"""Those of them after which a lesson corrects what the robot has claimed."""
+
+NAMING = frozenset({"instruct", "correct"})
+"""The moves by which a tutor says what a thing is."""
+
+TEACHING = NAMING | {"describe", "instruct_several", "relate"}
+"""Those by which a tutor says what a thing is, or how, or where."""
+
+
+class Hearing(NamedTuple):
+    """What is heard of a text: the moves in it, in order, and what is not understood.
+
+    A lesson that the robot asks about comes last, so that the question stays open.
+    """
+
+    moves: tuple[Sentence, ...]
+    missed: tuple[tuple[Sentence, Understanding], ...]
+
+
+def prepare_to_read(
+    language: str = "en", *, types: DialogueTypes | None = None
+) -> None:
+    """Read the grammars of a language now, so that the first sentence takes no longer.
+
+    It takes half a second of a core, and nothing where it has been done before.
+    """
+    reader(language, types or packaged_types()).sentences("hm")
+    read_robustly("hm", Situation(), language, types=types)
+
+
+def hear_in_parts(
+    sentences: Iterable[Sentence],
+    situation: Situation,
+    language: str = "en",
+    *,
+    types: DialogueTypes | None = None,
+) -> Hearing:
+    """What is heard of the sentences of a text, some of them only in part.
+
+    >>> from kille.dialogue.language import understand
+    >>> text = "Hang on. I have found a whisk! What is this?"
+    >>> heard = hear_in_parts(understand(text), Situation(things=1))
+    >>> [it.readings[0].type["e"].pred.name for it in heard.moves]
+    ['hold_floor', 'ask_name', 'instruct']
+    """
+    lists = word_lists(language)
+    types = types or packaged_types()
+    done: list[Sentence] = []
+    asked: list[Sentence] = []
+    remarks: list[Sentence] = []
+    missed: list[tuple[Sentence, Understanding]] = []
+    for said in sentences:
+        found = _read_parts(said, situation, language, lists, types)
+        if found is None:
+            done.append(said)
+            continue
+        if not found.moves:
+            missed.append((said, found))
+        moves: Sequence[Sentence] = found.moves
+        if any(map(_says_name, moves)):
+            if situation.asks_whether and any(act_of(it) in DOUBTING for it in done):
+                moves = [correct_lesson(it, types=types) for it in moves]
+            done = [it for it in done if act_of(it) not in SELF_ANSWERED]
+        for move in _doubt_together(moves, situation, types):
+            aside = found.is_remark or _is_name(move)
+            kind = remarks if aside else asked if _is_doubted(move) else done
+            kind.append(move)
+    settled, open_ = _settle_lessons(done, asked, types)
+    told = join_lessons(open_, lists.qualities, types=types)
+    heard = (*_without_repetitions(settled), *told) or tuple(remarks[:1])
+    if heard:
+        missed = [it for it in missed if len(it[1].missed) > 1]
+    return Hearing(heard, tuple(missed))
+
+
+def _read_parts(
+    said: Sentence,
+    situation: Situation,
+    language: str,
+    lists: WordLists,
+    types: DialogueTypes,
+) -> Understanding | None:
+    """What is understood of a sentence by its parts; None where the whole is better."""
+    if said.readings and not is_weak(said, situation, lists):
+        return None
+    found = read_robustly(said.text, situation, language, types=types)
+    moves = () if found.is_remark else found.moves
+    if said.readings and not are_parts_better(said, moves, not found.missed, lists):
+        return None
+    return found
+
+
+def _settle_lessons(
+    done: Sequence[Sentence], asked: Sequence[Sentence], types: DialogueTypes
+) -> tuple[Sequence[Sentence], Sequence[Sentence]]:
+    """What is done, and what is asked about.
+
+    A second word for a thing is asked about together with the first; beside a lesson
+    that is learned, no other is asked about.
+    """
+    if any(it.adds for it in asked):
+        lessons = [
+            doubt_lesson(it, PARTIAL, types=types) for it in done if _teaches(it)
+        ]
+        asked = [*lessons, *asked]
+        done = [it for it in done if not _teaches(it)]
+    return done, asked if not any(map(_teaches, done)) else []
+
+
+def _without_repetitions(said: Sequence[Sentence]) -> list[Sentence]:
+    """The moves, of which none says the same as another: thanks twice are thanks."""
+    return list({_content(it): it for it in reversed(said)}.values())[::-1]
+
+
+def _content(it: Sentence) -> object:
+    """What a sentence says, whatever its words are."""
+    first = it.readings[0].type
+    return first["e"], first["content"]
+
+
+def _doubt_together(
+    moves: Sequence[Sentence], situation: Situation, types: DialogueTypes
+) -> Sequence[Sentence]:
+    """The moves of a sentence; if one of its lessons has to be asked about, all have.
+
+    So have several lessons of which nobody knows which thing each is about.
+    """
+    open_ = situation.things > 1 and not situation.points
+    if not any(map(_is_doubted, moves)) and not (
+        open_ and are_about_unmarked_things(moves, types=types)
+    ):
+        return moves
+    return [
+        doubt_lesson(it, PARTIAL, types=types)
+        if _claims(it) and not _is_doubted(it)
+        else it
+        for it in moves
+    ]
+
+
+def act_of(it: Sentence) -> str:
+    """The name of the move that a sentence best is read as."""
+    return str(predicate_at(it.readings[0].type, "e").name)
+
+
+def _is_doubted(it: Sentence) -> bool:
+    """Whether the best reading of a sentence is in doubt."""
+    return "doubt" in it.readings[0].type
+
+
+def _is_name(it: Sentence) -> bool:
+    """Whether a sentence is no lesson but a name, as in "Anna! This is a cup."."""
+    return _is_doubted(it) and value_at(it.readings[0].type, "doubt") == NAME
+
+
+def _says_name(it: Sentence) -> bool:
+    """Whether a sentence says what a thing is, and so answers what it is."""
+    return not _is_name(it) and act_of(it) in NAMING
+
+
+def _teaches(it: Sentence) -> bool:
+    """Whether a sentence may say what a thing is, or how, or where."""
+    return any(predicate_at(one.type, "e").name in TEACHING for one in it.readings)
+
+
+def _claims(it: Sentence) -> bool:
+    """Whether a sentence says how things are, by the name of its move."""
+    return any(predicate_at(one.type, "e").name in CLAIMS for one in it.readings)

@@ -1,0 +1,76 @@
+"""Whether a sentence that the grammar reads as a whole had better be read by its parts.
+
+The grammar may read what is no sentence of its own by unknown words: "No worries." as a
+correction, and "This is, uh, a cup." as how two things stand.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from kille.dialogue.language import Sentence, Utterance
+from kille.dialogue.meanings import predicate_at
+from kille.dialogue.robust_reading.situations import Situation
+from kille.dialogue.word_lists import WordLists, plain_text, word_lists
+from ttr import Record
+
+_COMMA = re.compile(r"[,;:]")
+
+
+def needs_parts(
+    sentences: Iterable[Sentence], situation: Situation, language: str = "en"
+) -> bool:
+    """Whether some sentence is none, or may better be read by its parts."""
+    lists = word_lists(language)
+    return any(not it.readings or is_weak(it, situation, lists) for it in sentences)
+
+
+def is_weak(it: Sentence, situation: Situation, lists: WordLists) -> bool:
+    """Whether a sentence answers what nobody asked, or is in doubt, or has fillers."""
+    if lists.write_out(it.text) != it.text:
+        return True
+    if not situation.asks_which and _is_mention(it):
+        return True
+    return all(
+        "doubt" in one.type or any(_is_odd(sign, lists) for sign in one.signs)
+        for one in it.readings
+    )
+
+
+def _is_mention(it: Sentence) -> bool:
+    """Whether all that a sentence can be is an answer which thing is meant."""
+    return all(predicate_at(one.type, "e").name == "mention" for one in it.readings)
+
+
+def _is_odd(sign: Record, lists: WordLists) -> bool:
+    """Whether what was read as a word has a part that is none of such words'."""
+    parts = sign.form.split()
+    if sign.kind == "relation":
+        return parts[0] in lists.articles or not lists.fillers.isdisjoint(parts)
+    return any(map(lists.is_closed, parts))
+
+
+def are_parts_better(
+    whole: Sentence, moves: tuple[Sentence, ...], is_all: bool, lists: WordLists
+) -> bool:
+    """Whether the moves in a sentence are a better reading than that of the whole.
+
+    `is_all` says that no word is missing in them.
+    """
+    if not moves:
+        return False
+    if is_all and any(_spans_break(it) for it in whole.readings):
+        return True
+    fills = not lists.fillers.isdisjoint(plain_text(whole.text).split())
+    fills = fills or lists.write_out(whole.text) != whole.text
+    doubted = any("doubt" in it.readings[0].type for it in moves)
+    return _is_mention(whole) or fills or (is_all and not doubted)
+
+
+def _spans_break(reading: Utterance) -> bool:
+    """Whether some word of a reading goes on after a comma: "lamp, also called …"."""
+    text = " ".join(reading.text.lower().split())
+    unbroken = " ".join(_COMMA.sub(" ", text).split())
+    several = (it.form for it in reading.signs if " " in it.form)
+    return any(it not in text and it in unbroken for it in several)
