@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from itertools import islice, product, zip_longest
 
+from kille.dialogue.grammar_cache import recall_grammar
 from kille.dialogue.grammars import GrammarError
 from kille.dialogue.language_files import FILES, ISLANDS, last_change, source
 from kille.dialogue.lexicon import Lexicon, lexicon
@@ -175,14 +176,15 @@ def overhear(
 
 @lru_cache
 def _grammar(language: str, _: _Changes) -> Grammar:
-    return Grammar(grammar_text(language))
+    return Grammar(grammar_text(language), read=recall_grammar)
 
 
 @lru_cache
 def _island_grammar(language: str, _: _Changes) -> Grammar | None:
     """The grammar of islands; None where it does not fit a grammar of one's own."""
     try:
-        return Grammar(grammar_text(language) + source(ISLANDS, language), "island")
+        islands = grammar_text(language) + source(ISLANDS, language)
+        return Grammar(islands, "island", read=recall_grammar)
     except GrammarError:
         return None
 
@@ -190,7 +192,8 @@ def _island_grammar(language: str, _: _Changes) -> Grammar | None:
 @lru_cache
 def _robots_grammar(language: str, _: _Changes) -> Grammar:
     tutors = grammar_text(language)
-    return Grammar(tutors + robot_rules(lexicon(language), tutors), CLOSELY, LOOSELY)
+    robots = tutors + robot_rules(lexicon(language), tutors)
+    return Grammar(robots, CLOSELY, LOOSELY, read=recall_grammar)
 
 
 def grammar_text(language: str) -> str:

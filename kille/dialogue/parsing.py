@@ -11,7 +11,7 @@ without the left recursion.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from time import process_time
 from typing import NamedTuple
 
@@ -19,6 +19,7 @@ from kille.dialogue.grammars import (
     SECONDS,
     Expression,
     GrammarError,
+    GrammarSource,
     Production,
     Symbol,
     read_grammar,
@@ -73,9 +74,15 @@ class Grammar:
     []
     """
 
-    def __init__(self, source: str, *starts: str) -> None:
+    def __init__(
+        self,
+        source: str,
+        *starts: str,
+        read: Callable[[str, Sequence[str]], GrammarSource] = read_grammar,
+    ) -> None:
+        """The grammar of a text in Lark's notation, as `read` reads it."""
         self.starts = starts or ("start",)
-        self._source = read_grammar(source, self.starts)
+        self._source = read(source, self.starts)
         self._between = self._source.between()
         self._expressions: dict[str, Expression] = {}
         self._initials: dict[str, str | None] = {}
