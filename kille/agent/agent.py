@@ -421,18 +421,21 @@ class Agent:
     def _hear_text(self, text: str) -> TurnResult:
         """Take in all that a text says, move by move."""
         numbers = _POINTING.findall(text)
-        for number in numbers:
-            self.gaze.point(number)
         words = _POINTING.sub(" ", text)
-        if not words.strip():
-            if not numbers or not self.state.shared.qud:
-                return self._look_around()
-            words = self._lexicon.pointing
+        sentences = self._sentences_with_numbers(text, words) if numbers else ()
+        if not sentences:
+            for number in numbers:
+                self.gaze.point(number)
+            if not words.strip():
+                if not numbers or not self.state.shared.qud:
+                    return self._look_around()
+                words = self._lexicon.pointing
+            sentences = understand(words, self.language, types=self.types)
         exchange, now = Exchange(text, None, (), (), self._clock()), self._now_at
-        sentences = self._sentences(words, text if len(numbers) == 1 else "")
         full = [self._in_full(it, now.state) for it in sentences]
         situation = situation_of(now.state)
-        if needs_parts(full, situation, self.language):
+        names_several = len(numbers) > 1 and any(not it.readings for it in sentences)
+        if not names_several and needs_parts(full, situation, self.language):
             return self._hear_in_parts(full, situation, exchange, now)
         for sentence in sentences:
             sentence = self._in_full(sentence, now.state)
@@ -573,16 +576,21 @@ class Agent:
             self._log.record_said(it.text, str(it.judgement))
         return Exchange("", None, turn.trace, said, self._clock()), turn.run
 
-    def _sentences(self, words: str, numbered: str) -> tuple[Sentence, ...]:
-        """The sentences of a text; in "What is #2?" the number counts as "this"."""
-        sentences = understand(words, self.language, types=self.types)
-        if not numbered or all(it.readings for it in sentences):
-            return sentences
-        this = self._lexicon.referring["shown"]
-        named = understand(
-            _POINTING.sub(f" {this} ", numbered), self.language, types=self.types
+    def _sentences_with_numbers(self, text: str, words: str) -> tuple[Sentence, ...]:
+        """The sentences of a text in which numbers name things: "Is #2 a cup?".
+
+        None where they only point, as in "#2 This is a cup.". A text with several that
+        is not understood as a whole is not read by its parts, which have none.
+        """
+        if not words.strip():
+            return ()
+        pointing, naming = (
+            understand(it, self.language, types=self.types) for it in (words, text)
         )
-        return named if all(it.readings for it in named) else sentences
+        if all(it.readings for it in pointing):
+            return ()
+        several = len(_POINTING.findall(text)) > 1
+        return naming if several or all(it.readings for it in naming) else ()
 
     def _in_full(self, sentence: Sentence, s: Record) -> Sentence:
         """A text that only answers which thing was meant, "Red.", as a sentence."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from kille.dialogue.lexicon import Lexicon
 from ttr import Pred, Record, RecordType
-from ttr.types import Join, Meet, Negation, PType, TypeNode
+from ttr.types import Join, Meet, Negation, PType, Singleton, TypeNode
 
 Words = Mapping[Pred, Record]
 """The sign of each predicate that is a word."""
@@ -32,7 +32,8 @@ def phrase(lexicon: Lexicon, part: RecordType, words: Words, style: str) -> str 
     marking = [name for name in talk if name in lexicon.marking]
     alone = [lexicon.referring[name] for name in talk if name in lexicon.referring]
     if not (nouns or own or marking or alone or beside):
-        return None
+        number = part.get("number")
+        return f"#{number.value}" if isinstance(number, Singleton) else None
     if alone and not (nouns or own or marking):
         core = alone[0]
     else:

@@ -15,6 +15,7 @@ from kille.dialogue.meanings import (
     packaged_types,
     set_at,
     set_to,
+    value_at,
     word_of,
 )
 from kille.dialogue.reference.demonstratives import in_talk, shown_things
@@ -347,6 +348,7 @@ class PhraseJudge:
         self, phrase: RecordType, among: Sequence[str] | None = None
     ) -> dict[str, PhraseFit]:
         """How well each thing in view, or each of these, fits a phrase."""
+        phrase = set_numbered(self._s, phrase, types=self._types)
         return self.fits_part(
             take_apart(phrase, self._types.derive(choosing_predicates)), among
         )
@@ -359,6 +361,7 @@ class PhraseJudge:
 
     def _fits(self, part: PhraseParts, among: Sequence[str]) -> dict[str, PhraseFit]:
         things = among if part.thing is None else [part.thing]
+        things = [x for x in things if x in self._s.view.things]
         found = {x: fit for x in things if (fit := self._alone(part, x)).p > 0.0}
         if part.landmark is not None:
             found = dict(self._beside(part, part.landmark, found))
@@ -421,6 +424,27 @@ class PhraseJudge:
             seen = self._model.facts.perceive(None, pred(*args))
             known = self._degrees[claim] = 0.0 if seen is None else seen.lo
         return known
+
+
+NUMBER = "number"
+"""The label of the number by which a phrase calls its thing: "#2"."""
+
+
+def set_numbered(s: Record, phrase: RecordType, *, types: DialogueTypes) -> RecordType:
+    """The phrase, set to the thing in view that has its number, if it has one.
+
+    So are the phrases in it. A number that nothing in view has is that of something
+    else, which fits nothing.
+    """
+    inner = phrase.get("landmark")
+    if isinstance(inner, RecordType):
+        found = set_numbered(s, inner, types=types)
+        phrase = phrase if found is inner else set_to(phrase, landmark=found)
+    if NUMBER not in phrase or isinstance(phrase["x"], Singleton):
+        return phrase
+    things = dict(enumerate(s.view.things, start=1))
+    number = int(str(value_at(phrase, NUMBER)))
+    return set_to(phrase, x=types["Ind"] @ things.get(number, f"#{number}"))
 
 
 def _set_phrase(
