@@ -27,7 +27,8 @@ _LEAST_UPRIGHT = 0.1  # cosine of the normal with the picture's up: a wall has n
 
 _CELL = 0.01  # metres; of the grid the seen part of the table is drawn on
 _REACH = 3.0  # metres from the camera; no table is larger
-_LEAST_PATCH = 0.2  # of the largest patch of table; smaller ones are other things
+_LEAST_PATCH = 0.01  # of the largest patch of table; smaller ones are noise
+_LEVEL = 0.9  # cosine of a patch's own normal with that of the table: a wall has none
 _BELOW = 0.25  # of the picture's height: so far the table goes on below the picture
 
 
@@ -86,10 +87,11 @@ def find_table(rays: Rays, depth: Array) -> Plane | None:
 def reach_of(table: Plane, rays: Rays, depth: Array, flat: Mask) -> Mask:
     """The pixels (h, w) whose points lie over the visible part of the table.
 
-    That part is the convex hull of the flat patches, laid out on the table. Where the
-    table leaves the picture at the bottom it goes on, towards the viewer.
+    That part is the convex hull of the flat patches that are as level as the table,
+    laid out on it. Things may cut small patches off from the others. Where the table
+    leaves the picture at the bottom it goes on, towards the viewer.
     """
-    patches = _large_patches(flat)
+    patches = _level_patches(table, rays, depth, flat)
     filled = np.nan_to_num(depth)
     across, along = _cells(table, rays.right, rays.down, filled)
     corners = np.stack([across[patches], along[patches]], axis=1)[::4]
@@ -128,14 +130,34 @@ def _refit(n: Vectors, directions: Vectors, inverse: Vectors) -> Vectors | None:
     return fitted if fitted[1] > _LEAST_UPRIGHT * np.linalg.norm(fitted) else None
 
 
-def _large_patches(flat: Mask) -> Mask:
-    """The large connected parts of the flat pixels; small ones are other things."""
+def _level_patches(table: Plane, rays: Rays, depth: Array, flat: Mask) -> Mask:
+    """The connected parts of the flat pixels that are parts of the table.
+
+    They are not tiny, and a plane fitted to each is as level as the table: where a wall
+    behind the table crosses its height, it is not.
+    """
     solid = cv2.erode(flat.astype(np.uint8), np.ones((3, 3), np.uint8))
     _, labels, stats, _ = cv2.connectedComponentsWithStats(solid, connectivity=4)
     areas = stats[:, cv2.CC_STAT_AREA].copy()
     areas[0] = 0
-    large: Mask = (areas >= max(1, _LEAST_PATCH * areas.max()))[labels]
-    return large
+    large = areas >= max(1, _LEAST_PATCH * areas.max())
+    large &= areas > 0
+    for patch in np.flatnonzero(large):
+        if areas[patch] == areas.max():
+            continue
+        inside = labels == patch
+        large[patch] = _is_level(
+            table, rays.right[inside], rays.down[inside], depth[inside]
+        )
+    return np.asarray(large[labels], bool)
+
+
+def _is_level(table: Plane, right: Array, down: Array, depth: Array) -> bool:
+    """Whether the plane through these readings (n,) has the direction of the table."""
+    directions = np.stack([right, down, np.ones_like(right)], axis=1).astype(float)
+    n = np.linalg.lstsq(directions, 1 / depth.astype(float), rcond=None)[0]
+    cosine = n @ table.n / max(np.linalg.norm(n) * np.linalg.norm(table.n), 1e-9)
+    return bool(cosine > _LEVEL)
 
 
 def _below(table: Plane, rays: Rays, patches: Mask) -> NDArray[np.int32]:

@@ -28,7 +28,7 @@ from kille.sensors.synthetic.catalogue import TOY_NAMES
 from kille.sensors.synthetic.faults import FAULTS, degrade_depth
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.toy_model import ToyModel
-from tools.fitting.piles import a_bowl, lift_model, pile
+from tools.fitting.piles import a_bowl, hide_middle, lift_model, pile
 from tools.modelling.shapes import box, disc, lathe, move
 from tools.modelling.sheets import Sheet, assemble
 
@@ -216,6 +216,26 @@ def test_a_thing_behind_a_narrow_one_is_one_thing() -> None:
     frame = seen(PosedToy(wide, Pose(0, 0.1)), PosedToy(tall, Pose(0, -0.05)))
     assert score(segment(frame).regions, frame).exact == 1
     assert len(segment_by_contact(frame).regions) == 3
+
+
+def test_a_thing_on_a_scrap_of_table_that_others_cut_off_is_found() -> None:
+    wide, tin = _lying(1.3, 0.05, 0.12), _standing(0.035, 0.12)
+    camera = SimulatedCamera(0.9, 40)
+    bodies = PosedToy(wide, Pose(0, 0.05)), PosedToy(tin, Pose(0.1, 0.24))
+    frame = seen(*bodies, camera=camera)
+    assert frame.depth is not None
+    rows = np.isin(np.arange(480), np.nonzero(frame.outlines["1"].any(axis=1)))
+    behind = np.flatnonzero(rows)[0] + 10  # the tin's top, and all that is farther
+    depth = frame.depth.copy()
+    depth[:behind][~frame.outlines["1"][:behind]] = np.nan
+    found = segment(replace(frame, depth=depth)).regions
+    assert max(overlap(it, region_of(frame, frame.outlines["1"])) for it in found) > 0.7
+
+
+def test_a_wall_that_crosses_the_height_of_the_table_is_no_scrap_of_it() -> None:
+    frames = [hide_middle(seed) for seed in (9000, 9001, 9002)]
+    found = sum((score(segment(it).regions, it) for it in frames), SegmentationScore())
+    assert found.given <= found.there + 1
 
 
 @pytest.mark.parametrize("seed", range(3))
