@@ -1,10 +1,10 @@
 """Grammars that were read before, kept in the user's cache.
 
-Lark takes over a quarter of the time from the start of a process to its first answer to read a
-tutor's grammar. What it comes to is kept as JSON, a file for each text; where it is
-there, Lark is not even imported. A file counts only if it is whole, and was made of the
-same text by the same reader. Whatever is wrong with it, the grammar is read anew, and
-where nothing can be written, nothing is kept.
+Lark takes over a quarter of the time from the start of a process to its first answer to
+read a tutor's grammar. What it comes to is kept as JSON, a file for each text; where it
+is there, Lark is not even imported. A file counts only if it is whole, and was made of
+the same text by the same reader. Whatever is wrong with it, the grammar is read anew,
+and where nothing can be written, nothing is kept.
 """
 
 from __future__ import annotations
