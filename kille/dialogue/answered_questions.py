@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from kille.dialogue.meanings import predicate_at
 from ttr import Record
 
-ANSWERS: Mapping[str, frozenset[str]] = {
+ANSWERING_ACTS: Mapping[str, frozenset[str]] = {
     "AskQuality": frozenset(
         {
             "assert_quality",
@@ -46,6 +46,6 @@ def last_question(s: Record) -> str:
     for it in s.private.last[-1:]:
         act = predicate_at(it, "e").name
         return next(
-            (asked for asked, them in ANSWERS.items() if act in them), "AskName"
+            (asked for asked, them in ANSWERING_ACTS.items() if act in them), "AskName"
         )
     return "AskName"

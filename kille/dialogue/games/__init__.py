@@ -24,7 +24,7 @@ from kille.dialogue.games.counting import COUNTING
 from kille.dialogue.games.courtesy import COURTESY
 from kille.dialogue.games.criticising import CRITICISING
 from kille.dialogue.games.distinguishing import DISTINGUISHING
-from kille.dialogue.games.doubling import ANSWERED, DOUBLING
+from kille.dialogue.games.doubling import BOTH_ANSWERED, DOUBLING
 from kille.dialogue.games.explaining import EXPLAINING
 from kille.dialogue.games.finding import FINDING
 from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
@@ -32,7 +32,7 @@ from kille.dialogue.games.framing import ASKING_FRAME, FRAMING, SETTLING
 from kille.dialogue.games.gathering import GATHERED, GATHERING
 from kille.dialogue.games.initiating import IDLING, INITIATING, STAYING
 from kille.dialogue.games.instructing import INSTRUCTING
-from kille.dialogue.games.interrupting import REPEATING, cut_off
+from kille.dialogue.games.interrupting import REPEATING, drop_unsaid
 from kille.dialogue.games.knowing import KNOWING
 from kille.dialogue.games.listening import GLANCED, LISTENING, SAID, SEEN
 from kille.dialogue.games.mishearing import MISHEARD
@@ -95,7 +95,7 @@ def games_with(*answers: Rule) -> Algorithm:
                 GATHERED,
                 VETTED,
                 FORGET_ANSWERED,
-                ANSWERED,
+                BOTH_ANSWERED,
                 STILL_ANSWERED,
                 SEVERAL_ANSWERED,
                 SETTLING,
@@ -114,7 +114,7 @@ def games_with(*answers: Rule) -> Algorithm:
         SAID,
         GLANCED,
         WATCHING,
-        cut_off,
+        drop_unsaid,
         seq(STAYING, SEEN, maybe(IDLING)),
         seq(SEEN, maybe(INITIATING)),
     )

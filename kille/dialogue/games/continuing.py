@@ -31,7 +31,7 @@ def ask_same(s: Record, *, model: Model, types: DialogueTypes) -> Update:
     if asked == "AskWhether":
         content = _claim_of(s, content, types=types)
         asked = asked if kind_of(content) else "AskName"
-    signs = tuple(dict.fromkeys((*said.signs, *words_in(_spoken(s), content))))
+    signs = tuple(dict.fromkeys((*said.signs, *words_in(_words_at_hand(s), content))))
     question = set_to(
         types.move_type("Heard", asked),
         text=types["Text"] @ said.text,
@@ -55,7 +55,7 @@ def _claim_of(s: Record, content: RecordType, *, types: DialogueTypes) -> Record
     return rectype({**fields, "look": types["Look"], "target": content["target"]})
 
 
-def _spoken(s: Record) -> list[Record]:
+def _words_at_hand(s: Record) -> list[Record]:
     """The words that are known, and those of the robot's last answer."""
     said = value_at(s.private.last[-1], "signs") if s.private.last else ()
     return [*words(s), *said]

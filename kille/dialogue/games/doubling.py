@@ -57,10 +57,10 @@ def learn_both(s: Record, *, types: DialogueTypes) -> Record | None:
     return plan_learning(left, new, types=types)
 
 
-@rule(answers="Deny")
+@rule(answers=("Affirm", "Deny"))
 def ask_either(s: Record, *, types: DialogueTypes) -> Record | None:
-    """It is not both: which is it?"""
-    if not _asks(s, BOTH):
+    """It is not both: which is it? Yes or no does not say that, and it asks again."""
+    if not (_asks(s, BOTH) or _asks(s, EITHER)):
         return None
     asked, *rest = s.shared.qud
     new, old = (it.content for it in asked.options)
@@ -71,24 +71,6 @@ def ask_either(s: Record, *, types: DialogueTypes) -> Record | None:
         new,
         signs=(*asked.options[0].signs, *signs_for(s, old, new)),
         asks=[issue(EITHER, asked.options)],
-        types=types,
-    )
-
-
-@rule(answers=("Affirm", "Deny"))
-def ask_either_again(s: Record, *, types: DialogueTypes) -> Record | None:
-    """Yes or no does not say which of the two it is: it asks again."""
-    if not _asks(s, EITHER):
-        return None
-    asked, *rest = s.shared.qud
-    new, old = (it.content for it in asked.options)
-    return plan(
-        replace(s, {"shared.qud": rest}),
-        "AskWhich",
-        old,
-        new,
-        signs=(*asked.options[0].signs, *signs_for(s, old, new)),
-        asks=[asked],
         types=types,
     )
 
@@ -163,7 +145,7 @@ def _other_name(s: Record, content: RecordType) -> RecordType | None:
     return names[-1] if names else None
 
 
-ANSWERED = first(learn_both, ask_either, ask_either_again, take_either, correct_either)
+BOTH_ANSWERED = first(learn_both, ask_either, take_either, correct_either)
 """What answers whether it is both, or which of the two it is."""
 
 DOUBLING = ask_both

@@ -57,7 +57,7 @@ def ask_together(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
         asked = plan(
             asked,
             MEANT_TOO if n else MEANT,
-            _shown(s, model, content, again=again, types=types),
+            _claim_with_place(s, model, content, again=again, types=types),
             signs=said.signs,
             asks=() if n else [issue(MEANT, options)],
             types=types,
@@ -123,7 +123,7 @@ def _set_to_thing(
     return set_to(content, look=look, target=set_to(phrase, look=look))
 
 
-def _shown(
+def _claim_with_place(
     s: Record,
     model: Model,
     content: RecordType,

@@ -17,7 +17,7 @@ from ttr.updates import first
 
 
 @rule(when="State", on="Interrupted")
-def cut_off(s: Record, event: Record, *, types: DialogueTypes) -> Record:
+def drop_unsaid(s: Record, event: Record, *, types: DialogueTypes) -> Record:
     """The robot is cut off: what it has not said is no longer under discussion."""
     unheard = event.unsaid[bool(event.uttered) :]
     asked = 1 if any(_asks(s, it, types=types) for it in unheard) else 0
