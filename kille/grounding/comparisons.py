@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kille.dialogue.reference.comparing import ASIDE
 from kille.perception.geometry import points_in, table_axes
 from kille.scene import Look, Point
 
@@ -27,7 +28,7 @@ SIZES_APART = 0.12
 PLACES_APART = 0.03
 """The deviation of the difference of two distances that are the same, in metres."""
 
-_ASIDE, _ASIDE_APART = 0.35, 0.1  # of the distance: how far off the line is between
+_ASIDE_APART = 0.1  # of the distance: the deviation of how far off the line it is
 _LEAST_POINTS = 20
 _ENDS = (2, 98)  # percentiles: what is farther out is noise
 _FLATTEST = 0.004  # metres: what is flatter is not told to be
@@ -146,7 +147,7 @@ def degree_between(x: Point, one: Point, other: Point) -> float:
     along = float(to @ line) / length
     aside = float(np.linalg.norm(to - along / length * line)) / length
     ends = min(along, length - along) / PLACES_APART
-    return _normal(ends) * _normal((_ASIDE - aside) / _ASIDE_APART)
+    return _normal(ends) * _normal((ASIDE - aside) / _ASIDE_APART)
 
 
 def _normal(deviations: float) -> float:

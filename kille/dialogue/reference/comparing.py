@@ -27,6 +27,10 @@ COMPARATIVES: Mapping[str, str] = {
 """The comparative by which each superlative chooses, by names of predicates."""
 
 
+ASIDE = 0.35
+"""How far off the line between two things another may be, of their distance."""
+
+
 def exceeds(s: Record, model: Model, more: Pred, x: str, y: str) -> float:
     """How probably x is more than y, as a comparative has it: bigger, nearer …"""
     seen = model.facts.perceive(None, more(x, y, s.view.look, AWAY))

@@ -6,6 +6,7 @@ import math
 from functools import lru_cache
 from random import Random
 
+from kille.dialogue.reference.comparing import ASIDE
 from kille.dialogue.reference.salience import NEUTRAL
 from kille.lab.worlds.worlds import COLOURS, SIDE, STEP, Thing, World
 from ttr import Record, record
@@ -36,9 +37,6 @@ Vector = tuple[float, ...]
 
 TRAITS = 4
 """The number of features of a kind."""
-
-ASIDE = 0.35
-"""How far off the line between two things another may be, of their distance."""
 
 LOOKS = 0.25
 """The difference between two looks at a thing, relative to that of two things."""
