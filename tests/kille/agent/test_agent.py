@@ -607,7 +607,9 @@ def test_things_in_view_have_the_names_that_it_would_call_them() -> None:
         assert robot.names_in_view()[0] == "cup"
         tell(robot, "@remove cup", "@place car at 0.1 -0.1")
         robot.do("glimpse")
-        assert len(robot.names_in_view()) == 2
+        assert robot.names_in_view() == ("cup?", "")
+        assert robot.hear("What is #1?").startswith("The object is thought to be a cup")
+        assert robot.hear("What is #2?").startswith("I do not know what this is.")
 
 
 def test_a_thing_that_has_come_since_the_latest_turn_has_no_name() -> None:

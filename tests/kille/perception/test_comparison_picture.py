@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.perception.comparison_picture import (
+    _JOIN,
     Side,
     comparison_picture,
     matched_details,
@@ -16,7 +17,7 @@ from kille.perception.comparison_picture import (
 from kille.perception.lettering import text_width, wrap_text, write_label
 from kille.perception.look import look
 from kille.perception.picture_sheet import overview
-from kille.scene import Box, Look, Percept
+from kille.scene import Box, Colour, Look, Percept
 from kille.sensors.synthetic import open_synthetic
 
 
@@ -105,6 +106,18 @@ def test_a_picture_shows_what_matches_and_how_much_each_cue_counted(
     assert bars.min() > 300
 
 
-def test_things_without_details_are_compared_without_lines() -> None:
-    sides = [Side(np.zeros((9, 9, 3), np.uint8), boxes=(Box(1, 1, 5, 5),))] * 2
-    assert comparison_picture("They stand so.", {}, *sides).any()
+def has_lines(picture: Colour) -> bool:
+    """Whether details are joined by lines in a picture."""
+    return bool((picture == _JOIN).all(axis=2).any())
+
+
+def test_things_without_details_are_compared_without_lines(cup: Percept) -> None:
+    detailed = side(cup)
+    bare = detailed._replace(features=None)
+    assert has_lines(comparison_picture("They stand so.", {}, detailed, detailed))
+    alone = comparison_picture("They stand so.", {}, bare, bare)
+    assert not has_lines(alone)
+    boxed = bare._replace(boxes=(Box(1, 1, 5, 5),))
+    assert not np.array_equal(
+        alone, comparison_picture("They stand so.", {}, boxed, boxed)
+    )
