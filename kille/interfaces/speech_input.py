@@ -75,7 +75,7 @@ class SpeechInput:
         self._expected: tuple[object, ...] | None = None
 
     @contextmanager
-    def listening(self) -> Iterator[Stop]:
+    def watch_for_voice(self) -> Iterator[Stop]:
         """Listen while the robot speaks: whether somebody speaks over it.
 
         What they say is the next utterance. It is for people with headphones, as the

@@ -267,7 +267,7 @@ class _Conversation:
             return
         sentences = answer.split("\n")
         uttered: list[str] = []
-        with self._listening() as stop:
+        with self._watch_for_stops() as stop:
             for sentence in sentences:
                 self._print(sentence if sentence.startswith(" ") else f"S> {sentence}")
                 spoken = self._speak(sentence, stop)
@@ -279,7 +279,7 @@ class _Conversation:
             self._tell_uttered(" ".join(uttered), turns)
 
     @contextmanager
-    def _listening(self) -> Iterator[Stop]:
+    def _watch_for_stops(self) -> Iterator[Stop]:
         """Watch for what stops the voice: a key, or somebody who speaks over it."""
         with ExitStack() as watching:
             stops: list[Stop] = []
@@ -287,7 +287,7 @@ class _Conversation:
                 watching.enter_context(keys_at_once())
                 stops.append(is_key_pressed)
             if self._aloud and self._ears is not None:
-                stops.append(watching.enter_context(self._ears.listening()))
+                stops.append(watching.enter_context(self._ears.watch_for_voice()))
             yield lambda: any(stop() for stop in stops)
 
     def _tell_uttered(self, uttered: str, turns: int) -> None:

@@ -193,9 +193,13 @@ class ObjectMemory:
                 column, own = labels.index(label), self._examples_for(relevance)
                 likeness = likeness.with_column(column, own.likeness(traits))
                 cast[column] *= relevance.votes**2
-        return self._weighing.evidence(labels, self._ignoring(likeness, labels), cast)
+        return self._weighing.evidence(
+            labels, self._without_ignored_size(likeness, labels), cast
+        )
 
-    def _ignoring(self, likeness: Likeness, labels: Sequence[str]) -> Likeness:
+    def _without_ignored_size(
+        self, likeness: Likeness, labels: Sequence[str]
+    ) -> Likeness:
         """The likeness without a size for the words of which the size was said not to
         matter."""
         words = [it for it, said in self._relevance.items() if said.ignores(SIZE)]

@@ -56,7 +56,7 @@ def state(
     for name, value in (weighed or {}).items():
         s = replace(s, {f"private.strategy.salience.{name}": value})
     for it in history:
-        s = after_move(s) if it is None else attended(s, *it)
+        s = after_move(s) if it is None else attend_to(s, *it)
     return s
 
 
@@ -64,7 +64,7 @@ def after_move(s: Record) -> Record:
     return replace(s, {"private.cost.turns": s.private.cost.turns + 1.0})
 
 
-def attended(s: Record, x: str, role: str) -> Record:
+def attend_to(s: Record, x: str, role: str) -> Record:
     move = s.private.cost.turns + (0.0 if role in TALK else BEFORE)
     noticed = notice(s.shared.noticed, {x: role}, move)
     return replace(s, {"shared.noticed": noticed})
@@ -119,7 +119,7 @@ def test_to_be_mentioned_makes_no_less_salient(
 ) -> None:
     s = state(history, seen, weighed)
     for role in TALK:
-        mentioned = attended(s, x, role)
+        mentioned = attend_to(s, x, role)
         assert saliences(mentioned)[x] >= saliences(s)[x]
         assert all(saliences(mentioned)[y] == saliences(s)[y] for y in THINGS if y != x)
 
@@ -130,7 +130,7 @@ def test_to_be_said_something_of_makes_more_salient(
 ) -> None:
     """It gains, but where it is pointed at, and is the most salient in the talk."""
     s = after_move(state(history, seen))
-    mentioned = attended(s, x, "target")
+    mentioned = attend_to(s, x, "target")
     said = {it.x: it.linguistic for it in thing_saliences(mentioned)}
     assert said[x] == max(said.values())
     assert saliences(mentioned)[x] > saliences(s)[x]

@@ -260,7 +260,7 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
         case ["comparative", "the_landmark", "the_target"]:
             return _comparisons(talk)
         case ["amid", "the_target"]:
-            return _flanked(talk)
+            return _things_between(talk)
         case ["word"]:
             return map(word_matter, talk.words.all)
         case ["counted"] | ["a_counted"]:
@@ -309,7 +309,7 @@ def _comparisons(talk: WorldTalk) -> Iterator[Claim]:
 
 
 @dataclass(frozen=True)
-class Flanked(Phrase):
+class BetweenPhrase(Phrase):
     """A phrase for being between two things."""
 
     flanks: tuple[Phrase, ...] = ()
@@ -321,12 +321,12 @@ class Flanked(Phrase):
         return merge_of(types.record_type("Between"), rectype(landmark=flank))
 
 
-def _flanked(talk: WorldTalk) -> Iterator[Matter]:
+def _things_between(talk: WorldTalk) -> Iterator[Matter]:
     """That a thing is between two others."""
     for x, y, z in islice(permutations(talk.world.in_view, 3), 2 * PAIRS):
         flanks = talk.colour_phrase(y), talk.colour_phrase(z)
         signs = tuple(sign for it in flanks for sign in it.signs)
-        amid = Flanked("", signs, flanks)
+        amid = BetweenPhrase("", signs, flanks)
         yield Matter("", (("target", talk.colour_phrase(x)), ("amid", amid)))
 
 

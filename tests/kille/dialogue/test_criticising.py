@@ -34,7 +34,7 @@ def table(scene: Callable[..., Any]) -> Any:
     )
 
 
-def describe(s: Record) -> list[str]:
+def describe_criteria(s: Record) -> list[str]:
     """The criteria of a state: of which word, what, and to which degree."""
     return [
         " ".join(
@@ -82,7 +82,7 @@ def test_what_is_said_is_a_record_in_the_state(
     table: Any, text: str, learned: str, answer: str
 ) -> None:
     assert table.hear(text) == answer
-    assert describe(table.state) == [learned]
+    assert describe_criteria(table.state) == [learned]
     assert lessons(table.state) == []
     assert table.now.model.judge(table.state, TYPES["State"]).holds
 
@@ -97,12 +97,12 @@ def test_it_is_said_of_the_claim_in_question(table: Any) -> None:
     assert table.hear("It is the shape.") == (
         "OK, I go by the shape of mugs above all."
     )
-    assert describe(table.state) == ["mug colour 0.0", "mug shape 1.0"]
+    assert describe_criteria(table.state) == ["mug colour 0.0", "mug shape 1.0"]
 
 
 def test_without_a_claim_it_asks_of_which_things(table: Any) -> None:
     assert table.hear("The colour does not matter.").startswith("For which things?")
-    assert describe(table.state) == []
+    assert describe_criteria(table.state) == []
 
 
 @pytest.mark.parametrize(
@@ -123,7 +123,7 @@ def test_nothing_is_learned_of_what_is_not_known(
     table: Any, text: str, answer: str
 ) -> None:
     assert table.hear(text) == answer
-    assert describe(table.state) == lessons(table.state) == []
+    assert describe_criteria(table.state) == lessons(table.state) == []
 
 
 REMARK = "I take that as a remark. I learn words for what I can see."
@@ -150,7 +150,7 @@ KOMMENTAR = "Det tar jag som en kommentar. Jag lär mig ord för det jag kan se.
 def test_an_opinion_is_no_reason(table: Any, text: str) -> None:
     table.hear("What is this?")
     assert table.hear(text) == REMARK
-    assert describe(table.state) == []
+    assert describe_criteria(table.state) == []
 
 
 @pytest.mark.parametrize(
@@ -176,14 +176,14 @@ def test_an_opinion_is_no_reason_in_swedish(
     robot = scene(nouns=["mugg"], adjectives=["vit"], known=known, language="sv")
     robot.hear("Vad är det här?")
     assert robot.hear(text) == KOMMENTAR
-    assert describe(robot.state) == []
+    assert describe_criteria(robot.state) == []
 
 
 @pytest.mark.parametrize("part", ["flurbs", "duties", "owners"])
 def test_what_may_be_no_part_is_asked_about(table: Any, part: str) -> None:
     asked = f"Do you mean that mugs generally have {part}?"
     assert table.hear(f"Mugs have {part}.") == asked
-    assert describe(table.state) == []
+    assert describe_criteria(table.state) == []
     assert table.hear("No.") == "Then I learn nothing from that."
     assert table.hear(f"Mugs have {part}.") == asked
     assert table.hear("Yes.").startswith(f"OK, mugs generally have {part}.")
@@ -201,19 +201,19 @@ def test_what_is_said_last_counts(table: Any) -> None:
     table.hear(WHITE)
     assert table.hear("Mugs are white.") == "Yes, you told me that."
     table.hear("Mugs are rarely white.")
-    assert describe(table.state) == ["mug white 0.1"]
+    assert describe_criteria(table.state) == ["mug white 0.1"]
     table.hear(COLOUR)
     table.hear("What matters for mugs is the colour.")
-    assert describe(table.state) == ["mug white 0.1", "mug colour 1.0"]
+    assert describe_criteria(table.state) == ["mug white 0.1", "mug colour 1.0"]
 
 
 def test_something_is_left_to_go_by(table: Any) -> None:
     for cue in CUES[:-1]:
         table.hear(f"The {cue} does not matter for mugs.")
-    assert len(describe(table.state)) == len(CUES) - 1
+    assert len(describe_criteria(table.state)) == len(CUES) - 1
     answer = table.hear(f"The {CUES[-1]} do not matter for mugs.")
     assert answer.startswith("Then nothing would be left")
-    assert len(describe(table.state)) == len(CUES) - 1
+    assert len(describe_criteria(table.state)) == len(CUES) - 1
 
 
 # --- taking back ----------------------------------------------------------------------
@@ -226,7 +226,7 @@ def test_it_is_taken_back(table: Any, text: str, back: str) -> None:
     before = table.state.private
     table.hear(text)
     assert table.hear(back).startswith("OK, I forgot ")
-    assert describe(table.state) == []
+    assert describe_criteria(table.state) == []
     assert table.state.private.lessons == before.lessons
 
 
@@ -242,7 +242,7 @@ def test_it_is_forgotten_by_what_it_says(table: Any, text: str, back: str) -> No
     table.hear(text)
     table.hear("What is this?")
     assert table.hear(back).startswith("OK, I forgot ")
-    assert describe(table.state) == []
+    assert describe_criteria(table.state) == []
     assert table.hear(back) == "There is nothing that I could forget."
 
 
@@ -259,7 +259,7 @@ def test_a_word_that_is_forgotten_takes_its_criteria_along(table: Any) -> None:
     table.hear(WHITE)
     table.hear("The colour does not matter for books.")
     table.hear("Forget mugs.")
-    assert describe(table.state) == ["book colour 0.0"]
+    assert describe_criteria(table.state) == ["book colour 0.0"]
 
 
 def test_what_was_claimed_can_still_be_corrected(table: Any) -> None:

@@ -19,12 +19,12 @@ from ttr import Record, replace
 def taught(s: Record) -> list[str]:
     """The lessons of the dialogue, by their words and things."""
     return [
-        " ".join(["not"] * is_denial(it.content) + [it.sign.form, str(_thing(it))])
+        " ".join(["not"] * is_denial(it.content) + [it.sign.form, str(thing_of(it))])
         for it in s.private.lessons
     ]
 
 
-def _thing(lesson: Record) -> str | None:
+def thing_of(lesson: Record) -> str | None:
     return thing_at(lesson.content, "target")
 
 

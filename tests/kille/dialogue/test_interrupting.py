@@ -36,7 +36,7 @@ class Speaker:
         self.scene._take(record(unsaid=unsaid, uttered=uttered, latest=latest))
 
     @property
-    def shared(self) -> Record:
+    def shared_state(self) -> Record:
         shared: Record = self.scene.state.shared
         return shared
 
@@ -50,15 +50,15 @@ def test_the_state_says_what_was_cut_off_and_what_of_it_was_uttered(
     robot: Speaker,
 ) -> None:
     robot.hear("What is this?")
-    claimed = robot.shared.pending
+    claimed = robot.shared_state.pending
     robot.cut(uttered="This is")
-    [cut] = robot.shared.cut
+    [cut] = robot.shared_state.cut
     assert cut.uttered == "This is"
     assert [act(it) for it in cut.moves] == ["assert_name"]
     assert cut.pending == claimed
-    assert robot.shared.pending == ()
+    assert robot.shared_state.pending == ()
     assert robot.hear("Yes.") == ["wonder"]
-    assert robot.shared.cut == ()
+    assert robot.shared_state.cut == ()
 
 
 @pytest.mark.parametrize("again", ["Pardon?", "What did you say?", "Go on."])
@@ -68,7 +68,7 @@ def test_what_is_said_again_is_under_discussion_again(
     robot.hear("What is this?")
     robot.cut(uttered="This")
     assert robot.hear(again) == ["assert_name"]
-    assert robot.shared.cut == ()
+    assert robot.shared_state.cut == ()
     assert robot.hear("Yes.") == ["learned"]
 
 
@@ -92,7 +92,7 @@ def test_a_question_that_was_begun_may_be_answered(robot: Speaker) -> None:
 def test_a_question_of_which_nothing_was_heard_may_not(robot: Speaker) -> None:
     assert robot.hear("This is a cupp.") == ["offer_word"]
     robot.cut()
-    assert robot.shared.qud == ()
+    assert robot.shared_state.qud == ()
     assert robot.hear("Yes.") == ["wonder"]
 
 

@@ -16,7 +16,7 @@ KNOWN = {("cup", "o1"): 0.9, ("book", "o2"): 0.9}
 THINGS = ("o1", "o2", "o3")
 
 
-def watched(
+def watching_event(
     things: Sequence[str] = THINGS,
     came: Sequence[str] = (),
     went: Sequence[str] = (),
@@ -47,7 +47,7 @@ class Watcher:
 
     def watch(self, **event: Any) -> list[str]:
         """What the robot does then, by the names of its acts."""
-        return self.scene._acts(self.scene._take(watched(**event)))
+        return self.scene._acts(self.scene._take(watching_event(**event)))
 
     def hear(self, text: str) -> list[str]:
         return self.scene.acts(text)

@@ -445,16 +445,16 @@ def test_what_cups_are_like_makes_what_is_like_that_a_cup(known: Knowledge) -> N
         assert isinstance(found, float)
         return found
 
-    def red(number: int) -> float:
+    def degree_of_red(number: int) -> float:
         made = WitnessFunctions.of(known)
         made.remember("look1", LOOK)
         found = made.attribute("is_red", thing_name(number), "look1")
         assert isinstance(found, float)
         return found
 
-    reds = sorted((1, 2, 3), key=red)
+    reds = sorted((1, 2, 3), key=degree_of_red)
     least, most = reds[0], reds[-1]
-    assert red(least) < 0.2 < 0.5 < red(most)
+    assert degree_of_red(least) < 0.2 < 0.5 < degree_of_red(most)
     before = degree(least), degree(most)
     said = CRITERIA["cups are red"]
     key = known.learn_criterion(tutor.evidence().turn, CUP, *said)

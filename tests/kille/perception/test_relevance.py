@@ -117,7 +117,7 @@ def taught() -> ObjectMemory:
 QUERIES = [percept(word, 77) for word in WORDS]
 
 
-def judged(memory: ObjectMemory) -> list[dict[str, float]]:
+def degrees_of_queries(memory: ObjectMemory) -> list[dict[str, float]]:
     return [memory.predict_proba_one(it) for it in QUERIES]
 
 
@@ -133,13 +133,13 @@ def test_taking_it_back_restores_the_answers_exactly(
     lessons: Sequence[tuple[str, str, bool]],
 ) -> None:
     memory = taught()
-    before = judged(memory)
+    before = degrees_of_queries(memory)
     for key, lesson in enumerate(lessons, start=100):
         memory.weigh(*lesson, key=key)
-        judged(memory)
+        degrees_of_queries(memory)
     for key in range(100, 100 + len(lessons)):
         memory.forget(key)
-    assert judged(memory) == before
+    assert degrees_of_queries(memory) == before
 
 
 @settings(max_examples=40)
@@ -154,8 +154,8 @@ def test_degrees_stay_degrees_and_are_the_same_for_the_same_lessons(
         other.learn(it)
     for key, lesson in enumerate(lessons, start=100):
         one.weigh(*lesson, key=key)
-    assert judged(one) == judged(other)
-    for degrees in judged(one):
+    assert degrees_of_queries(one) == degrees_of_queries(other)
+    for degrees in degrees_of_queries(one):
         assert all(0.0 <= it <= 1.0 for it in degrees.values())
         assert sum(degrees.values()) <= 1.0 + 1e-9
 
@@ -191,14 +191,14 @@ def test_nothing_is_rejected_for_a_size_that_does_not_matter() -> None:
 
 def test_a_copy_is_told_for_itself() -> None:
     memory = taught()
-    before = judged(memory)
+    before = degrees_of_queries(memory)
     twin = memory.copy()
     twin.weigh("cup", "colour", False, key=100)
-    assert judged(memory) == before != judged(twin)
+    assert degrees_of_queries(memory) == before != degrees_of_queries(twin)
     memory.become(twin)
-    assert judged(memory) == judged(twin) != before
+    assert degrees_of_queries(memory) == degrees_of_queries(twin) != before
     memory.forget(100)
-    assert judged(memory) == before != judged(twin)
+    assert degrees_of_queries(memory) == before != degrees_of_queries(twin)
 
 
 def test_a_key_is_taken_once() -> None:
@@ -215,6 +215,6 @@ def test_a_key_is_taken_once() -> None:
 
 def test_a_word_may_be_spoken_of_before_it_is_known() -> None:
     memory = taught()
-    before = judged(memory)
+    before = degrees_of_queries(memory)
     memory.weigh("mug", "colour", False, key=100)
-    assert judged(memory) == before
+    assert degrees_of_queries(memory) == before

@@ -37,7 +37,7 @@ class Clock:
         self.now += seconds
 
 
-def played(seconds: float, stop_at: float) -> tuple[float, float]:
+def play_until(seconds: float, stop_at: float) -> tuple[float, float]:
     """How much of a sound is played, and was given to the player, if stopped then."""
     clock, given_ = Clock(), bytearray()
     sound = Sound(RATE, bytes(2 * round(RATE * seconds)))
@@ -52,15 +52,15 @@ def played(seconds: float, stop_at: float) -> tuple[float, float]:
 
 
 def test_a_sound_that_nobody_stops_is_played_to_its_end() -> None:
-    assert played(1.0, 99.0) == (1.0, 1.0)
-    assert played(0.0, 99.0) == (0.0, 0.0)
+    assert play_until(1.0, 99.0) == (1.0, 1.0)
+    assert play_until(0.0, 99.0) == (0.0, 0.0)
 
 
 @given(st.floats(0.1, 5.0), st.floats(0.0, 4.9))
 def test_a_sound_that_is_stopped_has_been_played_till_then(
     seconds: float, stop_at: float
 ) -> None:
-    done, given_ = played(seconds, stop_at)
+    done, given_ = play_until(seconds, stop_at)
     assert done <= given_ + 1e-6
     assert given_ <= done + 0.3
     assert abs(done - min(stop_at, seconds)) < 0.11 or given_ < stop_at
