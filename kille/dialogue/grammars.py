@@ -9,7 +9,7 @@ Expressions are looked for by `regex`, which unlike `re` can be told how long to
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 from time import process_time
@@ -84,12 +84,16 @@ class GrammarSource(NamedTuple):
             raise GrammarError(f"{found.what} may not be nothing at all")
         return found
 
-    def initials(self, terminal: str) -> str | None:
-        """The ASCII letters with which a terminal can begin, in lower case.
+    def initials(self, terminal: str) -> frozenset[str] | None:
+        """The signs with which a terminal can begin, in lower case.
 
-        None where that cannot be seen at once: then any sign has to be tried.
+        None where that cannot be seen from its expression: then any sign has to be
+        tried. So it is where there is a mistake in the expression.
         """
-        return _initials(self.terminals[terminal])
+        try:
+            return _initials(self.terminals[terminal])
+        except (re.error, ValueError, OverflowError, RecursionError):
+            return None
 
     def between(self) -> Expression:
         """The expression of what is skipped; `GrammarError` where it is none."""
@@ -125,27 +129,84 @@ def _expression(patterns: Sequence[str], what: str, as_: str = "{}") -> Expressi
     )
 
 
-_WORDS = r"\(\?i:([a-z ()|?*+]+)\)"
-"""Words, some of which may be left out or repeated, in small letters or capitals."""
+LATIN = 256
+"""Of so many signs, those that count as the same are known by `lower`.
 
-_ALTERNATIVES = re.compile(rf"(?:\(\?:)?{_WORDS}(?:\|{_WORDS})*\)?")
+Of other letters some count as these in a way that only expressions know, as the sign
+for kelvins does as a k.
+"""
 
-_FIRST = re.compile("(?<![a-z ])[a-z ]")
-"""A sign with which such words can begin: none has to stand before it."""
 
+def _initials(pattern: str) -> frozenset[str] | None:
+    r"""The signs with which what a pattern fits can begin, or more, in lower case.
 
-def _initials(pattern: str) -> str | None:
-    r"""The signs with which what a pattern fits can begin, at least these.
+    None where it may be any sign, or none at all, or a letter beyond `LATIN`.
 
-    >>> _initials(r"(?i:((quite |all )?wrong|colou?r)\b)"), _initials("[ab]c")
-    ('qawcr', None)
-    >>> _initials(r"(?:(?i:no\b)|(?i:wrong\b))")
-    'nw'
+    >>> sorted(_initials(r"(?i:((quite |all )?wrong|colou?r)\b)")), _initials("[^ab]c")
+    (['a', 'c', 'q', 'w'], None)
+    >>> sorted(_initials("(?!nothing)[nsx]o|är"))
+    ['n', 's', 'x', 'ä']
     """
-    pattern = pattern.replace("\\b", "")
-    if not _ALTERNATIVES.fullmatch(pattern):
+    try:
+        found, may_be_empty = _first_signs(re._parser.parse(pattern))
+    except _AnySignError:
         return None
-    return "".join(_FIRST.findall("|".join(re.findall(_WORDS, pattern))))
+    return None if may_be_empty else frozenset(found)
+
+
+class _AnySignError(Exception):
+    """A pattern may begin with too many signs to be listed."""
+
+
+def _first_signs(parsed: Iterable[tuple[Any, Any]]) -> tuple[set[str], bool]:
+    """The signs with which a parsed pattern can begin, and whether it may be empty."""
+    found: set[str] = set()
+    for op, of in parsed:
+        signs, may_be_empty = _first_signs_of(str(op), of)
+        found |= signs
+        if not may_be_empty:
+            return found, False
+    return found, True
+
+
+def _first_signs_of(op: str, of: Any) -> tuple[set[str], bool]:
+    match op:
+        case "LITERAL":
+            return {_small(of)}, False
+        case "IN":
+            return _signs_in(of), False
+        case "BRANCH":
+            ways = [_first_signs(it) for it in of[1]]
+            return set().union(*(it for it, _ in ways)), any(it for _, it in ways)
+        case "SUBPATTERN":
+            return _first_signs(of[-1])
+        case "MAX_REPEAT" | "MIN_REPEAT":
+            signs, may_be_empty = _first_signs(of[2])
+            return signs, may_be_empty or of[0] == 0
+        case "AT" | "ASSERT" | "ASSERT_NOT":
+            return set(), True
+    raise _AnySignError
+
+
+def _signs_in(listed: Iterable[tuple[Any, Any]]) -> set[str]:
+    """The signs that are listed between square brackets."""
+    found: set[str] = set()
+    for op, of in listed:
+        match str(op):
+            case "LITERAL":
+                found.add(_small(of))
+            case "RANGE" if of[1] < LATIN:
+                found |= set(map(_small, range(of[0], of[1] + 1)))
+            case _:
+                raise _AnySignError
+    return found
+
+
+def _small(code: int) -> str:
+    sign = chr(code)
+    if code >= LATIN and sign.isalpha():
+        raise _AnySignError
+    return sign.lower()
 
 
 def _together(patterns: Sequence[str]) -> str:

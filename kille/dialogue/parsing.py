@@ -12,10 +12,13 @@ without the left recursion.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from operator import itemgetter
 from time import process_time
 from typing import NamedTuple
 
 from kille.dialogue.grammars import (
+    LATIN,
     SECONDS,
     Expression,
     GrammarError,
@@ -85,11 +88,17 @@ class Grammar:
         self._source = read(source, self.starts)
         self._between = self._source.between()
         self._expressions: dict[str, Expression] = {}
-        self._initials: dict[str, str | None] = {}
-        self._productions: dict[str, list[Production]] = {}
+        self._initials: dict[str, frozenset[str] | None] = {}
+        self._terminals = list(self._source.terminals)
+        self._bits = {it: 2 << number for number, it in enumerate(self._terminals)}
+        self._impossible: dict[str, int] = {}
+        by_name: dict[str, list[Production]] = {}
         for made in self._source.productions:
-            self._productions.setdefault(made.name, []).append(made)
-        self._refuse_left_recursion()
+            by_name.setdefault(made.name, []).append(made)
+        self._first = self._first_terminals(by_name)
+        self._prefixes = {
+            name: self._shared_prefixes(made) for name, made in by_name.items()
+        }
 
     def parse(self, text: str, start: str = "start") -> list[Tree]:
         """Every way to read the whole text, those with the fewest parts first.
@@ -143,58 +152,136 @@ class Grammar:
             known = self._expressions[terminal] = self._source.expression(terminal)
         return known
 
-    def can_begin(self, terminal: str, letter: str) -> bool:
+    def can_begin(self, terminal: str, sign: str) -> bool:
         """Can a terminal begin with this sign, as far as can be seen at once?
 
-        Most cannot, and need no expression made for them. Of letters other than those
-        of ASCII some count as the same in a way that only expressions know.
+        Most cannot, and need no expression made for them. No sign is the end of a text.
         """
         if terminal not in self._initials:
             self._initials[terminal] = self._source.initials(terminal)
         initials = self._initials[terminal]
-        ascii_letter = letter.isascii() and letter.isalpha()
-        return initials is None or not ascii_letter or letter.lower() in initials
+        if initials is None or sign.lower() in initials:
+            return True
+        return sign != "" and ord(sign) >= LATIN
 
-    def _refuse_left_recursion(self) -> None:
-        """Raise for a rule that may begin with itself: descent would never end."""
-        empty = self._can_be_empty()
-        begins = {
-            name: {first for it in made for first in _firsts(it, empty)}
-            for name, made in self._productions.items()
+    def terminal(self, number: int) -> str:
+        """The name of the terminal of a number; 0 is no terminal, see `NOTHING`."""
+        return self._terminals[number - 1]
+
+    def possible(self, terminals: int, letter: str) -> int:
+        """Those of a set of terminals that can begin with this sign, as far as known.
+
+        A set of terminals is a number: the bit of each is set that is in it.
+        """
+        return terminals & ~self._impossible.get(letter, 0)
+
+    def exclude(self, bit: int, letter: str) -> None:
+        """Keep in mind that the terminal of a bit cannot begin with this sign."""
+        self._impossible[letter] = self._impossible.get(letter, 0) | bit
+
+    def _first_terminals(
+        self, by_name: Mapping[str, list[Production]]
+    ) -> Mapping[str, int]:
+        """The terminals with which each rule can begin."""
+        empty = _rules_that_can_be_empty(by_name)
+        own = dict.fromkeys(by_name, 0)
+        for name, made in by_name.items():
+            for symbol in (first for it in made for first in _firsts(it, empty)):
+                own[name] |= self._bits[symbol.name] if symbol.is_term else 0
+        first: dict[str, int] = {}
+        for name, reached in _rules_that_begin(by_name, empty).items():
+            first[name] = NOTHING if name in empty else 0
+            for it in (name, *reached):
+                first[name] |= own[it]
+        return first
+
+    def _shared_prefixes(self, made: Iterable[Production]) -> _Prefix:
+        """What the productions of a rule begin with, each beginning once."""
+        whole = _Prefix()
+        for number, production in enumerate(made):
+            at, first = whole, self._first_of(production)
+            for symbol in production.symbols:
+                at = at.further.setdefault(symbol, _Prefix())
+                at.first |= first
+            at.made.append((number, production))
+        return whole
+
+    def _first_of(self, production: Production) -> int:
+        """The terminals with which a production can begin."""
+        found = 0
+        for it in production.symbols:
+            here = self._bits[it.name] if it.is_term else self._first[it.name]
+            found |= here & ~NOTHING
+            if not here & NOTHING:
+                return found
+        return found | NOTHING
+
+
+@dataclass
+class _Prefix:
+    """What some productions of a rule begin with.
+
+    `made` are those that end here, with their numbers in the rule, `further` what
+    others go on with, and `first` the terminals with which any of them can begin.
+    """
+
+    made: list[tuple[int, Production]] = field(default_factory=list)
+    further: dict[Symbol, _Prefix] = field(default_factory=dict)
+    first: int = 0
+
+
+NOTHING = 1
+"""The bit in a set of terminals that says that none of them is needed."""
+
+
+def _rules_that_can_be_empty(by_name: Mapping[str, list[Production]]) -> set[str]:
+    empty: set[str] = set()
+    while True:
+        found = {
+            name
+            for name, made in by_name.items()
+            if any(all(s.name in empty for s in it.symbols) for it in made)
         }
-        for name in begins:
-            reached, ahead = set[str](), list(begins[name])
-            while ahead:
-                first = ahead.pop()
-                if first not in reached:
-                    reached.add(first)
-                    ahead += begins[first]
-            if name in reached:
-                raise GrammarError(
-                    f"the rule {name} begins with itself, so that it would never end: "
-                    "write it the other way round"
-                )
-
-    def _can_be_empty(self) -> set[str]:
-        empty: set[str] = set()
-        while True:
-            found = {
-                name
-                for name, made in self._productions.items()
-                if any(all(s.name in empty for s in it.symbols) for it in made)
-            }
-            if found == empty:
-                return empty
-            empty = found
+        if found == empty:
+            return empty
+        empty = found
 
 
-def _firsts(made: Production, empty: set[str]) -> Iterator[str]:
-    """The rules that a production may begin with."""
+def _rules_that_begin(
+    by_name: Mapping[str, list[Production]], empty: set[str]
+) -> Mapping[str, set[str]]:
+    """The rules that each rule may begin with, also by others.
+
+    Raises `GrammarError` for one that may begin with itself: descent would never end.
+    """
+    begins = {
+        name: {
+            it.name for made in them for it in _firsts(made, empty) if not it.is_term
+        }
+        for name, them in by_name.items()
+    }
+    found: dict[str, set[str]] = {}
+    for name in begins:
+        reached, ahead = set[str](), list(begins[name])
+        while ahead:
+            first = ahead.pop()
+            if first not in reached:
+                reached.add(first)
+                ahead += begins[first]
+        if name in reached:
+            raise GrammarError(
+                f"the rule {name} begins with itself, so that it would never end: "
+                "write it the other way round"
+            )
+        found[name] = reached
+    return found
+
+
+def _firsts(made: Production, empty: set[str]) -> Iterator[Symbol]:
+    """The symbols that a production may begin with."""
     for symbol in made.symbols:
-        if symbol.is_term:
-            return
-        yield str(symbol.name)
-        if symbol.name not in empty:
+        yield symbol
+        if symbol.is_term or symbol.name not in empty:
             return
 
 
@@ -207,6 +294,8 @@ class _Chart:
         self._until = process_time() + SECONDS
         self._rules: dict[tuple[str, int], Found] = {}
         self._terminals: dict[tuple[str, int], tuple[int, str] | None] = {}
+        self._here: dict[int, int] = {}
+        self._tried: dict[int, int] = {}
 
     def after(self, at: int) -> int:
         """Where the next word begins."""
@@ -222,34 +311,69 @@ class _Chart:
 
     def _by_rule(self, name: str, at: int) -> Found:
         found: dict[int, list[Row]] = {}
-        for production in self._grammar._productions[name]:
-            if not self._may_begin(production, at):
-                continue
-            for end, rows in self._by_production(production, at).items():
+        here = self._terminals_here(self._grammar._first[name], at)
+        if not here:
+            return found
+        for production, ends in self._productions_here(name, at, here):
+            for end, rows in ends.items():
                 found.setdefault(end, []).extend(_build_trees(production, rows))
         return {end: _simplest(rows) for end, rows in found.items()}
 
-    def _may_begin(self, production: Production, at: int) -> bool:
-        """Whether what a production begins with is here; most are ruled out by that."""
-        if not production.symbols:
-            return True
-        first = production.symbols[0]
-        if first.is_term:
-            return self._terminal(first.name, at) is not None
-        return bool(self.rule(first.name, at))
+    def _productions_here(
+        self, name: str, at: int, here: int
+    ) -> Iterator[tuple[Production, Found]]:
+        """The productions of a rule that find something, in the order of the grammar.
 
-    def _by_production(self, production: Production, at: int) -> Found:
-        so_far: Found = {at: [()]}
-        for symbol in production.symbols:
-            further: dict[int, list[Row]] = {}
-            for here, rows in so_far.items():
-                for end, more in self._by_symbol(symbol, here).items():
-                    both = [(*row, *next_) for row in rows for next_ in more]
-                    further.setdefault(end, []).extend(both)
-            if not further:
-                return {}
-            so_far = {end: _simplest(rows) for end, rows in further.items()}
-        return so_far
+        What several of them begin with is looked for once.
+        """
+        whole = self._grammar._prefixes[name]
+        nothing: Found = {at: [()]}
+        ahead = [
+            (prefix, self._by_symbol(symbol, at))
+            for symbol, prefix in whole.further.items()
+            if prefix.first & here
+        ]
+        found = [(*it, nothing) for it in whole.made]
+        while ahead:
+            prefix, so_far = ahead.pop()
+            if so_far:
+                found += [(*it, so_far) for it in prefix.made]
+                ahead += [
+                    (longer, self._extend(so_far, symbol))
+                    for symbol, longer in prefix.further.items()
+                ]
+        for _, production, ends in sorted(found, key=itemgetter(0)):
+            yield production, ends
+
+    def _terminals_here(self, terminals: int, at: int) -> int:
+        """Those of a set of terminals that are here; most productions need others."""
+        here, tried = self._here.get(at, NOTHING), self._tried.get(at, NOTHING)
+        sign = self._text[at : at + 1]
+        ahead = self._grammar.possible(terminals & ~tried, sign)
+        if ahead:
+            self._tried[at] = tried | ahead
+        while ahead:
+            bit = ahead & -ahead
+            ahead ^= bit
+            name = self._grammar.terminal(bit.bit_length() - 1)
+            if not self._grammar.can_begin(name, sign):
+                self._grammar.exclude(bit, sign)
+            elif self._terminal(name, at) is not None:
+                here |= bit
+        self._here[at] = here
+        return terminals & here
+
+    def _extend(self, so_far: Found, symbol: Symbol) -> Found:
+        """Where what was found can go on with a symbol, and in which ways."""
+        found: dict[int, list[Row]] = {}
+        for here, rows in so_far.items():
+            for end, more in self._by_symbol(symbol, here).items():
+                both = [(*row, *next_) for row in rows for next_ in more]
+                if end in found:
+                    found[end] += both
+                else:
+                    found[end] = both
+        return {end: _simplest(rows) for end, rows in found.items()}
 
     def _by_symbol(self, symbol: Symbol, at: int) -> Found:
         if not symbol.is_term:
@@ -258,8 +382,7 @@ class _Chart:
         if matched is None:
             return {}
         end, text = matched
-        kept = not symbol.filter_out
-        return {end: [(Token(symbol.name, text),) if kept else ()]}
+        return {end: [() if symbol.filter_out else (Token(symbol.name, text),)]}
 
     def _terminal(self, name: str, at: int) -> tuple[int, str] | None:
         """Where the next word begins if here is this terminal, and its text."""
@@ -269,7 +392,8 @@ class _Chart:
         return self._terminals[key]
 
     def _look_for(self, name: str, at: int) -> tuple[int, str] | None:
-        if not self._grammar.can_begin(name, self._text[at : at + 1]):
+        sign = self._text[at : at + 1]
+        if not self._grammar.can_begin(name, sign):
             return None
         expression = self._grammar.expression(name)
         found = expression.match(self._text, at, self._until)
