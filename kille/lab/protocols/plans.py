@@ -40,6 +40,7 @@ OBJECTS = {
     "specimens": "the simulated table",
     "growth": "any data",
     "shots": "pictures by category",
+    "degrees": "pictures by category",
     "even-odd": "pictures by category",
     "halves": "pictures by category",
     "scenes": "labelled scenes",
@@ -193,7 +194,7 @@ def _mesh_plans(data: str) -> tuple[Plan, ...]:
 
 
 def _picture_plans(data: str) -> tuple[Plan, ...]:
-    from kille.lab.protocols import picture_splits, shots
+    from kille.lab.protocols import degrees, picture_splits, shots
     from kille.lab.scenes.galleries import open_gallery
 
     gallery = open_gallery(Path(data).expanduser(), data)
@@ -201,6 +202,7 @@ def _picture_plans(data: str) -> tuple[Plan, ...]:
         Plan("even-odd", partial(picture_splits.every_other, gallery)),
         Plan("halves", partial(picture_splits.halves, gallery)),
         Plan("shots", partial(shots.shots, gallery), usual=gallery.least > 1),
+        Plan("degrees", partial(degrees.degrees, gallery), usual=gallery.least > 1),
         *_growth_plans(),
     )
 

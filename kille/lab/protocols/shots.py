@@ -49,7 +49,7 @@ def shots(
     gallery: Gallery, methods: Methods, *, seed: int, progress: Progress = silent
 ) -> Result:
     """The learning curve: the share right by the number of lessons of each category."""
-    count = min(_ASKED, max(1, gallery.least // 3))
+    count = asked_of_each(gallery)
     numbers = [shot for shot in SHOTS if shot <= gallery.least - count]
     if not numbers:
         raise ExperimentError(
@@ -108,11 +108,16 @@ def _runs(
     """The lessons and questions of each run, for each number of pictures taught."""
     for run in range(RUNS):
         # Runs of different seeds have no draw in common.
-        drawn = _draw_pictures(gallery, np.random.default_rng(RUNS * seed + run))
+        drawn = _draw_categories(gallery, np.random.default_rng(RUNS * seed + run))
         questions = gallery.lessons({w: them[-count:] for w, them in drawn.items()})
         for number in numbers:
             lessons = gallery.lessons({w: them[:number] for w, them in drawn.items()})
             yield run, number, lessons, questions
+
+
+def asked_of_each(gallery: Gallery) -> int:
+    """The number of pictures of each category that are asked for."""
+    return min(_ASKED, max(1, gallery.least // 3))
 
 
 def _categories(gallery: Gallery) -> int:
@@ -149,10 +154,17 @@ def _learning_curve(curves: Mapping[str, Curve], numbers: Sequence[int]) -> Figu
     )
 
 
-def _draw_pictures(gallery: Gallery, chance: np.random.Generator) -> Categories:
+def _draw_categories(gallery: Gallery, chance: np.random.Generator) -> Categories:
     words = sorted(gallery.categories)
     if len(words) > _CATEGORIES:
         words = sorted(chance.choice(words, _CATEGORIES, replace=False).tolist())
+    return draw_pictures(gallery, words, chance)
+
+
+def draw_pictures(
+    gallery: Gallery, words: Sequence[str], chance: np.random.Generator
+) -> Categories:
+    """The pictures of these categories, those of each in an order of chance."""
     shuffled = {}
     for word in words:
         paths = gallery.categories[word]

@@ -93,6 +93,7 @@ def test_json_for_machines(kille: Run, place: Path) -> None:
         "even-odd",
         "halves",
         "shots",
+        "degrees",
     ]
     assert (report["seed"], report["failed"]) == (5, [])
     assert report["results"][0]["facts"]["methods"] == {"mine.py:Nearest": 1.0}
@@ -138,7 +139,11 @@ WRONG = {
     ("single",): "it takes pictures of two categories at least",
     (".",): ". holds several collections, name one: ./photos, ./single",
     ("photos", "--protocol", "shotz"): "did you mean shots?",
-    ("photos", "--protocol", "paper"): "for this data there is even-odd, halves, shots",
+    (
+        "photos",
+        "--protocol",
+        "paper",
+    ): "for this data there is even-odd, halves, shots, degrees",
     ("photos", "--method", "defualt"): "did you mean default?",
     ("photos", "--method", "mine.py:Neerest"): "mine.py has no Neerest: did you mean",
     ("photos", "--report", "empty"): "empty is a folder",

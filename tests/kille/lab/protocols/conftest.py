@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 import pytest
 
+from kille.lab.scenes.galleries import Gallery, open_gallery
 from kille.scene import Percept
 from kille.sensors.sensor import At
 from kille.sensors.synthetic import open_synthetic
@@ -86,6 +87,11 @@ def discs(folder: Path) -> Path:
             cv2.circle(picture, (40, 30), 18, shade[::-1].tolist(), -1)
             cv2.imwrite(str(inner / f"{word[:3]}{number}.png"), picture)
     return folder
+
+
+@pytest.fixture(scope="module")
+def gallery(tmp_path_factory: pytest.TempPathFactory) -> Gallery:
+    return open_gallery(discs(tmp_path_factory.mktemp("gallery")), "photos")
 
 
 @pytest.fixture(scope="session")

@@ -18,8 +18,6 @@ from kille.lab.scenes.labelled import Split, open_scenes, splits
 from kille.lab.theories.candidates import MethodFailedError, candidates
 from kille.sensors.synthetic.catalogue import TOY_NAMES
 
-from .conftest import discs
-
 Make = Any
 
 
@@ -102,11 +100,6 @@ def test_turned_things(colour: Make, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 # --- pictures by category ------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def gallery(tmp_path_factory: pytest.TempPathFactory) -> Gallery:
-    return open_gallery(discs(tmp_path_factory.mktemp("gallery")), "photos")
 
 
 def test_pictures_are_in_the_order_people_count(photos: Path) -> None:
@@ -226,7 +219,9 @@ def names(found: tuple[plans.Plan, ...]) -> list[str]:
 
 def test_data_is_recognised_by_its_content(photos: Path, scenes: Path) -> None:
     assert names(plans.object_plans(None)) == ["paper", "rotation", "specimens"]
-    assert names(plans.object_plans(str(photos))) == ["even-odd", "halves", "shots"]
+    assert names(plans.object_plans(str(photos))) == [
+        *("even-odd", "halves", "shots", "degrees")
+    ]
     assert names(plans.object_plans(str(scenes))) == ["scenes", "regions"]
     only, _ = plans.object_plans(str(scenes / "first"))  # the other is growth
     assert (only.name, only.compares) == ("regions", ("default", "plain"))
