@@ -260,8 +260,9 @@ class Agent:
         Commands are those of `kille.sensors.stage_commands`, also after `meanwhile`,
         with which the robot does not look; and `look`, `glimpse`, a look that is no
         turn, as for a picture, `watch`, `point 2`, `point 320 240`, `scene SENSOR` and
-        `restart`. `interrupt TEXT` is `interrupt`; `spoken` says that all of the latest
-        answer has been uttered now. Pointing and restarting take no look.
+        `restart`; `point 90 60 210 200` points at a box: left, top, right and bottom.
+        `interrupt TEXT` is `interrupt`; `spoken` says that all of the latest answer has
+        been uttered now. Pointing and restarting take no look.
         """
         if command.partition(" ")[0] == "watch":
             return self.watch(lambda: "busy" not in command)
@@ -322,18 +323,28 @@ class Agent:
         With a question mark where it is not sure, and empty where it does not know, or
         where another thing lies there than at its latest turn.
         """
-        things = () if self.view is None else self.view.look.percepts
-        return tuple(self._name_of(*it) for it in enumerate(things, start=1))
+        return tuple(map(self._name_by, self.beliefs_in_view()))
 
-    def _name_of(self, number: int, thing: Percept) -> str:
+    def beliefs_in_view(self) -> tuple[Sequence[Record], ...]:
+        """How probably each noun is true of each thing in view, by their numbers.
+
+        The beliefs of a thing begin with the name that it would be called by, followed
+        by its rivals. There are none where another thing lies than at its latest turn.
+        """
+        things = () if self.view is None else self.view.look.percepts
+        return tuple(self._beliefs_of(*it) for it in enumerate(things, start=1))
+
+    def _beliefs_of(self, number: int, thing: Percept) -> Sequence[Record]:
         s, x = self.state, thing_name(number)
         before = self._witnesses.percept(x, s.view.look)
         if x not in s.view.things or before is None:
-            return ""
-        if not is_same_thing(before, thing):
-            return ""
-        beliefs = as_told(s, names_of(s, self.model, x))
-        if not thinks(s, beliefs):
+            return ()
+        return names_of(s, self.model, x) if is_same_thing(before, thing) else ()
+
+    def _name_by(self, beliefs: Sequence[Record]) -> str:
+        """What it would call a thing of which it believes this."""
+        s = self.state
+        if not thinks(s, beliefs := as_told(s, beliefs)):
             return ""
         return f"{beliefs[0].sign.form}{'' if is_sure(s, beliefs) else '?'}"
 

@@ -7,16 +7,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol, runtime_checkable
 
+import numpy as np
+
 from kille.perception.look import SCANS, Sighting, look
 from kille.perception.pointing import region_at
 from kille.perception.segment import nearness, overlap, region_of
-from kille.scene import Frame, Look, Mask, Percept, Region
+from kille.scene import Box, Frame, Look, Mask, Percept, Region
 from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.sources import open_sensor
 from kille.sensors.stage_commands import perform
 
 _NUMBER = re.compile(r"[0-9]{1,6}")
 _SAME = 0.5  # overlap of a thing with itself in another look
+_LEAST = 64  # pixels of a box: less is a click by a hand that shakes
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +91,9 @@ class AttentiveSensor:
         return view
 
     def point(self, target: str) -> None:
-        """Point at a thing by its number, a pixel (`320 240`) or its outline's name.
+        """Point at a thing by its number, a pixel, a box or its outline's name.
 
+        Pixels are `320 240`, boxes `90 60 210 200`: left, top, right and bottom.
         Numbers are those of the latest view. SensorError if there is nothing like it.
         """
         pointed = self._target(target)
@@ -104,6 +108,8 @@ class AttentiveSensor:
         frame = self.sensor.frame()
         if len(numbers) == len(words) == 2:
             return frame, _thing_at_pixel(frame, (numbers[0], numbers[1]))
+        if len(numbers) == len(words) == 4:
+            return frame, region_of(frame, _pixels_of(frame, Box(*numbers)))
         return frame, region_of(frame, _outline(frame, target))
 
     def _thing_with_number(self, number: int) -> Sighting:
@@ -204,6 +210,20 @@ def _thing_at_pixel(frame: Frame, pixel: tuple[int, int]) -> Region:
             f"thing, right and down from the upper left corner of {width}x{height}"
         )
     return region
+
+
+def _pixels_of(frame: Frame, box: Box) -> Mask:
+    """The pixels in a box that a tutor has drawn."""
+    height, width = frame.colour.shape[:2]
+    mask = np.zeros((height, width), bool)
+    mask[box.top : box.bottom, box.left : box.right] = True
+    if np.count_nonzero(mask) < _LEAST:
+        raise SensorError(
+            f"the box from {box.left} {box.top} to {box.right} {box.bottom} is too "
+            "small to point at: give left, top, right and bottom in pixels of the "
+            f"picture of {width}x{height}"
+        )
+    return mask
 
 
 def _outline(frame: Frame, name: str) -> Mask:

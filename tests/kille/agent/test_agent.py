@@ -612,6 +612,17 @@ def test_things_in_view_have_the_names_that_it_would_call_them() -> None:
         assert robot.hear("What is #2?").startswith("I do not know what this is.")
 
 
+def test_beliefs_about_things_in_view_have_the_name_first_and_its_rivals() -> None:
+    with awake() as robot:
+        tell(robot, "@place cup at -0.15 0", "@place book at 0.15 0.1")
+        assert [len(it) for it in robot.beliefs_in_view()] == [0, 0]
+        tell(robot, "#1 This is a cup.", "#2 This is a book.", "@glimpse")
+        one, other = robot.beliefs_in_view()
+        assert [it.sign.form for it in one] == ["cup", "book"]
+        assert [it.sign.form for it in other] == ["book", "cup"]
+        assert one[0].p > one[1].p
+
+
 def test_a_thing_that_has_come_since_the_latest_turn_has_no_name() -> None:
     with awake() as robot:
         tell(robot, "@show cup", "This is a cup.")

@@ -89,3 +89,21 @@ def test_there_is_nothing_to_point_at_on_an_empty_table() -> None:
     assert gaze.look().focus is None
     with pytest.raises(SensorError, match="nothing is in view"):
         gaze.point("1")
+
+
+def test_pointing_by_a_box_is_at_the_region_that_was_drawn() -> None:
+    gaze = gaze_at((MIDDLE, FAR))
+    gaze.look()
+    gaze.point("20 30 80 90")
+    view = gaze.look()
+    assert view.focus is not None
+    assert view.pointed
+    region = view.look.percepts[view.focus - 1].region
+    assert region.box == (20, 30, 80, 90)
+
+
+@pytest.mark.parametrize("box", ["20 30 24 34", "80 90 20 30", "9000 0 9100 90"])
+def test_a_box_without_pixels_is_nothing_to_point_at(box: str) -> None:
+    gaze = gaze_at((MIDDLE,))
+    with pytest.raises(SensorError, match="too small to point at"):
+        gaze.point(box)
