@@ -11,7 +11,7 @@ from __future__ import annotations
 import inspect
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ from kille.interfaces.formatting import in_short
 from kille.lab.worlds.games import simulated_game
 from kille.lab.worlds.perception import look_event, view
 from kille.lab.worlds.worlds import Thing, World
-from ttr import Record, record
+from ttr import Record, record, replace
 from ttr.types.records import differences
 from ttr.updates import Game, Run, Turn
 
@@ -68,7 +68,8 @@ def _section(game: Mapping[str, Any]) -> Iterator[str]:
     yield "| said | rules | state before → after |"
     yield "| --- | --- | --- |"
     world = World(tuple(Thing(**_placed(it)) for it in game.get("things", ())))
-    playing = simulated_game(world, turns=game.get("turns", ""))
+    known = _taught_earlier(world, game.get("earlier", ()))
+    playing = simulated_game(world, turns=game.get("turns", ""), **known)
     now, turn = playing.begin(), None
     for text in game["dialogue"]:
         if turn is not None and text.startswith("@ interrupt"):
@@ -79,6 +80,23 @@ def _section(game: Mapping[str, Any]) -> Iterator[str]:
         yield _row(playing, now, turn, text)
         now = turn.run
     yield ""
+
+
+def _taught_earlier(world: World, texts: Sequence[str]) -> dict[str, Any]:
+    """What a robot knows to which this was said in another dialogue."""
+    if not texts:
+        return {}
+    playing = simulated_game(world)
+    now = playing.begin()
+    for text in texts:
+        assert playing.hear is not None
+        now = playing.take(now, playing.hear(text)).run
+    private = now.state.private
+    return {
+        "signs": list(private.nouns),
+        "kinds": [replace(it, after=-1.0) for it in private.kinds],
+        "criteria": [replace(it, after=-1.0) for it in private.criteria],
+    }
 
 
 def _happening(game: Game, world: World, text: str) -> tuple[World, object]:

@@ -80,6 +80,7 @@ class MoveExecutor:
             "lost": lost,
             "reasons": [explainer.reason(it, move.signs) for it in move.explains],
             "recalled": explainer.recall_words(*move.recalls, among=move.signs),
+            "cited": explainer.cite_lessons(move.cites),
         }
         return replace(move, done), model
 

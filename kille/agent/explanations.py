@@ -146,6 +146,11 @@ class Explainer:
         """The keys of all lessons in some words."""
         return tuple(str(key) for word in words for key in self._keys(word))
 
+    def cite_lessons(self, keys: Iterable[str]) -> list[Record]:
+        """The lessons of these keys, as `Reminder`."""
+        memory = self._knowledge.memory
+        return [self._reminder(memory.lesson_without_sight(int(it))) for it in keys]
+
     def latest(self, count: int) -> list[Record]:
         """The newest `count` lessons of all dialogues, as `Reminder`."""
         if not count:

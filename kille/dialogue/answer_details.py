@@ -35,7 +35,7 @@ def details(lexicon: Lexicon, move: Record) -> dict[str, str]:
     slots = dict(_of_degrees(data, move.degrees)) if move.degrees else {}
     slots |= dict(_of_reasons(data, move.reasons)) if move.reasons else {}
     slots |= dict(_of_lost(data, move.lost)) if move.lost else {}
-    for reminder in move.undone:
+    for reminder in (*move.undone, *(move.cited if "cited" in move else ())):
         slots |= {
             "lesson": _lesson_text(reminder),
             "when": _when(data["ages"], reminder),

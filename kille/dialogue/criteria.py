@@ -80,6 +80,34 @@ def degree_of(content: RecordType) -> float:
     return degree
 
 
+def learned_act(content: RecordType) -> str:
+    """What the robot says when it has learned a criterion."""
+    if CUE not in content:
+        return "LearnedGeneric"
+    return "StressedCue" if degree_of(content) else "IgnoredCue"
+
+
+HALF = 0.5
+"""What is true of more than so many things of a kind speaks for it."""
+
+
+def is_against(content: RecordType, other: RecordType) -> bool:
+    """Whether one content says that things are known by what the other denies.
+
+    >>> from kille.dialogue.meanings import adjective, noun, packaged_types
+    >>> types, mug, white = packaged_types(), noun("mug"), adjective("white")
+    >>> usually, often, never = (
+    ...     criterion(mug, quality=white, often=it, types=types)
+    ...     for it in ("Usually", "Often", "Never")
+    ... )
+    >>> is_against(never, usually), is_against(often, usually)
+    (True, False)
+    """
+    return is_about_same(content, other) and (degree_of(content) > HALF) != (
+        degree_of(other) > HALF
+    )
+
+
 def what_of(content: RecordType) -> tuple[str, object]:
     """Of what a content says that things are known by it, or not: its label, and it."""
     label = next(it for it in (CUE, PROPERTY, COMPONENT) if it in content)

@@ -51,6 +51,7 @@ DOES = (
     "undoes",
     "classifies",
     "weighs",
+    "cites",
 )
 """What else a move of the robot may do, by the labels of the type Said."""
 

@@ -19,6 +19,7 @@ from kille.dialogue.games.colouring import COLOURING
 from kille.dialogue.games.comparing import COMPARING
 from kille.dialogue.games.confirming import CONFIRMING
 from kille.dialogue.games.continuing import CONTINUING
+from kille.dialogue.games.contradicting import CONTRADICTING, EARLIER_ANSWERED
 from kille.dialogue.games.correcting import CORRECTING
 from kille.dialogue.games.counting import COUNTING
 from kille.dialogue.games.courtesy import COURTESY
@@ -50,6 +51,7 @@ from ttr.updates import Algorithm, Rule, first, maybe, seq
 __all__ = ["TUTORING", "games_with"]
 
 ANSWERING = first(
+    CONTRADICTING,
     CRITICISING,
     CLASSIFYING,
     ACKNOWLEDGING,
@@ -95,6 +97,7 @@ def games_with(*answers: Rule) -> Algorithm:
                 GATHERED,
                 VETTED,
                 FORGET_ANSWERED,
+                EARLIER_ANSWERED,
                 BOTH_ANSWERED,
                 STILL_ANSWERED,
                 SEVERAL_ANSWERED,

@@ -9,6 +9,7 @@ from kille.dialogue.commitments import as_told
 from kille.dialogue.criteria import (
     COMPONENT,
     CUE,
+    HALF,
     PROPERTY,
     criteria_of,
     degree_of,
@@ -20,9 +21,6 @@ from ttr import Model, Record
 
 MOST = 4
 """How many criteria of a noun are told, at most: the latest."""
-
-HALF = 0.5
-"""What is true of more than so many things of a kind speaks for it."""
 
 
 def cite_all(s: Record, noun: Record, *, types: DialogueTypes) -> Record:

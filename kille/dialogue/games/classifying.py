@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import kind_of
+from kille.dialogue.games.contradicting import plan_earlier_question
 from kille.dialogue.games.vetting import KIND
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -21,8 +22,8 @@ from kille.dialogue.meanings import (
     set_to,
     value_at,
 )
-from kille.dialogue.moves import content_of, issue, plan
-from kille.dialogue.reference import thing_at
+from kille.dialogue.moves import content_of, issue, nouns_said, plan
+from kille.dialogue.reference import phrase_at, thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from kille.dialogue.taxonomy import is_kind_of, nouns_in, subsumption
@@ -59,6 +60,9 @@ def refuse_same(s: Record, *, types: DialogueTypes) -> Record | None:
         return plan(s, "SameThing", types=types)
     if not is_kind_of(s, upper, lower):
         return None
+    then = _axiom(s, upper, lower)
+    if then is not None and then.after < 0.0:
+        return plan_earlier_question(s, s.shared.latest, then, types=types)
     return _plan_answer(s, "SameKind", upper, lower, types=types)
 
 
@@ -135,12 +139,35 @@ def tell_kind(s: Record, *, types: DialogueTypes) -> Record:
 
 
 @rule(answers="Unclassify")
+def ask_earlier_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """In another dialogue the tutor said that it is a kind of the other: it asks."""
+    then = _axiom(s, *_nouns(s))
+    if then is None or then.after >= 0.0:
+        return None
+    return plan_earlier_question(s, s.shared.latest, then, types=types)
+
+
+@rule(answers="Reject")
+def ask_denied_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """What is called by one noun is said not to be what that is a kind of."""
+    content, said = content_of(s), s.shared.latest
+    if not s.private.kinds or kind_of(content) != "c" or "target" not in content:
+        return None
+    upper = next((it for it in said.signs if claims(content, it)), None)
+    for lower in nouns_said(said, phrase_at(content, "target")):
+        then = None if upper is None else _axiom(s, lower, upper)
+        if then is not None and then.after < 0.0:
+            return plan_earlier_question(s, said, then, types=types)
+    return None
+
+
+@rule(answers=("Unclassify", "ForgetKind"))
 def forget_kind(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor says that it is no kind of the other: the axiom is taken back."""
     lower, upper = _nouns(s)
-    for it in s.private.kinds:
-        if it.content == subsumption(lower, upper):
-            return _plan_forgetting(s, it, types=types)
+    then = _axiom(s, lower, upper)
+    if then is not None:
+        return _plan_forgetting(s, then, types=types)
     if is_kind_of(s, lower, upper):
         return _plan_answer(s, "KnowKind", lower, upper, types=types)
     return _plan_answer(s, "UnknownKind", lower, upper, types=types)
@@ -212,6 +239,12 @@ def _nouns(s: Record) -> tuple[Record, Record]:
     """The two nouns of the latest move: of which kind which kind is one."""
     lower, upper = nouns_in(content_of(s), s.shared.latest.signs)
     return lower, upper
+
+
+def _axiom(s: Record, lower: Record, upper: Record) -> Record | None:
+    """What was taught of just these two kinds, if it was."""
+    said = subsumption(lower, upper)
+    return next((it for it in s.private.kinds if it.content == said), None)
 
 
 def _asks_still(s: Record) -> bool:
@@ -313,6 +346,8 @@ CLASSIFYING = first(
     ask_still,
     learn_kind,
     tell_kind,
+    ask_earlier_kind,
+    ask_denied_kind,
     forget_kind,
     take_kind_back,
     forget_that_kind,

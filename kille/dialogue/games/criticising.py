@@ -26,10 +26,13 @@ from kille.dialogue.criteria import (
     criteria_about,
     criteria_of,
     degree_of,
+    is_against,
     last_subject,
+    learned_act,
     sign_at,
     signs_in,
 )
+from kille.dialogue.games.contradicting import plan_earlier_question
 from kille.dialogue.games.explaining import claim_in_question
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -42,7 +45,7 @@ from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import things_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Record, RecordType, rectype
+from ttr import Record, RecordType, rectype, replace
 from ttr.updates import first
 
 TOLD = (
@@ -98,9 +101,15 @@ def _plan_criterion(
         return _plan_answer(s, "KnowCriterion", content, used, types=types)
     if _leaves_nothing(s, content, used):
         return _plan_answer(s, "NothingLeft", content, used, types=types)
+    earlier = [
+        it for it in before if it.after < 0.0 and is_against(it.content, content)
+    ]
+    if earlier:
+        now = replace(s.shared.latest, content=content, signs=used)
+        return plan_earlier_question(s, now, earlier[-1], types=types)
     return plan(
         s,
-        _learned_act(content),
+        learned_act(content),
         content,
         signs=used,
         weighs=[content],
@@ -108,13 +117,6 @@ def _plan_criterion(
         pending=s.shared.pending,
         types=types,
     )
-
-
-def _learned_act(content: RecordType) -> str:
-    """What the robot says when it has learned a criterion."""
-    if CUE not in content:
-        return "LearnedGeneric"
-    return "StressedCue" if degree_of(content) else "IgnoredCue"
 
 
 def _leaves_nothing(s: Record, content: RecordType, signs: Sequence[Record]) -> bool:
@@ -149,11 +151,30 @@ def take_criterion_back(s: Record, *, types: DialogueTypes) -> Record | None:
     said = s.private.last[0]
     if kind_of(content_of(s)) is not None or predicate_at(said, "e").name not in TOLD:
         return None
-    told = value_at(said, "content")
+    told, before = value_at(said, "content"), value_at(said, "rival")
     for it in s.private.criteria:
         if it.content == told:
-            return _plan_forgetting(s, it, types=types)
+            left = _plan_forgetting(s, it, types=types)
+            if not isinstance(before, RecordType) or SUBJECT not in before:
+                return left
+            return _plan_criterion_again(left, before, it.signs, types=types)
     return None
+
+
+def _plan_criterion_again(
+    s: Record, before: RecordType, signs: Sequence[Record], *, types: DialogueTypes
+) -> Record:
+    """The plan to learn again what had been replaced by a criterion."""
+    used = signs_in(before, signs)
+    return plan(
+        s,
+        learned_act(before),
+        before,
+        signs=used,
+        weighs=[before],
+        pending=s.shared.pending,
+        types=types,
+    )
 
 
 @rule(answers="ForgetLast")

@@ -3,11 +3,13 @@
 "This is a cup." – "This is a mug.": the tutor may have corrected themselves, or mean
 that it is both, or speak of another thing. Yes is a lesson; after no the robot asks
 which of the two it is, and unlearns the other. Where the robot has just said itself
-what it takes the thing for, the tutor knows that, and it does not ask.
+what it takes the thing for, the tutor knows that, and it does not ask. A thing that it
+knows again from another dialogue was called something then: it says so, and asks.
 """
 
 from __future__ import annotations
 
+from kille.dialogue.beliefs import knows, names_of
 from kille.dialogue.commitments import (
     opposite_lesson_keys,
     plan_learning,
@@ -15,12 +17,12 @@ from kille.dialogue.commitments import (
     signs_for,
 )
 from kille.dialogue.games.correcting import CORRECTED
-from kille.dialogue.meanings import DialogueTypes, claims, is_denial
-from kille.dialogue.moves import content_of, issue, plan
+from kille.dialogue.meanings import DialogueTypes, claims, denial, is_denial
+from kille.dialogue.moves import content_of, instead, issue, plan
 from kille.dialogue.reference import in_view, phrase_at, thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.taxonomy import are_related
-from ttr import Record, RecordType, replace
+from ttr import Model, Record, RecordType, replace
 from ttr.updates import first
 
 BOTH = "AskBoth"
@@ -28,6 +30,9 @@ BOTH = "AskBoth"
 
 EITHER = "AskEither"
 """The question which of the two is right, with the same options."""
+
+KNOWN_AGAIN = 0.9
+"""From this probability on a thing counts as what was taught in another dialogue."""
 
 THIS = {"x", "look", "d"}
 """The labels of a phrase that describes no thing, such as "this" and "it"."""
@@ -44,6 +49,51 @@ def ask_both(s: Record, *, types: DialogueTypes) -> Record | None:
     options = [s.shared.latest, replace(s.shared.latest, content=before)]
     asks = [issue(BOTH, options)]
     return plan(s, BOTH, before, content, signs=signs, asks=asks, types=types)
+
+
+@rule(answers="Instruct")
+def ask_earlier_name(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """A thing was called something else in another dialogue: which of the two is it?
+
+    It is as good as certain that it is that, and it was not talked of in this one.
+    """
+    content = content_of(s)
+    said = next((it for it in s.shared.latest.signs if claims(content, it)), None)
+    x = thing_at(content, "target")
+    if said is None or x not in s.view.things or s.shared.pending:
+        return None
+    earlier = [it.sign for it in s.private.taught]
+    if not earlier or _is_named_here(s, x):
+        return None
+    beliefs = names_of(s, model, x)
+    best = beliefs[0] if beliefs else None
+    if best is None or best.p < KNOWN_AGAIN or not knows(earlier, best.sign):
+        return None
+    here = [it.sign for it in s.private.lessons]
+    if knows(here, best.sign) or are_related(s, best.sign, said):
+        return None
+    before = instead(content, best.sign, types=types)
+    options = [s.shared.latest, replace(s.shared.latest, content=before)]
+    return plan(
+        s,
+        "AskEarlier",
+        before,
+        content,
+        signs=signs_for(s, content, before),
+        explains=[before],
+        asks=[issue(EITHER, options)],
+        types=types,
+    )
+
+
+def _is_named_here(s: Record, x: str) -> bool:
+    """Whether the tutor has said in this dialogue what a thing in view is."""
+    return any(
+        "c" in it.content
+        and it.content in s.shared.here
+        and thing_at(it.content, "target") == x
+        for it in s.private.lessons
+    )
 
 
 @rule(answers="Affirm")
@@ -100,13 +150,14 @@ def _plan_either(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     new = in_view(s, new, types=types)
     before = [it.key for it in s.private.lessons if same(it.content, old)]
+    weaker = [] if before else [denial(in_view(s, old, types=types))]
     return plan(
         left,
         CORRECTED["c"],
         new,
         old,
         signs=(*asked.options[0].signs, *signs_for(s, old, new)),
-        teaches=[new],
+        teaches=[*weaker, new],
         forgets=[*before, *opposite_lesson_keys(s, new, types=types)],
         types=types,
     )
@@ -148,4 +199,4 @@ def _other_name(s: Record, content: RecordType) -> RecordType | None:
 BOTH_ANSWERED = first(learn_both, ask_either, take_either, correct_either)
 """What answers whether it is both, or which of the two it is."""
 
-DOUBLING = ask_both
+DOUBLING = first(ask_both, ask_earlier_name)

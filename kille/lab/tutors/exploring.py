@@ -274,6 +274,9 @@ def _plain_answers(talk: WorldTalk, asked: str) -> Sayings:
             | "AskOnly"
         ):
             return [it for act in _YES_OR_NO for it in _worldless_sayings(talk, act)]
+        case "AskEarlier":
+            preferring = ("prefer_now", "prefer_earlier")
+            return [it for act in preferring for it in _worldless_sayings(talk, act)]
     return talk.sayings("mention")
 
 

@@ -93,6 +93,8 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
             "affirm" | "deny",
         ):
             return True
+        case "AskEarlier", "prefer_now" | "prefer_earlier" | "affirm" | "deny":
+            return True
         case "AskHeard", "affirm":
             return options == 1
         case "AskFrame", "take_frame":
