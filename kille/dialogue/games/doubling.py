@@ -60,10 +60,10 @@ def ask_earlier_name(s: Record, *, model: Model, types: DialogueTypes) -> Record
     content = content_of(s)
     said = next((it for it in s.shared.latest.signs if claims(content, it)), None)
     x = thing_at(content, "target")
-    if said is None or x not in s.view.things or s.shared.pending:
+    if said is None or x is None or s.shared.pending:
         return None
     earlier = [it.sign for it in s.private.taught]
-    if not earlier or _is_named_here(s, x):
+    if not earlier or x not in s.view.things or _is_named_here(s, x):
         return None
     beliefs = names_of(s, model, x)
     best = beliefs[0] if beliefs else None
