@@ -31,6 +31,7 @@ from kille.dialogue.games.finding import FINDING
 from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
 from kille.dialogue.games.framing import ASKING_FRAME, FRAMING, SETTLING
 from kille.dialogue.games.gathering import GATHERED, GATHERING
+from kille.dialogue.games.generalising import GENERALISING
 from kille.dialogue.games.initiating import IDLING, INITIATING, STAYING
 from kille.dialogue.games.instructing import INSTRUCTING
 from kille.dialogue.games.interrupting import REPEATING, drop_unsaid
@@ -70,6 +71,7 @@ ANSWERING = first(
     SURVEYING,
     COUNTING,
     EXPLAINING,
+    GENERALISING,
     KNOWING,
     FORGETTING,
     COURTESY,

@@ -25,7 +25,7 @@ MOST = 4
 
 def cite_all(s: Record, noun: Record, *, types: DialogueTypes) -> Record:
     """The state in which it also says by what the things of a noun are known."""
-    return _cite(s, [*criteria_of(s, noun)][-MOST:], types=types)
+    return cite(s, [*criteria_of(s, noun)][-MOST:], types=types)
 
 
 def cite_reasons(
@@ -44,7 +44,7 @@ def cite_reasons(
         and degree_of(it.content) > HALF
         and (COMPONENT in it.content or _has_quality(s, model, it, x))
     ]
-    return _cite(s, found[-MOST:], types=types)
+    return cite(s, found[-MOST:], types=types)
 
 
 def _has_quality(s: Record, model: Model, it: Record, x: str) -> bool:
@@ -55,7 +55,8 @@ def _has_quality(s: Record, model: Model, it: Record, x: str) -> bool:
     )
 
 
-def _cite(s: Record, them: Iterable[Record], *, types: DialogueTypes) -> Record:
+def cite(s: Record, them: Iterable[Record], *, types: DialogueTypes) -> Record:
+    """The state in which it also says that it was told these criteria."""
     for it in them:
         act = "CiteGeneric"
         if CUE in it.content:

@@ -53,6 +53,9 @@ TOLD = (
     "ignored_cue",
     "learned_generic",
     "know_criterion",
+    "cite_generic",
+    "cite_cue",
+    "cite_ignored_cue",
 )
 """What the robot says of a criterion, which "Forget that." and "No." take back."""
 
@@ -66,14 +69,14 @@ def weigh_claimed(s: Record, *, types: DialogueTypes) -> Record | None:
     content = content_of(s)
     if SUBJECT in content:
         return None
-    noun = _claimed_noun(s)
+    noun = claimed_noun(s)
     if noun is None:
         return plan(s, "WhichSubject", content, types=types)
     whole = rectype({**dict(content.fields), SUBJECT: noun.meaning})
     return _plan_criterion(s, whole, [noun], types=types)
 
 
-@rule(answers=("WeighCue", "Generalise"))
+@rule(answers=("WeighCue", "Generalise", "AskGeneric"))
 def miss_criterion_word(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is said of things, or by a quality, of which the robot knows no word."""
     content = content_of(s)
@@ -135,7 +138,7 @@ def _leaves_nothing(s: Record, content: RecordType, signs: Sequence[Record]) -> 
 def forget_criterion(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor has it forget by what things are known."""
     content = content_of(s)
-    noun = _claimed_noun(s)
+    noun = claimed_noun(s)
     if SUBJECT not in content and noun is not None:
         content = rectype({**dict(content.fields), SUBJECT: noun.meaning})
     for it in criteria_about(s, content)[::-1]:
@@ -238,7 +241,7 @@ def _plan_answer(
     return plan(s, act, content, signs=signs, pending=s.shared.pending, types=types)
 
 
-def _claimed_noun(s: Record) -> Record | None:
+def claimed_noun(s: Record) -> Record | None:
     """The noun that is talked about: that of a criterion, or of a claim.
 
     Where nothing was claimed just now it is what was last said of the topic.

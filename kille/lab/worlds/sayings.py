@@ -275,6 +275,14 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
                 for cue in ("colour", "shape")
                 for matters in (False, True)
             )
+        case ["cue", "plural_subject"]:
+            return (cue_matter(noun, "colour", True) for noun in nouns)
+        case ["plural_property", "plural_subject"]:
+            pairs = islice(product(nouns, talk.words.adjectives.values()), PAIRS)
+            return (generic_matter(it, "Always", quality=one) for it, one in pairs)
+        case ["plural_component", "plural_subject"]:
+            pairs = islice(permutations(nouns, 2), PAIRS)
+            return (generic_matter(one, "Always", part=it) for one, it in pairs)
         case ["often", "plural_property", "plural_subject"]:
             adjectives = talk.words.adjectives.values()
             pairs = islice(product(nouns, adjectives), PAIRS)
