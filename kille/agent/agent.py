@@ -26,7 +26,6 @@ from kille.agent.reason_pictures import reason_picture
 from kille.agent.silence import Silence, missing_things
 from kille.dialogue.beliefs import is_sure, names_of, thinks
 from kille.dialogue.commitments import as_told
-from kille.dialogue.games.clarifying import asks_which
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
@@ -37,7 +36,11 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.robust_reading.situations import Situation, situation_of
-from kille.dialogue.robust_reading.text_hearing import hear_in_parts
+from kille.dialogue.robust_reading.speech_hearing import (
+    UncertainMove,
+    hear_hypotheses_in_parts,
+)
+from kille.dialogue.robust_reading.text_hearing import complete_answer, hear_in_parts
 from kille.dialogue.robust_reading.whole_sentences import needs_parts
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import hear_sentences, tutoring
@@ -209,8 +212,10 @@ class Agent:
     def hear_perhaps(self, *texts: tuple[str, float]) -> str:
         """Take in what the tutor perhaps says: one of these texts, each so probable.
 
-        Each is one move. The robot asks about what it did not hear well enough. Raises
-        `UpdateError` for invalid probabilities, or if they sum to more than 1.
+        Each is one move. The robot asks about what it did not hear well enough. Where
+        the grammar reads none of them, they are read by their parts, and teach nothing
+        without a question. Raises `UpdateError` for invalid probabilities, or if they
+        sum to more than 1.
         """
         _check_probable(texts)
         alternatives = (f"{_legible(text)} {_decimal(p)}" for text, p in texts)
@@ -492,12 +497,41 @@ class Agent:
             understand(_legible(text), self.language, types=self.types)[0]
             for text, _ in texts
         ]
-        ways = tuple(reading for it in sentences for reading in it.readings)
         text = " | ".join(f"{text} {p:g}" for text, p in texts)
-        text = text if ways else max(texts, key=lambda it: it[1])[0]
-        event = hear_sentences(*sentences, p=[p for _, p in texts])
+        situation = situation_of(self.state)
+        if all(needs_parts([it], situation, self.language) for it in sentences):
+            return self._hear_alternatives_in_parts(texts, situation, text)
+        move = UncertainMove(tuple(sentences), tuple(p for _, p in texts))
         so_far = Exchange(text, None, (), (), self._clock())
-        return self._answer(Sentence(text, ways), event, so_far, self._now_at)
+        return self._answer_uncertain(move, text, so_far, self._now_at)
+
+    def _hear_alternatives_in_parts(
+        self, texts: Sequence[tuple[str, float]], situation: Situation, text: str
+    ) -> TurnResult:
+        """Take in what is understood of texts of which the grammar reads none."""
+        legible = [(_legible(it), p) for it, p in texts]
+        now = self._now_at
+        heard = hear_hypotheses_in_parts(
+            legible, situation, self.language, types=self.types
+        )
+        if not heard.moves:
+            likeliest = max(legible, key=lambda it: it[1])[0]
+            so_far = Exchange(likeliest, None, (), (), self._clock())
+            return self._answer(Sentence(likeliest, ()), None, so_far, now)
+        so_far = Exchange(text, None, (), (), self._clock())
+        for move in heard.moves:
+            so_far, now = self._answer_uncertain(move, text, so_far, now)
+            if now.state.shared.qud:
+                break
+        return so_far, now
+
+    def _answer_uncertain(
+        self, move: UncertainMove, text: str, so_far: Exchange, now: Run
+    ) -> TurnResult:
+        """Take in a move that may be one of several, and answer it."""
+        ways = tuple(reading for it in move.sentences for reading in it.readings)
+        event = hear_sentences(*move.sentences, p=move.p)
+        return self._answer(Sentence(text, ways), event, so_far, now)
 
     def _answer(
         self, sentence: Sentence, event: object, so_far: Exchange, now: Run
@@ -605,11 +639,7 @@ class Agent:
 
     def _in_full(self, sentence: Sentence, s: Record) -> Sentence:
         """A text that only answers which thing was meant, "Red.", as a sentence."""
-        if sentence.readings or not asks_which(s):
-            return sentence
-        text = self._lexicon.answering.replace("{text}", sentence.text)
-        first, *more = understand(text, self.language, types=self.types)
-        return sentence if more else Sentence(sentence.text, first.readings)
+        return complete_answer(sentence, s, self.language, types=self.types)
 
     # --- seeing ----------------------------------------------------------------------
 

@@ -40,6 +40,9 @@ UNTEACHABLE = 0.01
 LONGER = 0.9
 """The factor for every word."""
 
+SURE = 0.9
+"""From this probability on a text counts as if it had been typed."""
+
 
 _ROUNDING = 1e-9
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from kille.agent.agent import Agent
 from kille.dialogue.language import understand
+from kille.dialogue.reading_weights import SURE
 from kille.dialogue.state import words
 from kille.interfaces.terminal import complain, console
 from kille.speech.expectations import LANGUAGES, expected_speech, speech
@@ -29,9 +30,6 @@ microphone all the time, raw samples on the standard input."""
 
 _SILENCE = 10.0
 """Seconds within which a person who has pressed Enter begins to speak."""
-
-_SURE = 0.9
-"""From this probability, an utterance is treated as if it had been typed."""
 
 
 @dataclass(frozen=True)
@@ -149,8 +147,11 @@ def answer_hypotheses(
     """The robot's answer to what was perhaps said; it begs pardon for a noise.
 
     Of several moves in one utterance the likeliest text counts. Of a single move all
-    hypotheses go into the dialogue, which weighs them with what is seen.
+    hypotheses go into the dialogue, which weighs them with what is seen. Where none is
+    a sentence of the grammar, all are read by their parts.
     """
+    if not heard:
+        return speech(language).sorry
     understood = [
         (it, len(understand(it.text, language, types=robot.types)))
         for it in heard
@@ -160,8 +161,9 @@ def answer_hypotheses(
         )
     ]
     if not understood:
-        return speech(language).sorry
+        sure = [it.text for it in heard if it.p >= SURE]
+        return robot.hear(sure[0]) if sure else robot.hear_perhaps(*heard)
     (likeliest, moves), *_ = understood
-    if likeliest.p >= _SURE or moves > 1:
+    if likeliest.p >= SURE or moves > 1:
         return robot.hear(likeliest.text)
     return robot.hear_perhaps(*(it for it, moves in understood if moves == 1))

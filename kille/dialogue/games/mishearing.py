@@ -9,11 +9,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from kille.dialogue.beliefs import knows
-from kille.dialogue.meanings import DialogueTypes, claims
+from kille.dialogue.meanings import DialogueTypes, claims, single_claims
 from kille.dialogue.moves import issue, plan
-from kille.dialogue.reading_weights import FAINTLY, WeighedMove, weigh_readings
+from kille.dialogue.reading_weights import (
+    FAINTLY,
+    SURE,
+    WeighedMove,
+    weigh_readings,
+)
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
+from kille.dialogue.word_lists import PARTIAL
 from ttr import Model, Record, replace
 from ttr.updates import NBest, first
 
@@ -37,8 +43,21 @@ def ask_heard(
     signs = tuple(dict.fromkeys(sign for it in near for sign in it.signs))
     contents = [it.content for it in near]
     return plan(
-        s, act, *contents, signs=signs, asks=[issue("AskHeard", near)], types=types
+        s,
+        act,
+        *contents,
+        signs=signs,
+        asks=[issue("AskHeard", map(_as_asked, near))],
+        types=types,
     )
+
+
+def _as_asked(said: Record) -> Record:
+    """The move without the doubt whether it is meant, which a yes now settles."""
+    single = len(single_claims(said.content)) == 1
+    if "doubt" in said and said.doubt == PARTIAL and single:
+        return replace(said, doubt="")
+    return said
 
 
 @rule(when="State", on="Heard", p=FAINTLY)
@@ -61,16 +80,12 @@ def take_back_heard(s: Record, *, types: DialogueTypes) -> Record | None:
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Pardon", types=types)
 
 
-NEW = 0.9
-"""From which probability on a lesson in a new word is learned without being asked."""
-
-
 def _is_new_word(
     s: Record, model: Model, heard: WeighedMove, *, types: DialogueTypes
 ) -> bool:
     """Whether what was heard would teach a new word that was not heard that well."""
     said = heard.said
-    if heard.p >= NEW or not model.judge(said, types["Teaching"]).holds:
+    if heard.p >= SURE or not model.judge(said, types["Teaching"]).holds:
         return False
     return any(
         claims(said.content, it) and not knows(words(s), it) for it in said.signs

@@ -19,4 +19,5 @@ where the robot has claimed something, "the red one" where it has asked which.
 | `whole_sentences` | whether the whole or the parts are the better reading |
 | `lessons_together` | lessons of one breath, asked about together |
 | `text_hearing` | what is heard of a text of several sentences |
+| `speech_hearing` | what is heard where only hypotheses of the text are known |
 """

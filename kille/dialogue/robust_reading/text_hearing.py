@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from kille.dialogue.language import Sentence, reader
+from kille.dialogue.language import Sentence, reader, understand
+from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
     DialogueTypes,
     packaged_types,
@@ -23,9 +24,14 @@ from kille.dialogue.robust_reading.lessons_together import (
     join_lessons,
 )
 from kille.dialogue.robust_reading.sentence_reading import Understanding, read_robustly
-from kille.dialogue.robust_reading.situations import Situation
-from kille.dialogue.robust_reading.whole_sentences import are_parts_better, is_weak
+from kille.dialogue.robust_reading.situations import Situation, situation_of
+from kille.dialogue.robust_reading.whole_sentences import (
+    are_parts_better,
+    is_weak,
+    needs_parts,
+)
 from kille.dialogue.word_lists import NAME, PARTIAL, WordLists, word_lists
+from ttr import Record
 
 SELF_ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repeat"})
 """The questions that a tutor who then says what it is has answered themselves."""
@@ -48,6 +54,8 @@ class Hearing(NamedTuple):
 
     moves: tuple[Sentence, ...]
     missed: tuple[tuple[Sentence, Understanding], ...]
+    in_parts: bool = True
+    """Whether it is read by its parts: then a question of the robot's ends the turn."""
 
 
 def prepare_to_read(
@@ -59,6 +67,38 @@ def prepare_to_read(
     """
     reader(language, types or packaged_types()).sentences("hm")
     read_robustly("hm", Situation(), language, types=types)
+
+
+def hear_text(
+    text: str, s: Record, language: str = "en", *, types: DialogueTypes | None = None
+) -> Hearing:
+    """What is heard of a text in a state, as a whole or by its parts.
+
+    >>> from kille.dialogue.state import initial
+    >>> heard = hear_text("Hm, so what is this?", initial())
+    >>> [it.readings[0].type["e"].pred.name for it in heard.moves], heard.missed
+    (['ask_name'], ())
+    """
+    types = types or packaged_types()
+    sentences = [
+        complete_answer(it, s, language, types=types)
+        for it in understand(text, language, types=types)
+    ]
+    situation = situation_of(s)
+    if needs_parts(sentences, situation, language):
+        return hear_in_parts(sentences, situation, language, types=types)
+    return Hearing(tuple(sentences), (), in_parts=False)
+
+
+def complete_answer(
+    sentence: Sentence, s: Record, language: str = "en", *, types: DialogueTypes
+) -> Sentence:
+    """The sentence; in full if it only says which thing is meant, as in "Red."."""
+    if sentence.readings or not situation_of(s).asks_which:
+        return sentence
+    text = lexicon(language).answering.replace("{text}", sentence.text)
+    first, *more = understand(text, language, types=types)
+    return sentence if more else Sentence(sentence.text, first.readings)
 
 
 def hear_in_parts(
@@ -96,7 +136,7 @@ def hear_in_parts(
             done = [it for it in done if act_of(it) not in SELF_ANSWERED]
         for move in _doubt_together(moves, situation, types):
             aside = found.is_remark or _is_name(move)
-            kind = remarks if aside else asked if _is_doubted(move) else done
+            kind = remarks if aside else asked if is_doubted(move) else done
             kind.append(move)
     settled, open_ = _settle_lessons(done, asked, types)
     told = join_lessons(open_, lists.qualities, types=types)
@@ -159,13 +199,13 @@ def _doubt_together(
     So have several lessons of which nobody knows which thing each is about.
     """
     open_ = situation.things > 1 and not situation.points
-    if not any(map(_is_doubted, moves)) and not (
+    if not any(map(is_doubted, moves)) and not (
         open_ and are_about_unmarked_things(moves, types=types)
     ):
         return moves
     return [
         doubt_lesson(it, PARTIAL, types=types)
-        if _claims(it) and not _is_doubted(it)
+        if claims_something(it) and not is_doubted(it)
         else it
         for it in moves
     ]
@@ -176,14 +216,14 @@ def act_of(it: Sentence) -> str:
     return str(predicate_at(it.readings[0].type, "e").name)
 
 
-def _is_doubted(it: Sentence) -> bool:
+def is_doubted(it: Sentence) -> bool:
     """Whether the best reading of a sentence is in doubt."""
     return "doubt" in it.readings[0].type
 
 
 def _is_name(it: Sentence) -> bool:
     """Whether a sentence is no lesson but a name, as in "Anna! This is a cup."."""
-    return _is_doubted(it) and value_at(it.readings[0].type, "doubt") == NAME
+    return is_doubted(it) and value_at(it.readings[0].type, "doubt") == NAME
 
 
 def _says_name(it: Sentence) -> bool:
@@ -196,6 +236,6 @@ def _teaches(it: Sentence) -> bool:
     return any(predicate_at(one.type, "e").name in TEACHING for one in it.readings)
 
 
-def _claims(it: Sentence) -> bool:
+def claims_something(it: Sentence) -> bool:
     """Whether a sentence says how things are, by the name of its move."""
     return any(predicate_at(one.type, "e").name in CLAIMS for one in it.readings)

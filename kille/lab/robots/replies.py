@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from kille.dialogue.beliefs import degree
@@ -134,6 +134,12 @@ class Reply:
     def fronts(self) -> Mapping[int | None, str]:
         """Which way things face, as far as the robot knows."""
         return {self.number(it.x): str(it.front) for it in self.state.shared.turned}
+
+    def then(self, other: Reply) -> Reply:
+        """This reply and another one that follows in the same turn, as one."""
+        text = "\n".join(it for it in (self.text, other.text) if it)
+        moves, rules = (*self.moves, *other.moves), (*self.rules, *other.rules)
+        return replace(other, text=text, moves=moves, rules=rules)
 
     def claimed_word(self, kind: str) -> str:
         """The first word of a kind that the robot claims to be true."""

@@ -6,6 +6,8 @@ import dataclasses
 
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes, packaged_types
+from kille.dialogue.robust_reading.text_hearing import hear_text
+from kille.dialogue.tutoring import hear_sentences
 from kille.dialogue.wording import did_not_understand
 from kille.lab.robots.replies import Reply
 from kille.lab.scenes.occasions import Occasion
@@ -36,13 +38,24 @@ class SimulatedRobot:
         return self._take(look_event(occasion.world_seen, self._world))
 
     def hear(self, text: str) -> Reply:
-        """Hear a text; the reply says so if it is not understood."""
-        assert self._game.hear is not None
-        event = self._game.hear(text)
-        if event is None:
-            sorry = did_not_understand(lexicon(self._language), text, types=self._types)
-            return Reply(sorry, (), *self._now[:2])
-        return self._take(event)
+        """Hear a text, as a whole or by its parts, as the whole robot does.
+
+        The reply also says what is not understood.
+        """
+        heard = hear_text(text, self._now.state, self._language, types=self._types)
+        words, beside = lexicon(self._language), bool(heard.moves)
+        sorries = (
+            did_not_understand(
+                words, it.text, found.parts, beside=beside, types=self._types
+            )
+            for it, found in heard.missed
+        )
+        reply = self._reply("\n".join(sorries), ())
+        for move in heard.moves:
+            reply = reply.then(self._take(hear_sentences(move)))
+            if heard.in_parts and reply.is_open:
+                break
+        return reply
 
     def happen(self, command: str) -> Reply:
         """Carry out `look`, `point 2`, `place 2 3.5 4`, `remove 2` or `restart`."""

@@ -228,3 +228,55 @@ def test_a_look_does_not_depend_on_what_was_seen_before():
 
 def test_scenes_that_are_not_simulated_are_named():
     assert set(scenes.SETTINGS) >= scenes.WHOLE
+
+
+SAID_IN_PARTS = [
+    ("en", "Well, you know, this is a cup!", "learned", ""),
+    ("en", "I have found a cup today!", "ask_meant", "Yes."),
+    ("en", "Um, and, er, what is this?", "admit_name", ""),
+    ("sv", "Öh, det här är liksom en kopp.", "learned", ""),
+    ("sv", "Jag har hittat en kopp idag!", "ask_meant", "Ja."),
+]
+
+
+@pytest.mark.parametrize(("language", "text", "act", "answer"), SAID_IN_PARTS)
+def test_the_simulated_robot_understands_by_parts_as_the_whole_one_does(
+    language, text, act, answer
+):
+    """What is heard of a text does not depend on the scene of a study."""
+    simulated, _ = robot(theory=Theory("robot", language=language))
+    simulated.see(shown(1))
+    whole, scene = robot(
+        "rendered",
+        Theory("robot", language=language),
+        kinds=["cup"],
+        target="cup",
+        landmark="car",
+        new=0,
+    )
+    whole.see(next(it for it in scene.round("noun", False, Random(1))))
+    for it in (simulated, whole):
+        assert it.hear(text).acts == (act,)
+        if answer:
+            assert it.hear(answer).acts == ("learned",)
+    whole.close()
+
+
+def test_of_several_moves_each_is_answered_and_a_question_ends_the_turn():
+    it, _ = robot()
+    it.see(shown(1))
+    both = it.hear("This is a cup. What is this?")
+    assert both.acts == ("learned", "assert_name")
+    assert both.text.count("\n") == 1
+    asked = it.hear("I have found a mug! What colour is it?")
+    assert asked.acts[-1] == "ask_meant"
+    assert asked.is_open
+
+
+def test_what_it_does_not_understand_beside_other_things_is_said():
+    it, _ = robot()
+    it.see(shown(1))
+    reply = it.hear("Blah blubb blubber is. What is this?")
+    assert reply.acts == ("admit_name",)
+    assert reply.text.startswith("I did not understand")
+    assert not reply.is_lost
