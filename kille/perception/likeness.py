@@ -22,11 +22,8 @@ spoke for a word. What a word was denied of counts against that word and for no 
 Only some examples of a word are compared, so that the time does not grow with what was
 learned: the newest, and as many of the older ones, whose keys come first in an order of
 chance. Which these are depends on nothing but what is remembered: to forget a view is
-to be as if it had never been. Of more than 500 words only one example each is compared,
-a newest or an older one as chance has it. Then D is 1, and of the inverse of K + λ only
-what a lesson changes is worked out anew: with 2,000 words, all cues and one thread the
-first question takes 2 s, the first one after a lesson .5 s, any other .02 s. These
-grow with the cube and with the square of the words, the memory needed with the square.
+to be as if it had never been. Of very many words only those nearest to a thing are told
+apart (`kille.perception.nearest_words`).
 
 Source: kernel sums with a fixed width, Gehler & Nowozin 2009, "On feature combination
 for multiclass object classification"; ridge regression, Rifkin & Klautau 2004.
@@ -36,20 +33,19 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from hashlib import blake2b
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from heapq import nsmallest
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.index import View
-from kille.perception.learners import Key
-from kille.perception.matrix_inverses import Places, update_inverse
 from kille.perception.negative_examples import weights_with_denials
 from kille.scene import Traits, Vector
 
 Numbers = NDArray[np.float64]
+Places = NDArray[np.intp]
 
 _NOTHING = np.empty(0, np.float32)
 _HUGE = 1e6
@@ -60,7 +56,14 @@ _ELSE_RIDGE = _RIDGE / 3  # what was never taught counts for three examples
 _EXAMPLES = 1000  # compared in all, unless there are more words
 _LEAST, _MOST = 1, 48  # of one word
 _MOST_DENIED = 12  # of one word, the newest
-_SINGLE = 500  # words: of more, one example each is compared
+
+
+Stacked = tuple[NDArray[np.float32], Numbers]
+"""The vectors (n, k) of a cue, 0 where unknown, and which are known (n,)."""
+
+Vectors = Callable[[str, Sequence[View], int], Stacked | None]
+"""Gives those of a cue of some views, of which the first so many are taught; or None if
+the cue tells of none of these."""
 
 
 @dataclass(frozen=True)
@@ -76,17 +79,20 @@ class Likeness:
     """What the cues say for each word, by cue, in the order of the words.
 
     `scores` (words,) add up to the score of the regression; `unlike` (words,) is d_c of
-    the most similar example of a word, infinite if the cue tells of none.
+    the most similar example of a word, infinite if the cue tells of none. `others` are
+    the scores of any word that has no examples.
     """
 
     scores: Mapping[str, Numbers]
     unlike: Mapping[str, Numbers]
+    others: Mapping[str, float]
 
     def with_column(self, column: int, other: Likeness) -> Likeness:
         """The same, but for one word what the other says of it by the same cues."""
         return Likeness(
             _with_column(self.scores, column, other.scores),
             _with_column(self.unlike, column, other.unlike),
+            self.others,
         )
 
     def without(self, cue: str, columns: Sequence[int]) -> Likeness:
@@ -95,7 +101,7 @@ class Likeness:
             return self
         apart = self.unlike[cue].copy()
         apart[list(columns)] = np.inf
-        return Likeness(self.scores, {**self.unlike, cue: apart})
+        return replace(self, unlike={**self.unlike, cue: apart})
 
 
 class Examples:
@@ -112,12 +118,14 @@ class Examples:
         old: Examples | None = None,
         *,
         denied: Iterable[View] = (),
+        vectors: Vectors | None = None,
     ) -> None:
         """Take examples from these views; `labels` are their words, in the order of
         answers.
 
         `denied` are views that the words do not hold of. What examples of the same
-        kernels worked out before is taken over.
+        kernels worked out before is taken over. `vectors` are those of the views, where
+        they have been stacked already.
         """
         compared = _compared_views(views, labels)
         taught = [view for some in compared.values() for view in some]
@@ -131,7 +139,7 @@ class Examples:
         self._blocks = [
             _Block(cue, kernel, *rows)
             for cue, kernel in kernels.items()
-            if (rows := _rows(cue, self._views, len(taught))) is not None
+            if (rows := (vectors or stack_vectors)(cue, self._views, len(taught)))
         ]
         if old is not None and not self._measured_like(old):
             old = None
@@ -141,8 +149,7 @@ class Examples:
         self._told_of = np.maximum(told, 1e-9)
         before = self._places_in(old)
         self._kernel = self._compare(old, before)
-        self._inverse: Numbers | None = None
-        self._weights = self._fit(counts, old, before)
+        self._weights = self._fit(counts)
 
     def likeness(self, traits: Traits) -> Likeness:
         """What each cue says of a thing with these traits; unknown traits say
@@ -152,15 +159,17 @@ class Examples:
         told_of = max(sum(it.weight for it in told), 1e-9)
         parts = self._weights[:-1] / np.sqrt(told_of * self._told_of)[:, None]
         untaught = _ELSE * self._weights[-1] / told_of
+        scores = {
+            it.cue: it.weight * (np.exp(-apart[it.cue]) @ parts + untaught)
+            for it in told
+        }
         return Likeness(
-            {
-                it.cue: it.weight * (np.exp(-apart[it.cue]) @ parts + untaught)
-                for it in told
-            },
+            {cue: some[:-1] for cue, some in scores.items()},
             {
                 cue: np.minimum.reduceat(d[: self._taught], self._firsts)
                 for cue, d in apart.items()
             },
+            {cue: float(some[-1]) for cue, some in scores.items()},
         )
 
     def nearest(self, traits: Traits, column: int) -> View | None:
@@ -212,24 +221,21 @@ class Examples:
         alike /= np.sqrt(np.outer(self._told_of[rows], self._told_of))
         return alike
 
-    def _fit(
-        self, counts: NDArray[np.intp], old: Examples | None, before: Places
-    ) -> Numbers:
-        """The weights α (n + 1, words); the last row belongs to everything untaught."""
+    def _fit(self, counts: NDArray[np.intp]) -> Numbers:
+        """The weights α (n + 1, words + 1).
+
+        The last row belongs to everything untaught, the last column to a word that has
+        no examples.
+        """
         size = self._taught
         system = np.full((size + 1, size + 1), _ELSE)
         system[:size, :size] = self._kernel[:size, :size]
         excess = (counts / counts.mean())[self._owners] if size else np.empty(0)
         system[np.arange(size), np.arange(size)] += _RIDGE * excess
         system[size, size] = 1 + _ELSE_RIDGE
-        if size == len(counts) > _SINGLE:
-            self._inverse = _invert(system, old, before[:size])
-            rests = self._inverse.sum(axis=1, keepdims=True)
-            alone = np.asarray(2 * self._inverse[:, :size] - rests, np.float64)
-        else:
-            signs = np.full((size + 1, len(counts)), -1.0)
-            signs[np.arange(size), self._owners] = 1.0
-            alone = np.asarray(np.linalg.solve(system, signs), np.float64)
+        signs = np.full((size + 1, len(counts) + 1), -1.0)
+        signs[np.arange(size), self._owners] = 1.0
+        alone = np.asarray(np.linalg.solve(system, signs), np.float64)
         return alone if not len(self._opposed) else self._oppose(alone, system)
 
     def _oppose(self, alone: Numbers, system: Numbers) -> Numbers:
@@ -237,11 +243,7 @@ class Examples:
         size, denials = self._taught, len(self._opposed)
         border = np.full((size + 1, denials), _ELSE)
         border[:size] = self._kernel[:size, size:]
-        through = (
-            np.linalg.solve(system, border)
-            if self._inverse is None
-            else self._inverse @ border
-        )
+        through = np.linalg.solve(system, border)
         among = self._kernel[size:, size:] + _RIDGE * np.eye(denials)
         weights, against = weights_with_denials(
             alone, through, border, among, self._opposed
@@ -258,13 +260,6 @@ def _with_column(
     return changed
 
 
-def _invert(system: Numbers, old: Examples | None, before: Places) -> Numbers:
-    """Compute (K + λ)⁻¹, by an update if the former examples have an inverse."""
-    if old is None or old._inverse is None:
-        return np.asarray(np.linalg.inv(system), np.float64)
-    return update_inverse(old._inverse, system, np.append(before, old._taught))
-
-
 class _Block:
     """One cue of all examples: rows (n, k), and which of them are known (n,)."""
 
@@ -276,7 +271,7 @@ class _Block:
         self._squares = (rows**2).sum(axis=1)
 
     def tells_of(self, traits: Traits) -> bool:
-        return self.length == len(_vector(traits, self.cue))
+        return self.length == len(vector_of(traits, self.cue))
 
     def apart(self, others: NDArray[np.float32]) -> Numbers:
         """The dissimilarity (m, n) of others (m, k) to the rows; infinite if
@@ -286,15 +281,13 @@ class _Block:
         return np.where(self.known > 0, apart.astype(np.float64), np.inf)
 
 
-def _rows(
-    cue: str, views: Sequence[View], taught: int
-) -> tuple[NDArray[np.float32], Numbers] | None:
+def stack_vectors(cue: str, views: Sequence[View], taught: int) -> Stacked | None:
     """The vectors (n, k) of a cue, 0 where unknown, and which are known (n,).
 
     One of another length than most of those taught, which come first, was measured in
     another way, and is unknown.
     """
-    vectors = [_vector(view.traits, cue) for view in views]
+    vectors = [vector_of(view.traits, cue) for view in views]
     lengths = Counter(len(it) for it in vectors[:taught] if len(it))
     if not lengths:
         return None
@@ -307,7 +300,7 @@ def _rows(
     return rows, known
 
 
-def _vector(traits: Traits, cue: str) -> Vector:
+def vector_of(traits: Traits, cue: str) -> Vector:
     """The vector of a cue; empty if it is unknown, or too large to be a measurement.
 
     A memory may have come from elsewhere.
@@ -324,16 +317,18 @@ def _compared_views(
     for view in views:
         of[view.label].append(view)
     most = int(np.clip(_EXAMPLES // max(len(labels), 1), _LEAST, _MOST))
-    return {label: _choose_views(some, most) for label, some in of.items()}
+    return {label: choose_views(some, most) for label, some in of.items()}
 
 
-def _choose_views(views: Sequence[View], most: int) -> Sequence[View]:
+def choose_views(views: Sequence[View], most: int) -> Sequence[View]:
     """Choose at most `most` views: half of them the newest, the rest at random."""
     if len(views) <= most:
         return views
     newest = views[len(views) - most // 2 :]
-    older = sorted(views[: len(views) - most // 2], key=lambda it: _lot(it.key))
-    return [*older[: most - most // 2], *newest]
+    older = nsmallest(
+        most - most // 2, views[: len(views) - most // 2], key=lambda it: it.lot
+    )
+    return [*older, *newest]
 
 
 def _against(denied: Iterable[View], labels: Sequence[str]) -> Sequence[Sequence[View]]:
@@ -342,8 +337,3 @@ def _against(denied: Iterable[View], labels: Sequence[str]) -> Sequence[Sequence
     for view in denied:
         of.get(view.label, []).append(view)
     return [some[-_MOST_DENIED:] for some in of.values()]
-
-
-def _lot(key: Key) -> bytes:
-    """The place of a key in a random order that is the same on every machine."""
-    return blake2b(repr(key).encode(), digest_size=8).digest()

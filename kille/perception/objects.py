@@ -37,12 +37,15 @@ from kille.perception.index import (
 )
 from kille.perception.index.builders import Builder
 from kille.perception.learners import Key, own_key
-from kille.perception.likeness import Examples, Likeness
+from kille.perception.likeness import Examples, Kernel, Likeness
+from kille.perception.nearest_words import MANY, NearestWords
 from kille.perception.relevance import Relevance
 from kille.perception.votes import beyond_chance, rivals, votes
 from kille.scene import Features, Percept, Traits
 
 __all__ = ["ObjectMemory", "kept_features"]
+
+Comparison = Examples | NearestWords
 
 _KEPT_SCANS = 4
 _RECALLED = 24  # views of a word that are looked through by their features
@@ -74,12 +77,12 @@ class ObjectMemory:
         self._denied: dict[Key, View] = {}
         self._said: dict[Key, tuple[str, str, bool]] = {}
         self._relevance: dict[str, Relevance] = {}
-        self._own_examples: dict[Relevance, Examples] = {}
-        self._own_latest: dict[Relevance, Examples] = {}
+        self._own_examples: dict[Relevance, Comparison] = {}
+        self._own_latest: dict[Relevance, Comparison] = {}
         self._weighing = weighed or weighing()
         self._cues = cues
-        self._examples: Examples | None = None
-        self._latest: Examples | None = None
+        self._examples: Comparison | None = None
+        self._latest: Comparison | None = None
         for view in denied:
             self.deny(view)
 
@@ -244,31 +247,34 @@ class ObjectMemory:
     def _likeness(self, traits: Traits) -> Likeness:
         return self._current_examples().likeness(traits)
 
-    def _current_examples(self) -> Examples:
+    def _current_examples(self) -> Comparison:
         if self._examples is None:
-            self._examples = Examples(
-                self.views,
-                self.labels,
-                self._weighing.kernels,
-                self._latest,
-                denied=self.denied,
-            )
+            self._examples = self._compare(self._weighing.kernels, self._latest)
             self._latest = self._examples
         return self._examples
 
-    def _examples_for(self, relevance: Relevance) -> Examples:
+    def _examples_for(self, relevance: Relevance) -> Comparison:
         """The examples, compared by the weights that words of this relevance have."""
         if relevance not in self._own_examples:
-            made = Examples(
-                self.views,
-                self.labels,
-                relevance.kernels(self._weighing.kernels),
-                self._own_latest.get(relevance),
-                denied=self.denied,
-            )
+            kernels = relevance.kernels(self._weighing.kernels)
+            made = self._compare(kernels, self._own_latest.get(relevance))
             self._own_examples = {**self._own_examples, relevance: made}
             self._own_latest = {**self._own_latest, relevance: made}
         return self._own_examples[relevance]
+
+    def _compare(
+        self, kernels: Mapping[str, Kernel], old: Comparison | None
+    ) -> Comparison:
+        """Examples of all words, with what others of the same kernels worked out."""
+        labels, denied = self.labels, self.denied
+        if len(labels) <= MANY:
+            before = old if isinstance(old, Examples) else None
+            return Examples(self.views, labels, kernels, before, denied=denied)
+        latest = next(
+            (it for it in (old, self._latest) if isinstance(it, NearestWords)), None
+        )
+        words = self._index.words
+        return NearestWords(words, labels, kernels, latest, denied=denied)
 
     def _views_changed(self) -> None:
         """Compare the examples anew when it is next asked."""

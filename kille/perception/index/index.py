@@ -48,7 +48,7 @@ class Index:
         self._builder = builder or AtOnce()
         self._make = search_called(search)
         self._views: dict[Key, View] = {}
-        self._known: Counter[str] = Counter()  # the views of each word
+        self._words: dict[str, tuple[View, ...]] = {}
         self._sizes: Counter[str] = Counter()  # the descriptors of each word
         self._columns: dict[str, int] = {}
         self._exact: Exact | None = None
@@ -72,13 +72,18 @@ class Index:
         twin = object.__new__(Index)
         twin.__dict__.update(self.__dict__)
         twin._views, twin._tail = dict(self._views), list(self._tail)
-        twin._known, twin._sizes = self._known.copy(), self._sizes.copy()
+        twin._words, twin._sizes = dict(self._words), self._sizes.copy()
         return twin
 
     @property
     def views(self) -> Mapping[Key, View]:
         """The views learned and not forgotten, by key, in the order of learning."""
         return MappingProxyType(self._views)
+
+    @property
+    def words(self) -> Mapping[str, tuple[View, ...]]:
+        """The views of each word, in the order of learning."""
+        return MappingProxyType(self._words)
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -105,10 +110,11 @@ class Index:
     def forget(self, key: Key) -> None:
         """Remove a view, as if it had never been learned; KeyError if it was not."""
         view = self._views.pop(key)
-        self._known[view.label] -= 1
+        left = tuple(it for it in self._words[view.label] if it is not view)
+        self._words[view.label] = left
         self._sizes[view.label] -= len(view.descriptors)
-        if not self._known[view.label]:
-            self._known.pop(view.label)
+        if not left:
+            del self._words[view.label]
             self._renumber()
         self._has_forgotten = True
 
@@ -162,8 +168,9 @@ class Index:
             )
         self._views[view.key] = view
         self._sizes[view.label] += len(view.descriptors)
-        self._known[view.label] += 1
-        if self._known[view.label] == 1:
+        before = self._words.get(view.label, ())
+        self._words[view.label] = (*before, view)
+        if not before:
             self._renumber()
 
     def _renumber(self) -> None:
@@ -172,8 +179,8 @@ class Index:
 
     def _word_columns(self) -> Mapping[str, int]:
         """The column of each word."""
-        if len(self._columns) != len(self._known):
-            self._columns = {word: i for i, word in enumerate(sorted(self._known))}
+        if len(self._columns) != len(self._words):
+            self._columns = {word: i for i, word in enumerate(sorted(self._words))}
         return self._columns
 
     def _partition_anew(self) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from hashlib import blake2b
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +33,11 @@ class View:
     label: str
     descriptors: Descriptors
     traits: Traits = field(default_factory=dict)
+
+    @cached_property
+    def lot(self) -> bytes:
+        """Its place in an order of chance by the key, the same on every machine."""
+        return blake2b(repr(self.key).encode(), digest_size=8).digest()
 
 
 def rooted(descriptors: Descriptors) -> Rows:

@@ -11,7 +11,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tabletop import percept_of, prototypes
 
-from kille.perception import likeness
 from kille.perception.features import NONE
 from kille.perception.index import View, partition
 from kille.perception.learners import check_learner
@@ -358,29 +357,6 @@ def test_to_forget_is_to_be_as_if_it_had_never_been(
     anew = Examples(left, labels, kernels).likeness(asked)
     for cue, scores in anew.scores.items():
         assert taken_over.scores[cue] == pytest.approx(scores, abs=1e-6)
-
-
-def test_of_very_many_words_what_was_worked_out_is_kept(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """And what is found is what would be found anew, whatever came and went."""
-    monkeypatch.setattr(likeness, "_SINGLE", 0)
-    chance, kernels = np.random.default_rng(3), {"colour": Kernel(1.0, 0.5)}
-    views = [
-        View(key, f"w{key}", NONE.descriptors, {"colour": chance.random(4, np.float32)})
-        for key in chance.permutation(30).tolist()
-    ]
-    asked = {"colour": np.full(4, 0.4, np.float32)}
-    examples = None
-    for some in (views[:20], views[:24], views[3:24], views[10:], views[10:], views):
-        labels = sorted(view.label for view in some)
-        examples = Examples(some, labels, kernels, examples)
-        found = examples.likeness(asked).scores["colour"]
-        anew = Examples(some, labels, kernels).likeness(asked).scores["colour"]
-        assert found == pytest.approx(anew, abs=1e-6)
-    monkeypatch.setattr(likeness, "_SINGLE", 500)
-    solved = Examples(views, labels, kernels).likeness(asked).scores["colour"]
-    assert found == pytest.approx(solved, abs=1e-6)
 
 
 @given(st.integers(0, 1000))
