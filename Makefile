@@ -12,7 +12,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo talk test deep bench mutants oracles clean
+.PHONY: help demo talk serve test deep bench mutants oracles clean
 
 help: ## show these lines
 	@sed -n 's/^\([a-z]*\):[^#]*## /\1\t/p' Makefile | expand -t 10
@@ -22,6 +22,9 @@ demo: $(INSTALLED) ## a tutor teaches the robot ten objects and where things are
 
 talk: $(INSTALLED) ## teach the robot yourself
 	@$(BIN)/kille talk
+
+serve: $(INSTALLED) ## teach the robot in a browser
+	@$(BIN)/kille serve --open
 
 # Programs that tests start by the hundred need not compile what they import.
 test deep: export PYTHONDONTWRITEBYTECODE :=
@@ -55,10 +58,10 @@ mutants: $(SENSES) ## see which small mistakes in a room its tests miss: make mu
 	@$(BIN)/python tools/mutants.py $(ROOM)
 
 # Some tests compare with other people's programs: libfreenect's tools with the Kinect
-# driver and the recorder, flite as a tutor's voice, ROS with the nodes. Without them
-# these tests are skipped, and the run says so.
+# driver and the recorder, flite as a tutor's voice, ROS with the nodes; the page is tried
+# in a real browser. Without them these tests are skipped, and the run says so.
 ORACLES := libfreenect-bin gcc libc6-dev \
-    flite espeak-ng \
+    flite espeak-ng chromium \
     ros-core python3-rospy python3-sensor-msgs python3-std-srvs python3-message-filters \
     python3-rosbag python3-roslaunch python3-rosservice python3-rostopic rosbash
 APT := DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=120

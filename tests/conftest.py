@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # Optional tests need something a fresh clone does not have; the run says at its end
 # which of them were really run.
-OPTIONAL = ("data", "oracle", "ros", "speech")
+OPTIONAL = ("browser", "data", "oracle", "ros", "speech")
 
 settings.register_profile("dev", max_examples=50, deadline=None)
 settings.register_profile(

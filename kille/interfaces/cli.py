@@ -13,7 +13,12 @@ from pathlib import Path
 from shlex import join
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from kille.interfaces.number_arguments import parse_count, parse_seed, positive
+from kille.interfaces.number_arguments import (
+    parse_count,
+    parse_port,
+    parse_seed,
+    positive,
+)
 from kille.interfaces.standard_streams import (
     drop_output,
     end_line,
@@ -27,7 +32,7 @@ from ttr.safety.interruptions import keep_interruptions
 if TYPE_CHECKING:
     from kille.interfaces.experiment.running import StudyRequest
 
-FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
+FAILED, WRONG_USE, INTERRUPTED, PIPE_CLOSED = 1, 2, 130, 141
 
 
 def command() -> NoReturn:
@@ -101,6 +106,7 @@ def _parser() -> Parser:
     commands = parser.add_subparsers(metavar="COMMAND", parser_class=Parser)
     _add_demo(commands)
     _add_talk(commands)
+    _add_serve(commands)
     _add_replay(commands)
     _add_record(commands)
     _add_convert(commands)
@@ -149,6 +155,34 @@ def _add_init(commands: Any) -> None:
 
 def _add_talk(commands: Any) -> None:
     talk = commands.add_parser("talk", help="teach the robot yourself")
+    _add_robot(talk)
+    _add_account_and_speech(talk)
+    talk.set_defaults(run=_talk)
+
+
+def _add_serve(commands: Any) -> None:
+    serve = commands.add_parser("serve", help="teach the robot in a browser")
+    _add_robot(serve)
+    serve.add_argument(
+        "--host",
+        default="127.0.0.1",
+        metavar="H",
+        help="where the page listens; beyond this machine it speaks TLS and needs a "
+        "token (127.0.0.1)",
+    )
+    serve.add_argument(
+        "--port",
+        type=parse_port,
+        default=8765,
+        metavar="N",
+        help="the port; 0 for any that is free (8765)",
+    )
+    serve.add_argument("--open", action="store_true", help="open the page in a browser")
+    serve.set_defaults(run=_serve)
+
+
+def _add_robot(talk: argparse.ArgumentParser) -> None:
+    """The options of a robot that is talked to."""
     talk.add_argument(
         "--sensor",
         default="synthetic",
@@ -180,6 +214,9 @@ def _add_talk(commands: Any) -> None:
         "paper's, but not always in the same words (paper)",
     )
     _add_theory(talk)
+
+
+def _add_account_and_speech(talk: argparse.ArgumentParser) -> None:
     talk.add_argument(
         "--trace",
         nargs="?",
@@ -221,7 +258,6 @@ def _add_talk(commands: Any) -> None:
         metavar="FILE.dlg",
         help="write the dialogue, with times, as a story for kille replay",
     )
-    talk.set_defaults(run=_talk)
 
 
 def _add_theory(command: argparse.ArgumentParser) -> None:
@@ -533,28 +569,13 @@ def _talk(options: argparse.Namespace) -> int:
     from kille.interfaces.talk import talk
 
     account = ACCOUNTS[options.trace or "none"]
-    settings = {"mode": options.mode, "wording": options.wording}
-    if options.theory:
-        from functools import partial
-
-        from kille.interfaces.experiment.checking import MISTAKES
-        from kille.interfaces.terminal import complain_all
-        from kille.interfaces.theories import robot_of, theory_named
-        from kille.lab.theories import language_of
-
-        try:
-            theory = theory_named(
-                options.theory, options.lang, **settings, consent=consent_of(options)
-            )
-        except MISTAKES as error:
-            return complain_all(error)
-        options.lang = language_of(theory)
-        settings["make"] = partial(robot_of, theory)
+    settings = _robot_settings(options)
+    if settings is None:
+        return WRONG_USE
     return talk(
         options.sensor,
         options.memory,
         account,
-        language=options.lang,
         hear=options.hear or ("device" if options.speech else ""),
         say=options.say or ("espeak" if options.speech else "none"),
         log=options.log,
@@ -562,6 +583,51 @@ def _talk(options: argparse.Namespace) -> int:
         barge_in=options.barge_in,
         **settings,
     )
+
+
+def _serve(options: argparse.Namespace) -> int:
+    from kille.interfaces.serve import serve
+
+    settings = _robot_settings(options)
+    if settings is None:
+        return WRONG_USE
+    return serve(
+        options.sensor,
+        options.memory,
+        host=options.host,
+        port=options.port,
+        show=options.open,
+        **settings,
+    )
+
+
+def _robot_settings(options: argparse.Namespace) -> dict[str, Any] | None:
+    """The language and strategy of the robot, and what makes it of a theory.
+
+    None if the theory cannot be used, which is complained of.
+    """
+    settings = {"mode": options.mode, "wording": options.wording}
+    if not options.theory:
+        return {"language": options.lang, **settings}
+    from functools import partial
+
+    from kille.interfaces.experiment.checking import MISTAKES
+    from kille.interfaces.terminal import complain_all
+    from kille.interfaces.theories import robot_of, theory_named
+    from kille.lab.theories import language_of
+
+    try:
+        theory = theory_named(
+            options.theory, options.lang, **settings, consent=consent_of(options)
+        )
+    except MISTAKES as error:
+        complain_all(error)
+        return None
+    return {
+        "language": language_of(theory),
+        **settings,
+        "make": partial(robot_of, theory),
+    }
 
 
 def _init(options: argparse.Namespace) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
+from kille.agent.agent import Agent
 from kille.agent.attention import NumberedLook
 from kille.agent.exchanges import Exchange
 from kille.dialogue.meanings import CLAIMS, predicate_at
@@ -231,6 +232,15 @@ def _belief(belief: Record) -> str:
         if isinstance(field, PType):
             return f"some : {resolve_paths(field, (sit,))}   p = {belief.p:.2f}"
     return f"{sit} : {belief.sign.meaning}   p = {belief.p:.2f}"
+
+
+def introduction(robot: Agent) -> str:
+    """What it looks through, how many nouns it knows, and where they are kept."""
+    known = len(robot.state.private.nouns)
+    return (
+        f"I look through {robot.gaze.sensor.name} and know {known or 'no'} "
+        f"word{'s' * (known != 1)} for things; they are kept in {robot.memory.place}."
+    )
 
 
 def things_in_view(view: NumberedLook) -> str:

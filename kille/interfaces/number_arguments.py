@@ -21,6 +21,13 @@ def parse_count(text: str) -> int:
     raise argparse.ArgumentTypeError(f"{text} is no whole number from 1, such as 300")
 
 
+def parse_port(text: str) -> int:
+    """Parse a port, or 0 for any that is free."""
+    if text.isascii() and text.isdigit() and int(text) < 2**16:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text} is no port from 0 to 65535, such as 8765")
+
+
 def positive(text: str) -> float:
     """Parse a number above 0."""
     with suppress(ValueError):

@@ -19,7 +19,12 @@ from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
 from kille.dialogue.robust_reading.text_hearing import prepare_to_read
 from kille.dialogue.state import words
-from kille.interfaces.formatting import Account, things_in_view, whole_account
+from kille.interfaces.formatting import (
+    Account,
+    introduction,
+    things_in_view,
+    whole_account,
+)
 from kille.interfaces.live_prompt import (
     Show,
     can_watch,
@@ -203,11 +208,8 @@ class _Conversation:
                 return
 
     def _welcome(self) -> None:
-        known = len(self._robot.state.private.nouns)
         self._print(
-            f"I look through {self._robot.gaze.sensor.name} and know "
-            f"{known or 'no'} word{'s' * (known != 1)} for things; they are kept in "
-            f"{self._robot.memory.place}.\n"
+            f"{introduction(self._robot)}\n"
             'Say "This is a cup." or "What is this?"; help says what else.'
         )
 

@@ -21,6 +21,8 @@ _USES = {
     "faiss": "a faster search in a large memory",
     "embedding": "another way to tell things apart",
     "experiments": "many experiments on all cores",
+    "page": "the robot in a browser",
+    "browser": "the page's tests in a real browser",
     "test": "property tests of types and rules",
     "dev": "work on kille itself",
     "senses": "its tests of recordings, speech and ROS",

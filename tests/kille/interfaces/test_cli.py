@@ -23,7 +23,7 @@ from .conftest import COMMAND, Run
 
 MISSPELT = {
     ("demmo",): "did you mean demo?",
-    ("xyzzy",): "try demo, talk, replay, record, convert, memory, evaluate, ",
+    ("xyzzy",): "try demo, talk, serve, replay, record, convert, memory, evaluate, ",
     ("memory", "lits"): "did you mean list?",
     ("talk", "--memry", "x"): "did you mean --memory?",
     ("talk", "--sensro=synthetic"): "did you mean --sensor?",
@@ -37,6 +37,8 @@ MISSPELT = {
     ("--verison",): "did you mean --version?",
     ("replay",): "FILE.dlg",
     ("replay", "--quiet", "--json", "a.dlg"): "not allowed with",
+    ("serve", "--prot", "80"): "did you mean --port?",
+    ("serve", "--port", "70000"): "70000 is no port",
     (): "a command is missing",
     ("memory",): "a command is missing",
 }

@@ -99,6 +99,10 @@ KILLE = [
     Case(("init", "mine")),
     Case(("doctor",), codes=(0, 1)),
 ]
+SERVING = [
+    (("serve", "--port", "0", *SENSOR), MACHINE),
+    (("serve", "--port", "0", "--host", "0.0.0.0", *SENSOR), NETWORK),
+]
 LONGER = [
     Case(("experiment", "replay", "study.results", "--workers", "2")),
     Case(("experiment", "resume", "study.results", "--workers", "2")),
@@ -215,7 +219,8 @@ def prepare(folder: Path) -> None:
 
 
 def test_every_command_is_watched_but_those_of_ros() -> None:
-    watched = {"kille": [*KILLE, *LONGER], "ttr": TTR}
+    serving = [Case(words) for words, _ in SERVING]
+    watched = {"kille": [*KILLE, *LONGER, *serving], "ttr": TTR}
     for name, program in PROGRAMS.items():
         for words in commands(program._parser()):
             known = any(it.words[: len(words)] == words for it in watched[name])
@@ -245,6 +250,20 @@ def test_nodes_on_dds_can_be_reached_by_the_network(watch: Watch) -> None:
     )
     assert {it.kind for it in found.listening} <= {"udp", "udp6"}
     assert {it.reach for it in found.listening} == {NETWORK}
+
+
+@pytest.mark.parametrize(("words", "reach"), SERVING)
+def test_the_page_can_be_reached_where_it_was_asked_to(
+    watch: Watch, words: Sequence[str], reach: str
+) -> None:
+    pytest.importorskip("uvicorn", reason="kille[page] is not installed")
+    found = watch(
+        *(sys.executable, "-m", kille.__name__, *words),
+        enough=lambda now: "The page is ready" in now.out,
+    )
+    assert found.code == 0, found.out
+    assert {(it.kind, it.reach) for it in found.listening} == {("tcp", reach)}
+    assert len(found.bound) == 1
 
 
 # --- whether one would see it --------------------------------------------------------

@@ -1,0 +1,124 @@
+"""`kille serve`: the robot's page, for a browser here or, on request, elsewhere."""
+
+from __future__ import annotations
+
+import errno
+import secrets
+import socket
+import webbrowser
+from collections.abc import Callable
+from pathlib import Path
+from threading import Thread
+from typing import TYPE_CHECKING
+
+from kille.agent.agent import Agent
+from kille.interfaces.formatting import introduction
+from kille.interfaces.terminal import FINE, complain, console, memory_path
+from kille.memory import MemoryFileError, default_path
+from kille.sensors.sensor import Sensor, SensorError
+from ttr.safety.unforeseen_errors import report_unforeseen
+
+if TYPE_CHECKING:
+    from kille.page.server import PageSettings
+
+MISSING = (
+    "the page needs Starlette, uvicorn and websockets: "
+    "install them by pip install 'kille[page]'"
+)
+
+
+_TAKEN = (errno.EADDRINUSE, getattr(errno, "WSAEACCES", errno.EADDRINUSE))
+
+
+def serve(
+    sensor: str,
+    memory: Path | None,
+    *,
+    host: str = "127.0.0.1",
+    port: int = 8765,
+    show: bool = False,
+    language: str = "en",
+    mode: str = "",
+    wording: str = "",
+    make: Callable[..., Agent] = Agent,
+) -> int:
+    """Serve the robot's page until Ctrl-C; returns the exit code.
+
+    Where others than this machine reach the `host`, the page speaks TLS and needs a
+    token. With `show` it is opened in a browser; `make` makes the robot.
+    """
+    try:
+        from kille.page.server import Terminal, serve_page
+    except ImportError:
+        return complain(MISSING)
+    place = memory_path(memory)
+
+    def robot(of: Sensor) -> Agent:
+        return make(of, place, language=language, mode=mode, wording=wording)
+
+    try:
+        settings = _settings(host, port)
+    except OSError as error:
+        return complain(_why_no_page(host, port, error))
+    with settings.listener:
+        terminal = Terminal(
+            lambda woken: _welcome(woken, settings, show),
+            complain,
+            lambda error: report_unforeseen("kille", error),
+        )
+        try:
+            serve_page(sensor, robot, settings, terminal)
+        except (SensorError, MemoryFileError) as error:
+            return complain(error)
+    return FINE
+
+
+def _settings(host: str, port: int) -> PageSettings:
+    """A socket on this host, and what beyond this machine is needed to reach it."""
+    from kille.page.guard import Access, is_loopback
+    from kille.page.server import PageSettings, listen
+
+    if is_loopback(host):
+        return PageSettings(listen(host, port), Access(host))
+    from kille.page.certificates import host_certificate
+
+    certificate = host_certificate(host, default_path().parent)
+    console().print(
+        "Others can reach this page: it speaks TLS. Its certificate is this host's "
+        "own; trust it in the browser if this is its fingerprint (SHA-256):\n"
+        f"  {certificate.fingerprint}"
+    )
+    access = Access(host, secure=True, token=secrets.token_urlsafe(24))
+    return PageSettings(listen(host, port), access, certificate.path)
+
+
+def _why_no_page(host: str, port: int, error: OSError) -> str:
+    """Why the page cannot listen there, and what to do."""
+    if isinstance(error, socket.gaierror):
+        return f"this machine has no host {host}: leave --host out, or name another"
+    if isinstance(error, PermissionError) and port < 1024:
+        return f"port {port} is for the system: take one from 1024 on with --port N"
+    if port and error.errno in _TAKEN:
+        return (
+            f"port {port} is taken by another program, perhaps another kille serve: "
+            "end that, or take another with --port N (0 for any that is free)"
+        )
+    return f"the page cannot listen on {host}, port {port}: {error.strerror or error}"
+
+
+def _welcome(robot: Agent, settings: PageSettings, show: bool) -> None:
+    """Print where the page is, and open it in a browser if that is wanted."""
+    access = settings.access
+    port = settings.listener.getsockname()[1]
+    name = access.host
+    if name in ("0.0.0.0", "::"):
+        name = socket.gethostname()
+    name = f"[{name}]" if ":" in name else name
+    address = f"{access.scheme}://{name}:{port}/"
+    if access.token:
+        address += f"?token={access.token}"
+    out = console()
+    out.print(introduction(robot))
+    out.print(f"The page is ready: {address}\nCtrl-C ends it.")
+    if show:
+        Thread(target=webbrowser.open, args=(address,), daemon=True).start()

@@ -1,0 +1,18 @@
+"""The page: the robot in a browser, to be taught and looked into.
+
+The robot has a thread of its own, in which its turns are taken one after another; it
+tells what happens as events with numbers, and waits for no browser. Whoever looks at
+the page is sent the events after the last one that they have, and the newest picture.
+
+| module | has |
+| --- | --- |
+| `feed` | the events in order, for whoever comes or comes back |
+| `live_picture` | the robot's sensor, whose frames are shown |
+| `robot_thread` | the robot, and whose turn it is |
+| `turn_reports` | turns and views as JSON |
+| `browser_requests` | what a browser may ask for, checked |
+| `guard` | who may reach the page: hosts, origins, tokens; and safe headers |
+| `certificates` | the certificate of this host, for TLS |
+| `app`, `server` | the page over HTTP and WebSocket, and its process |
+| `assets/` | the page itself: HTML, CSS and modules of JavaScript as they are written |
+"""

@@ -1,0 +1,180 @@
+// The lesson view: what comes from the robot goes to its part of the page, and back.
+
+import { Connection } from "./connection.js";
+import { byId, el } from "./dom.js";
+import { LivePicture } from "./picture.js";
+import { Region } from "./region.js";
+import { Talk } from "./talk.js";
+import { setLanguage, t } from "./texts.js";
+import { Things } from "./things.js";
+
+const picture = new LivePicture();
+const things = new Things(choose);
+const talk = new Talk(say, (number, on) => things.light(number, on));
+const region = new Region(things, choose, (box) => connection.ask({ do: "point", box }));
+const field = byId("text");
+const said = []; // by the tutor, for the arrow keys
+let recalled = 0;
+let unconfirmed = null;
+let language = "";
+let meant = null; // the thing that the robot has just spoken of
+let old = 0; // the last event that had happened before this page was open
+
+label("en");
+const connection = new Connection({
+  state: (state) => {
+    const link = byId("link");
+    link.dataset.state = state === "full" ? "lost" : state;
+    link.textContent = t(state);
+  },
+  hello,
+  picture: (jpeg, done) => picture.draw(jpeg, done),
+  heard: (event) => talk.heard(event),
+  turn: (event) => {
+    confirm(event.ref);
+    talk.turn(event);
+    meant = event.said ? event.thing : null;
+    count("words", event.words);
+  },
+  failed: (event) => {
+    confirm(event.ref);
+    talk.failed(event);
+  },
+  refused: (event) => {
+    confirm(event.ref);
+    talk.failed(event);
+  },
+  view: (event) => {
+    things.show(event);
+    region.cancel();
+    if (event.id > old) things.mean(meant);
+  },
+  pointed: (event) => things.point(event.thing ?? null),
+  camera: ({ text }) => {
+    byId("trouble").textContent = text;
+    byId("trouble").hidden = !text;
+    byId("stage").classList.toggle("stage--stale", Boolean(text));
+  },
+});
+
+function hello(event, before) {
+  if (event.language !== language) label(event.language);
+  byId("facts").replaceChildren(
+    ...[["sensor", event.sensor], ["memory", event.memory], ["words", event.words]].map(([name, value]) =>
+      el("div", {}, el("dt", {}, t(name)), el("dd", { title: String(value), id: `fact-${name}` }, String(value))),
+    ),
+  );
+  layTable(event.stage);
+  old = event.last;
+  if (event.after === 0) {
+    talk.clear();
+    byId("trouble").hidden = true;
+    byId("stage").classList.remove("stage--stale");
+  }
+  if (before && before !== event.run) {
+    talk.notice(t("again"));
+    if (unconfirmed && !field.value) {
+      field.value = unconfirmed.text;
+      talk.notice(t("unconfirmed"));
+    }
+    unconfirmed = null;
+  }
+  document.documentElement.dataset.ready = "yes";
+}
+
+function count(fact, number) {
+  const shown = byId(`fact-${fact}`);
+  if (shown) shown.textContent = shown.title = String(number);
+}
+
+/** The texts of the page in a language. */
+function label(spoken) {
+  language = spoken;
+  setLanguage(spoken);
+  const link = byId("link");
+  link.textContent = t(link.dataset.state);
+  for (const [id, name] of [["picture", "picture"], ["things", "things"], ["seen", "seen"], ["talk", "talk"], ["turns", "talk"], ["answers", "answers"], ["tools", "tools"]])
+    byId(id).setAttribute("aria-label", t(name));
+  byId("empty").textContent = t("empty");
+  field.placeholder = t("placeholder");
+  byId("say").querySelector("label").textContent = t("say");
+  byId("say").querySelector("button").textContent = t("send");
+  byId("table").querySelector("summary").textContent = t("table");
+  byId("tools").replaceChildren(
+    tool("look", () => connection.ask({ do: "look" })),
+    tool("region", () => region.beginByKeys()),
+    tool("restart", () => {
+      talk.notice(t("anew"));
+      connection.ask({ do: "restart" });
+    }),
+    el("span", { class: "tools__hint" }, t("hint")),
+  );
+}
+
+function tool(name, onclick) {
+  return el("button", { class: "button", type: "button", onclick }, t(name));
+}
+
+/** A button for each thing that can be put on the table, where that can be done. */
+function layTable(names) {
+  byId("table").hidden = names.length === 0;
+  byId("table").querySelector(".table__things").replaceChildren(
+    ...names.map((thing) =>
+      el(
+        "button",
+        { class: "button", type: "button", "aria-label": t("show", { thing }), onclick: () => connection.ask({ do: "show", thing }) },
+        thing,
+      ),
+    ),
+  );
+}
+
+/** A thing is clicked: it answers which one was meant, or it is "this". */
+function choose(number) {
+  const answer = talk.answerFor(number);
+  if (answer) {
+    say(answer);
+    return;
+  }
+  things.point(number);
+  connection.ask({ do: "point", thing: number });
+}
+
+function say(text) {
+  const ref = connection.ask({ do: "say", text });
+  if (ref) unconfirmed = { ref, text };
+  return Boolean(ref);
+}
+
+function confirm(ref) {
+  if (unconfirmed?.ref === ref) unconfirmed = null;
+}
+
+byId("say").addEventListener("submit", (event) => {
+  event.preventDefault();
+  const text = field.value.trim();
+  if (!say(text)) return;
+  if (text) said.push(text);
+  recalled = said.length;
+  field.value = "";
+});
+
+field.addEventListener("keydown", (event) => {
+  if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
+  recalled = Math.max(0, Math.min(said.length, recalled + (event.key === "ArrowUp" ? -1 : 1)));
+  field.value = said[recalled] ?? "";
+  event.preventDefault();
+});
+
+document.addEventListener("keydown", (event) => {
+  const typing = event.target.closest("input, textarea, select");
+  if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (/^[1-9]$/.test(event.key)) {
+    const button = things.buttons.get(Number(event.key));
+    button?.focus();
+    button?.click();
+  } else if (event.key === "r" || event.key === "R") region.beginByKeys();
+  else if (event.key === "/") field.focus();
+  else return;
+  event.preventDefault();
+});

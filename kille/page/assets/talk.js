@@ -1,0 +1,146 @@
+// The lesson as it was held: what was said, what came of it, and what can be answered.
+
+import { byId, el } from "./dom.js";
+import { t } from "./texts.js";
+
+const KEPT = 300; // turns on the page
+
+export class Talk {
+  /** `say(text)` says something for the tutor; `light(number, on)` shows a thing. */
+  constructor(say, light) {
+    this.say = say;
+    this.light = light;
+    this.list = byId("turns");
+    this.waiting = new Map();
+    this.answers = [];
+  }
+
+  clear() {
+    this.list.replaceChildren();
+    this.waiting.clear();
+    this.offer([]);
+  }
+
+  notice(text) {
+    this.add(el("li", { class: "turn" }, el("p", { class: "notice" }, text)));
+  }
+
+  /** What the tutor has said or done. */
+  heard({ ref, says, id }) {
+    const turn = el("li", { class: "turn turn--waiting" }, this.bubble("tutor", says));
+    this.waiting.set(ref || id, turn);
+    this.endLatest();
+    this.offer([]);
+    this.add(turn);
+  }
+
+  /** What came of it. */
+  turn(event) {
+    const turn = this.take(event);
+    for (const line of paragraphs(event.said)) turn.append(this.bubble("robot", line));
+    const chips = this.chips(event);
+    if (chips.length) turn.append(el("div", { class: "chips" }, ...chips));
+    if (event.rules.length) turn.append(this.rules(event.rules));
+    if (turn.childElementCount && !turn.isConnected && (event.said || event.lessons.length)) this.add(turn);
+    this.offer(event.answers);
+    this.scroll();
+  }
+
+  failed(event) {
+    const turn = this.take(event);
+    turn.append(el("p", { class: "bubble bubble--wrong" }, event.text));
+    if (!turn.isConnected) this.add(turn);
+    this.scroll();
+  }
+
+  /** The turn that waits for this event, or a new one. */
+  take({ ref }) {
+    const turn = this.waiting.get(ref) ?? el("li", { class: "turn" });
+    this.waiting.delete(ref);
+    turn.classList.remove("turn--waiting");
+    this.endLatest();
+    return turn;
+  }
+
+  bubble(who, text) {
+    const speaker = t(who === "tutor" ? "you" : "robot");
+    return el("p", { class: `bubble bubble--${who}` }, el("span", { class: "unseen" }, `${speaker}: `), text);
+  }
+
+  chips(event) {
+    const made = event.lessons.map(({ sign, word, content }) => {
+      const learned = sign === "+";
+      const title = t(learned ? "learned" : "unlearned", { word });
+      return el(
+        "span",
+        { class: `chip chip--${learned ? "learned" : "unlearned"}`, title: content },
+        el("span", { "aria-hidden": "true" }, `${sign} ${word}`),
+        el("span", { class: "unseen" }, title),
+      );
+    });
+    if (event.thing && event.said) {
+      const show = (on) => () => this.light(event.thing, on);
+      const on = { onpointerenter: show(true), onpointerleave: show(false), onfocus: show(true), onblur: show(false) };
+      made.unshift(el("button", { class: "chip", type: "button", ...on }, `#${event.thing}`));
+    }
+    if (event.said) made.push(el("span", { class: "chip chip--plain" }, took(event.ms)));
+    if (event.undo) made.push(this.deed("undo", event.undo));
+    if (event.why) made.push(this.deed("why", event.why));
+    return made;
+  }
+
+  deed(name, says) {
+    return el("button", { class: "chip chip--do", type: "button", onclick: () => this.say(says) }, t(name));
+  }
+
+  rules(rules) {
+    const items = rules.map(({ name, does }) => el("li", {}, el("b", {}, name), ` ${does}`));
+    return el("details", { class: "rules" }, el("summary", {}, t("rules")), el("ol", {}, ...items));
+  }
+
+  /** "Undo" and "Why?" are about the latest turn: earlier ones lose theirs. */
+  endLatest() {
+    for (const it of this.list.querySelectorAll(".chip--do")) it.remove();
+  }
+
+  /** Offer answers to what the robot has asked. */
+  offer(answers) {
+    this.answers = answers;
+    const bar = byId("answers");
+    bar.hidden = answers.length === 0;
+    bar.replaceChildren(
+      ...answers.map(({ says, thing }) => {
+        const show = (on) => () => thing && this.light(thing, on);
+        const on = { onpointerenter: show(true), onpointerleave: show(false), onfocus: show(true), onblur: show(false) };
+        return el("button", { class: "button", type: "button", ...on, onclick: () => this.say(says) }, says);
+      }),
+    );
+  }
+
+  /** What to say for a thing that is chosen, if the robot has asked which one. */
+  answerFor(number) {
+    return this.answers.find((it) => it.thing === number)?.says;
+  }
+
+  add(item) {
+    this.list.append(item);
+    while (this.list.childElementCount > KEPT) this.list.firstElementChild.remove();
+    this.scroll();
+  }
+
+  scroll() {
+    this.list.scrollTop = this.list.scrollHeight;
+  }
+}
+
+/** The sentences of an answer; lines that begin with a space belong to the one before. */
+function paragraphs(said) {
+  const found = [];
+  for (const line of said ? said.split("\n") : []) {
+    if (line.startsWith(" ") && found.length) found[found.length - 1] += `\n${line.trim()}`;
+    else found.push(line);
+  }
+  return found;
+}
+
+const took = (ms) => (ms < 1000 ? t("tookMs", { ms }) : t("took", { seconds: (ms / 1000).toFixed(1) }));

@@ -1,0 +1,64 @@
+// What the page says itself, in the robot's language.
+
+const EN = {
+  sensor: "Sees through", memory: "Remembers in", words: "Words known",
+  opening: "Connecting …", open: "Connected", lost: "Lost: trying again …",
+  picture: "What the robot sees", things: "Things in view", talk: "The lesson", seen: "The table",
+  say: "Say something to the robot", placeholder: "This is a cup.", send: "Say",
+  answers: "Answers", tools: "What you can do",
+  look: "Look", region: "Mark a region", restart: "New dialogue",
+  hint: "Click a thing: “this”. Drag: a region. Keys 1–9, R, /",
+  box: "A region: arrow keys move it, with Shift they resize it. Enter: “this” is that. Escape: never mind.",
+  table: "Change what is on the table", show: "Show only the {thing}",
+  empty: "Nothing is in view.",
+  unknown: "unknown", thing: "#{number}, {word}", isThis: "this",
+  percent: "{percent} %", nameless: "no word for it yet",
+  took: "{seconds} s", tookMs: "{ms} ms", undo: "Undo", why: "Why?",
+  learned: "learned: {word}", unlearned: "taken back: {word}",
+  rules: "What it did", you: "You", robot: "The robot",
+  again: "The robot was started anew. All that it had confirmed is kept.",
+  unconfirmed: "It had not confirmed your last sentence: it is back in the field, to be said again.",
+  anew: "A new dialogue; what was learned stays.",
+  full: "Too many browsers look at this page.",
+  old: "This browser is too old for this page: take a newer one.",
+};
+
+const SV = {
+  sensor: "Ser genom", memory: "Minns i", words: "Kända ord",
+  opening: "Ansluter …", open: "Ansluten", lost: "Avbrott: försöker igen …",
+  picture: "Vad roboten ser", things: "Saker i bild", talk: "Lektionen", seen: "Bordet",
+  say: "Säg något till roboten", placeholder: "Det här är en kopp.", send: "Säg",
+  answers: "Svar", tools: "Vad du kan göra",
+  look: "Titta", region: "Märk ut", restart: "Ny dialog",
+  hint: "Klicka på en sak: ”det här”. Dra: ett område. Tangenter 1–9, R, /",
+  box: "Ett område: piltangenterna flyttar det, med skift ändras storleken. Enter: ”det här” är det. Escape: strunta i det.",
+  table: "Ändra vad som finns på bordet", show: "Visa bara: {thing}",
+  empty: "Ingenting syns.",
+  unknown: "okänd", thing: "#{number}, {word}", isThis: "det här",
+  percent: "{percent} %", nameless: "inget ord för den än",
+  took: "{seconds} s", tookMs: "{ms} ms", undo: "Ångra", why: "Varför?",
+  learned: "lärt: {word}", unlearned: "tillbakataget: {word}",
+  rules: "Vad den gjorde", you: "Du", robot: "Roboten",
+  again: "Roboten har startats om. Allt den hade bekräftat finns kvar.",
+  unconfirmed: "Din sista mening hade den inte bekräftat: den står i fältet och kan sägas igen.",
+  anew: "En ny dialog; det som lärts in finns kvar.",
+  full: "För många webbläsare tittar på den här sidan.",
+  old: "Webbläsaren är för gammal för den här sidan: ta en nyare.",
+};
+
+export const TEXTS = { en: EN, sv: SV };
+
+let texts = EN;
+
+export function setLanguage(language) {
+  texts = TEXTS[language] ?? EN;
+  document.documentElement.lang = language in TEXTS ? language : "en";
+}
+
+/** A text with its {slots} filled. */
+export function t(name, slots = {}) {
+  return texts[name].replace(/\{(\w+)\}/g, (_, slot) => String(slots[slot] ?? ""));
+}
+
+/** A number from 0 to 1 in percent. */
+export const percent = (degree) => t("percent", { percent: Math.round(degree * 100) });

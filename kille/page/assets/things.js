@@ -1,0 +1,157 @@
+// The things in view: an outline and a button for each, and what they may be called.
+
+import { bar, byId, el, svg } from "./dom.js";
+import { percent, t } from "./texts.js";
+
+const GAP = 4;
+
+export class Things {
+  /** `choose` is called with the number of a thing that is meant. */
+  constructor(choose) {
+    this.choose = choose;
+    this.view = { size: [640, 480], focus: null, things: [] };
+    this.outlines = new Map();
+    this.buttons = new Map();
+    this.pointed = null;
+    new ResizeObserver(() => this.layOut()).observe(byId("stage"));
+  }
+
+  show(view) {
+    const focused = document.activeElement?.dataset?.thing;
+    this.view = view;
+    this.pointed = null;
+    const [width, height] = view.size ?? [640, 480];
+    byId("outlines").setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.outlines = new Map(view.things.map((it) => [it.number, this.outline(it)]));
+    this.buttons = new Map(view.things.map((it) => [it.number, this.button(it)]));
+    byId("outlines").replaceChildren(...this.outlines.values());
+    byId("things").replaceChildren(...this.buttons.values());
+    byId("empty").hidden = view.things.length > 0 || !view.size;
+    byId("rivals").hidden = true;
+    this.point(view.focus);
+    this.layOut();
+    if (focused) this.buttons.get(Number(focused))?.focus();
+  }
+
+  outline(thing) {
+    const made = svg("path", { class: "outline", d: smoothPath(thing.outline) });
+    made.dataset.thing = thing.number;
+    made.addEventListener("pointerenter", () => this.light(thing.number, true));
+    made.addEventListener("pointerleave", () => this.light(thing.number, false));
+    return made;
+  }
+
+  button(thing) {
+    const best = thing.names[0];
+    const word = thing.name || t("nameless");
+    const label = best ? `${word}, ${percent(best.degree)}` : word;
+    const made = el(
+      "button",
+      {
+        class: "thing",
+        type: "button",
+        "data-thing": thing.number,
+        "aria-label": t("thing", { number: thing.number, word: label }),
+        "aria-describedby": "rivals",
+        onclick: () => this.choose(thing.number),
+        onpointerenter: () => this.light(thing.number, true),
+        onpointerleave: () => this.light(thing.number, false),
+        onfocus: () => this.light(thing.number, true),
+        onblur: () => this.light(thing.number, false),
+      },
+      el("span", { class: "thing__number" }, String(thing.number)),
+      el("span", { class: `thing__word${thing.name ? "" : " thing__word--none"}` }, thing.name || "?"),
+      bar(thing.name && best ? best.degree : 0),
+    );
+    return made;
+  }
+
+  /** Show what "this" is now. */
+  point(number) {
+    this.pointed = number;
+    for (const [its, outline] of this.outlines)
+      outline.classList.toggle("outline--this", its === number);
+    for (const [its, button] of this.buttons)
+      button.setAttribute("aria-pressed", String(its === number));
+  }
+
+  /** Let the thing pulse that the robot means. */
+  mean(number) {
+    const outline = this.outlines.get(number);
+    if (!outline) return;
+    outline.classList.remove("outline--meant");
+    outline.getBoundingClientRect();
+    outline.classList.add("outline--meant");
+  }
+
+  /** Light a thing up, and show the rivals of its name. */
+  light(number, on) {
+    this.outlines.get(number)?.classList.toggle("outline--lit", on);
+    this.buttons.get(number)?.classList.toggle("thing--lit", on);
+    const thing = this.view.things.find((it) => it.number === number);
+    const card = byId("rivals");
+    card.hidden = !on || !thing;
+    if (card.hidden) return;
+    const rows = thing.names.map((it) =>
+      el("div", { class: "rivals__row" }, el("span", {}, it.word), el("span", {}, percent(it.degree)), bar(it.degree)),
+    );
+    card.replaceChildren(...(rows.length ? rows : [el("span", {}, t("nameless"))]));
+    this.placeCard(card, this.buttons.get(number));
+  }
+
+  placeCard(card, button) {
+    const stage = byId("stage").getBoundingClientRect();
+    const at = button.getBoundingClientRect();
+    const below = at.bottom - stage.top + GAP;
+    const fits = below + card.offsetHeight <= stage.height;
+    card.style.top = `${fits ? below : Math.max(0, at.top - stage.top - card.offsetHeight - GAP)}px`;
+    card.style.left = `${clamp(at.left - stage.left, 0, stage.width - card.offsetWidth)}px`;
+  }
+
+  /** Put the buttons beside their things, so that none covers another. */
+  layOut() {
+    const stage = byId("stage");
+    const [width, height] = this.view.size ?? [640, 480];
+    const scale = { x: stage.clientWidth / width, y: stage.clientHeight / height };
+    const taken = [];
+    for (const thing of this.view.things) {
+      const button = this.buttons.get(thing.number);
+      const size = { width: button.offsetWidth, height: button.offsetHeight };
+      const [left, top, right, bottom] = thing.box;
+      const x = ((left + right) / 2) * scale.x - size.width / 2;
+      const middle = ((top + bottom) / 2) * scale.y - size.height / 2;
+      const places = [
+        [x, top * scale.y - size.height - GAP],
+        [x, bottom * scale.y + GAP],
+        [right * scale.x + GAP, middle],
+        [left * scale.x - size.width - GAP, middle],
+        [x, middle],
+        ...[...Array(12).keys()].map((n) => [x, top * scale.y - (n + 2) * (size.height + GAP)]),
+      ].map(([u, v]) => ({
+        left: clamp(u, GAP, stage.clientWidth - size.width - GAP),
+        top: clamp(v, GAP, stage.clientHeight - size.height - GAP),
+        ...size,
+      }));
+      const place = places.find((it) => !taken.some((other) => overlaps(it, other))) ?? places[0];
+      taken.push(place);
+      button.style.left = `${place.left}px`;
+      button.style.top = `${place.top}px`;
+    }
+  }
+}
+
+/** A closed path that passes the corners in curves. */
+function smoothPath(corners) {
+  const middle = ([u, v], [u2, v2]) => `${(u + u2) / 2} ${(v + v2) / 2}`;
+  if (corners.length < 3) return "";
+  const curves = corners.map((it, n) => `Q${it.join(" ")} ${middle(it, corners[(n + 1) % corners.length])}`);
+  return `M${middle(corners.at(-1), corners[0])}${curves.join("")}Z`;
+}
+
+const clamp = (value, least, most) => Math.max(least, Math.min(value, Math.max(least, most)));
+
+const overlaps = (one, other) =>
+  one.left < other.left + other.width + GAP &&
+  other.left < one.left + one.width + GAP &&
+  one.top < other.top + other.height + GAP &&
+  other.top < one.top + one.height + GAP;

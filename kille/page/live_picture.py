@@ -1,0 +1,208 @@
+"""The robot's sensor, whose frames are also shown while the robot has no use for them.
+
+A thread reads a frame thirty times a second if somebody looks at the page and the robot
+does not read. Who reads shows: a look of the robot's is seen while it is taken. Only
+the newest frame is kept, as a JPEG, and none is made where nobody looks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from threading import Condition, Lock, Thread
+from time import monotonic
+from typing import NamedTuple
+
+import cv2
+
+from kille.scene import Colour, Frame
+from kille.sensors.sensor import At, Beside, Sensor, SensorError, Stage
+
+RATE = 30.0
+"""Frames a second, at most."""
+
+QUALITY = 80
+"""Of JPEG, in percent."""
+
+_RETRY = 1.0
+"""Seconds after which a camera that failed is read again."""
+
+_ON_ITS_OWN = ("synthetic", "kinect", "ros")
+"""Sensors that have a new frame whether anybody reads it or not.
+
+A recording is read by the robot alone, so that no part of it goes by unseen.
+"""
+
+
+class Picture(NamedTuple):
+    """The newest picture, and how many there were: its number."""
+
+    number: int
+    jpeg: bytes
+
+
+class LivePicture:
+    """The newest frame of a sensor as a JPEG, while anybody watches it.
+
+    `tell` is given what is wrong with the camera, and an empty text when it is well
+    again.
+    """
+
+    def __init__(self, tell: Callable[[str], object] = lambda _: None) -> None:
+        self._tell = tell
+        self._changed = Condition()
+        self._newest: Frame | None = None
+        self._read_at = 0.0
+        self._watchers: list[Callable[[], object]] = []
+        self._picture: Picture | None = None
+        self._colour: Colour | None = None
+        self._sensor: SharedSensor | None = None
+        self._closed = False
+        self._trouble = ""
+        self._thread = Thread(target=self._go_on, name="kille-picture", daemon=True)
+
+    @property
+    def newest(self) -> Picture | None:
+        """The newest picture; None before the first."""
+        return self._picture
+
+    def share(self, sensor: Sensor) -> Sensor:
+        """The sensor for the robot; what it reads is shown."""
+        with self._changed:
+            kind = SharedStage if isinstance(sensor, Stage) else SharedSensor
+            self._sensor = kind(sensor, self)
+            if not self._thread.is_alive():
+                self._thread.start()
+            return self._sensor
+
+    def show(self, frame: Frame) -> None:
+        """Take a frame to be shown, in no time: another thread encodes it."""
+        with self._changed:
+            self._newest, self._read_at = frame, monotonic()
+            self._changed.notify()
+
+    def watch(self, wake: Callable[[], object]) -> Callable[[], None]:
+        """Have `wake` called for each new picture; returns what ends that."""
+        with self._changed:
+            self._watchers.append(wake)
+            self._changed.notify()
+
+        def end() -> None:
+            with self._changed:
+                self._watchers.remove(wake)
+
+        return end
+
+    def close(self) -> None:
+        """Show no more."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify()
+        if self._thread.is_alive():
+            self._thread.join(_RETRY)
+
+    def _go_on(self) -> None:
+        wait = 1 / RATE
+        while True:
+            with self._changed:
+                watched = self._changed.wait_for(
+                    lambda: self._closed or (self._watchers and self._newest),
+                    timeout=wait,
+                )
+                if self._closed:
+                    return
+                frame, self._newest = (self._newest, None) if watched else (None, None)
+                is_idle = monotonic() - self._read_at >= 1 / RATE
+                sensor = self._sensor if self._watchers else None
+            if frame is not None:
+                self._encode(frame)
+            elif is_idle and sensor is not None and sensor.runs_by_itself:
+                wait = self._read(sensor)
+
+    def _read(self, sensor: SharedSensor) -> float:
+        """Read a frame that nobody asked for; returns how long to wait for the next."""
+        try:
+            sensor.frame()
+        except SensorError as error:
+            if not self._closed:
+                self._complain(str(error))
+            return _RETRY
+        self._complain("")
+        return 1 / RATE
+
+    def _complain(self, trouble: str) -> None:
+        """Tell of trouble with the camera once, and once that it is over."""
+        if trouble != self._trouble:
+            self._trouble = trouble
+            self._tell(trouble)
+
+    def _encode(self, frame: Frame) -> None:
+        if frame.colour is self._colour:
+            return
+        self._colour = frame.colour
+        number = 1 if self._picture is None else self._picture.number + 1
+        self._picture = Picture(number, encode_jpeg(frame.colour))
+        with self._changed:
+            watchers = tuple(self._watchers)
+        for wake in watchers:
+            wake()
+
+
+class SharedSensor:
+    """A sensor that is read by one at a time, and shows what was read."""
+
+    def __init__(self, sensor: Sensor, picture: LivePicture) -> None:
+        self._sensor, self._picture = sensor, picture
+        self._reading = Lock()
+        self.runs_by_itself = sensor.name.startswith(_ON_ITS_OWN)
+
+    @property
+    def name(self) -> str:
+        """The source as a user writes it."""
+        return self._sensor.name
+
+    def frame(self) -> Frame:
+        """The next frame. SensorError as the sensor raises it."""
+        with self._reading:
+            frame = self._sensor.frame()
+        self._picture.show(frame)
+        return frame
+
+    def close(self) -> None:
+        """Let go of the source."""
+        with self._reading:
+            self._sensor.close()
+
+
+class SharedStage(SharedSensor):
+    """Such a sensor whose scene can be changed."""
+
+    _sensor: Stage  # type: ignore[assignment]
+
+    def things(self) -> tuple[str, ...]:
+        """The names of all that can be shown."""
+        return self._sensor.things()
+
+    def show(self, name: str) -> None:
+        """Show only this object."""
+        with self._reading:
+            self._sensor.show(name)
+
+    def place(self, name: str, spot: At | Beside) -> None:
+        """Put the object there and leave the others where they are."""
+        with self._reading:
+            self._sensor.place(name, spot)
+
+    def remove(self, name: str) -> None:
+        """Take the object away."""
+        with self._reading:
+            self._sensor.remove(name)
+
+
+def encode_jpeg(colour: Colour) -> bytes:
+    """A picture (H, W, 3) RGB as a JPEG."""
+    _, encoded = cv2.imencode(
+        ".jpg",
+        cv2.cvtColor(colour, cv2.COLOR_RGB2BGR),
+        [cv2.IMWRITE_JPEG_QUALITY, QUALITY],
+    )
+    return bytes(encoded.tobytes())

@@ -1,0 +1,119 @@
+"""The robot in a thread of its own, in which its turns are taken one after another.
+
+What it does it tells as events. A turn is told when it is over, and what was learned in
+it is on disk.
+
+| event | has |
+| --- | --- |
+| `heard` | what the tutor has said or done, before the robot answers: `says`, `ref` |
+| `turn` | the turn, as `turn_report` has it; `ms`, how long it took; `ref` |
+| `view` | what is in view after it, as `view_report` has it |
+| `pointed` | what the tutor points at now: `thing` or `box`; `ref` |
+| `failed` | why nothing came of it: `text`, `ref` |
+| `camera` | what is wrong with the camera: `text`, empty when it is well again |
+| `restarted` | a new dialogue has begun |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from threading import Lock
+from time import perf_counter
+
+from kille.agent.agent import Agent
+from kille.memory import MemoryFileError
+from kille.page.browser_requests import BrowserRequest
+from kille.page.feed import Feed
+from kille.page.turn_reports import turn_report, view_report
+from kille.sensors.sensor import SensorError
+from ttr import TTRError
+
+WAITING = 8
+"""How many requests may wait for their turn; more are refused."""
+
+
+class BusyError(Exception):
+    """So many requests wait that no more are taken."""
+
+
+class RobotThread:
+    """A robot whose turns are serialised, and told to a feed.
+
+    `tell` is given what goes wrong, for the terminal; `report` what nobody foresaw.
+    """
+
+    def __init__(
+        self,
+        make: Callable[[], Agent],
+        feed: Feed,
+        tell: Callable[[str], object] = lambda _: None,
+        report: Callable[[Exception], object] = lambda _: None,
+    ) -> None:
+        self._feed, self._tell, self._report = feed, tell, report
+        self._counting, self._waiting, self._closed = Lock(), 0, False
+        self._thread = ThreadPoolExecutor(1, "kille-robot")
+        try:
+            self.robot = self._thread.submit(make).result()
+        except BaseException:
+            self._thread.shutdown()
+            raise
+        self._trouble = ""
+
+    def ask(self, request: BrowserRequest) -> None:
+        """Have a request done when it is its turn. BusyError if too many wait."""
+        with self._counting:
+            if self._waiting >= WAITING:
+                raise BusyError("too much waits to be answered: say it again later")
+            self._waiting += 1
+        self._thread.submit(self._do, request)
+
+    def close(self) -> None:
+        """End the turn that is taken now, drop those that wait, and let go of all."""
+        self._closed = True
+        closing = self._thread.submit(self.robot.close)
+        self._thread.shutdown()
+        closing.result()
+
+    def _do(self, request: BrowserRequest) -> None:
+        try:
+            if not self._closed:
+                self._take_turn(request)
+        except Exception as error:
+            self._report(error)
+            self._fail(request, "something went wrong that nobody foresaw")
+        finally:
+            with self._counting:
+                self._waiting -= 1
+
+    def _take_turn(self, request: BrowserRequest) -> None:
+        robot = self.robot
+        if request.shown:
+            self._publish("heard", request, says=request.shown)
+        turns, began = len(robot.exchanges), perf_counter()
+        try:
+            request.act(robot)
+        except (SensorError, MemoryFileError, TTRError) as error:
+            self._tell_trouble(str(error))
+            self._fail(request, str(error))
+            return
+        self._tell_trouble("")
+        took = round((perf_counter() - began) * 1000)
+        if request.pointed is not None:
+            self._publish("pointed", request, **request.pointed)
+            return
+        report = turn_report(robot, robot.exchanges[turns:])
+        self._publish("turn", request, ms=took, **report)
+        self._publish("view", request, **view_report(robot))
+
+    def _publish(self, kind: str, request: BrowserRequest, **about: object) -> None:
+        self._feed.publish({"type": kind, "ref": request.ref, **about})
+
+    def _fail(self, request: BrowserRequest, why: str) -> None:
+        self._publish("failed", request, text=why)
+
+    def _tell_trouble(self, trouble: str) -> None:
+        """Tell the terminal once of trouble that comes again with every request."""
+        if trouble and trouble != self._trouble:
+            self._tell(trouble)
+        self._trouble = trouble

@@ -1,0 +1,143 @@
+"""The process of the page: its socket, its robot, and how it ends."""
+
+from __future__ import annotations
+
+import signal
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+import uvicorn
+
+from kille.agent.agent import Agent
+from kille.dialogue.language_files import plain
+from kille.page.app import page_app
+from kille.page.browser_requests import MESSAGE, parse_request
+from kille.page.feed import Event, Feed
+from kille.page.guard import Access, Guard
+from kille.page.live_picture import LivePicture
+from kille.page.robot_thread import RobotThread
+from kille.sensors.sensor import Sensor, Stage
+from kille.sensors.sources import open_sensor
+
+_FAREWELL = 2
+"""Seconds that browsers have to take their leave."""
+
+_CONNECTIONS = 64
+
+
+class PageSettings(NamedTuple):
+    """Where the page listens, who may reach it, and the file of its certificate."""
+
+    listener: socket.socket
+    access: Access
+    certificate: Path | None = None
+
+
+class Terminal(NamedTuple):
+    """What the terminal is told: that the page is ready, what goes wrong with camera
+    or memory, and what nobody foresaw."""
+
+    ready: Callable[[Agent], object]
+    trouble: Callable[[str], object]
+    unforeseen: Callable[[Exception], object]
+
+
+def listen(host: str, port: int) -> socket.socket:
+    """A socket that listens there; any free port for 0. OSError if that cannot be."""
+    family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+    return socket.create_server((host, port), family=family)
+
+
+def serve_page(
+    sensor: str,
+    make: Callable[[Sensor], Agent],
+    settings: PageSettings,
+    terminal: Terminal,
+) -> None:
+    """Serve the page of the robot that `make` makes of the sensor until Ctrl-C.
+
+    Raises SensorError and MemoryFileError as they arise before it is ready.
+    """
+    feed = Feed()
+
+    def tell_of_camera(trouble: str) -> None:
+        feed.publish({"type": "camera", "text": trouble})
+        if trouble:
+            terminal.trouble(trouble)
+
+    with ExitStack() as closing:
+        picture = LivePicture(tell_of_camera)
+        closing.callback(picture.close)
+        opened = open_sensor(sensor)
+        with ExitStack() as failing:
+            failing.callback(opened.close)
+            robot = RobotThread(
+                lambda: make(picture.share(opened)),
+                feed,
+                terminal.trouble,
+                terminal.unforeseen,
+            )
+            failing.pop_all()
+        closing.callback(robot.close)
+        robot.ask(parse_request({"do": "look"}))
+        terminal.ready(robot.robot)
+        app = page_app(feed, picture, robot.ask, lambda: _greeting(robot.robot))
+        server = uvicorn_server(Guard(app, settings.access), settings.certificate)
+        with _signals_end(server):
+            server.run(sockets=[settings.listener])
+
+
+def _greeting(robot: Agent) -> Event:
+    """What a browser is told of the robot first."""
+    sensor = robot.gaze.sensor
+    return {
+        "sensor": sensor.name,
+        "memory": str(robot.memory.place),
+        "language": plain(robot.language),
+        "words": len(robot.state.private.nouns),
+        "stage": list(sensor.things()) if isinstance(sensor, Stage) else [],
+    }
+
+
+def uvicorn_server(app: Guard, certificate: Path | None = None) -> uvicorn.Server:
+    """What serves the page: it says nothing by itself, and its messages are small."""
+    config = uvicorn.Config(
+        app,
+        lifespan="off",
+        ws="websockets-sansio",
+        ws_max_size=MESSAGE,
+        ws_per_message_deflate=False,
+        http="h11",
+        h11_max_incomplete_event_size=MESSAGE,
+        limit_concurrency=_CONNECTIONS,
+        timeout_graceful_shutdown=_FAREWELL,
+        log_config=None,
+        log_level="critical",
+        access_log=False,
+        proxy_headers=False,
+        server_header=False,
+        ssl_certfile=certificate,
+    )
+    return uvicorn.Server(config)
+
+
+@contextmanager
+def _signals_end(server: uvicorn.Server) -> Iterator[None]:
+    """Have Ctrl-C and SIGTERM end the server, and nothing else.
+
+    The server sends itself the signal that ended it once more when it has ended.
+    """
+
+    def end(*_: object) -> None:
+        server.should_exit = True
+
+    ends = (signal.SIGINT, signal.SIGTERM)
+    before = {it: signal.signal(it, end) for it in ends}
+    try:
+        yield
+    finally:
+        for it, handler in before.items():
+            signal.signal(it, handler)

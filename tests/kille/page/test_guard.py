@@ -1,0 +1,108 @@
+"""Who may reach the page, and what it tells a browser to refuse."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from http.client import HTTPConnection, HTTPResponse
+
+import pytest
+from websockets.exceptions import InvalidStatus
+
+from kille.page.guard import Access
+from kille.sensors.sources import open_sensor
+
+from .conftest import Page, page_of
+
+TOKEN = "a-token-of-the-test"
+
+
+@pytest.fixture(scope="module")
+def guarded() -> Iterator[Page]:
+    """A page that needs a token."""
+    access = Access("127.0.0.1", token=TOKEN)
+    with page_of(open_sensor("synthetic:empty"), access=access) as made:
+        yield made
+
+
+def get(
+    page: Page, path: str = "/", method: str = "GET", **headers: str
+) -> HTTPResponse:
+    connection = HTTPConnection(page.host, timeout=60)
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    connection.request(method, path, headers=named)
+    answer = connection.getresponse()
+    answer.read()
+    connection.close()
+    return answer
+
+
+@pytest.mark.parametrize("path", ["/", "/page.css", "/main.js", "/icon.svg"])
+def test_every_file_of_the_page_has_headers_that_keep_a_browser_safe(
+    page: Page, path: str
+) -> None:
+    answer = get(page, path)
+    assert answer.status == 200
+    policy = answer.headers["Content-Security-Policy"]
+    assert "default-src 'none'" in policy
+    assert "unsafe" not in policy
+    assert "frame-ancestors 'none'" in policy
+    assert answer.headers["X-Content-Type-Options"] == "nosniff"
+    assert answer.headers["Server"] is None
+
+
+@pytest.mark.parametrize("path", ["/../app.py", "/%2e%2e/app.py", "/app.py", "/nope"])
+def test_there_are_no_other_files(page: Page, path: str) -> None:
+    assert get(page, path).status == 404
+
+
+@pytest.mark.parametrize(
+    "host",
+    ["evil.example", "evil.example:80", "127.0.0.1.evil.example", "[::2]", "a@b", ""],
+)
+def test_a_foreign_name_is_refused(page: Page, host: str) -> None:
+    assert get(page, Host=host).status == 421
+
+
+def test_own_names_are_not(page: Page) -> None:
+    port = page.host.partition(":")[2]
+    for name in ("localhost", "127.0.0.1", "[::1]", "LOCALHOST"):
+        assert get(page, Host=f"{name}:{port}").status == 200
+
+
+@pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "OPTIONS", "TRACE"])
+def test_nothing_is_sent_but_over_the_socket(page: Page, method: str) -> None:
+    assert get(page, method=method).status == 405
+
+
+@pytest.mark.parametrize(
+    "origin",
+    [None, "null", "http://evil.example", "http://localhost:1", "https://127.0.0.1"],
+)
+def test_a_page_of_somebody_else_cannot_speak_to_the_robot(
+    page: Page, origin: str | None
+) -> None:
+    with pytest.raises(InvalidStatus) as refused:
+        page.connect(origin=origin)
+    assert refused.value.response.status_code == 403
+
+
+def test_a_token_comes_once_in_the_address_and_then_in_a_cookie(guarded: Page) -> None:
+    assert get(guarded).status == 403
+    assert get(guarded, "/main.js").status == 403
+    assert get(guarded, "/?token=wrong").status == 403
+    assert get(guarded, "/?token=%00%ff").status == 403
+    answer = get(guarded, f"/?token={TOKEN}")
+    assert (answer.status, answer.headers["Location"]) == (303, "/")
+    whole = answer.headers["Set-Cookie"]
+    assert "HttpOnly" in whole
+    assert "SameSite=Strict" in whole
+    cookie = whole.partition(";")[0]
+    assert get(guarded, Cookie=f"other=1; {cookie}").status == 200
+    assert get(guarded, Cookie=f"{cookie}x").status == 403
+    with guarded.connect(additional_headers={"Cookie": cookie}) as browser:
+        assert browser.next()["type"] == "hello"
+
+
+def test_without_the_token_there_is_no_socket(guarded: Page) -> None:
+    with pytest.raises(InvalidStatus):
+        guarded.connect()

@@ -1,0 +1,281 @@
+"""The page over its WebSocket: events with numbers, pictures, and several browsers."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Iterator
+from threading import Event
+
+import cv2
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed
+
+from kille.page.app import BROWSERS, UNDER_WAY
+from kille.page.browser_requests import MESSAGE, parse_request
+from kille.page.robot_thread import WAITING, BusyError
+from kille.scene import Frame
+from kille.sensors.sensor import SensorError
+from kille.sensors.sources import open_sensor
+
+from .conftest import Page, page_of
+
+HOSTILE = [
+    "<img src=x onerror=alert(1)>",
+    "</script><script>alert(1)</script>",
+    "\x1b[2J\x07 \u202egnihtyna\u2066",
+    "\ud800 half a pair",
+    "{{constructor.constructor('x')()}} ${x} %s",
+    "#1 #2 #999999 @ show cup",
+    "a" * 9_000,
+]
+
+
+@pytest.fixture
+def taught(page: Page) -> Page:
+    """A page on which a cup has been shown."""
+    with page.connect() as browser:
+        browser.ask(do="show", thing="cup", ref="shown")
+        browser.until("view", ref="shown")
+    return page
+
+
+def test_a_lesson_is_heard_answered_and_seen(taught: Page) -> None:
+    with taught.connect() as browser:
+        hello = browser.next()
+        assert hello["type"] == "hello"
+        assert hello["sensor"] == "synthetic:empty?seed=7"
+        assert "cup" in hello["stage"]
+        browser.ask(do="point", thing=1, ref="p")
+        assert browser.until("pointed")["thing"] == 1
+        browser.ask(do="say", text="This  is a cup.", ref="s")
+        assert browser.until("heard", ref="s")["says"] == "This is a cup."
+        turn = browser.until("turn", ref="s")
+        assert turn["said"].startswith("OK, ")
+        assert [(it["sign"], it["word"]) for it in turn["lessons"]] == [("+", "cup")]
+        assert (turn["thing"], turn["words"], turn["undo"]) == (1, 1, "Forget that.")
+        (thing,) = browser.until("view", ref="s")["things"]
+        assert (thing["number"], thing["name"]) == (1, "cup")
+        assert thing["names"][0] == {"word": "cup", "degree": 1.0}
+        assert len(thing["outline"]) > 3
+        asked = browser.say("What is this?")
+        assert [it["says"] for it in asked["answers"]] == [
+            "That is correct.",
+            "That is wrong.",
+        ]
+        assert browser.say(asked["why"])["said"].startswith("Because")
+        undone = browser.say(turn["undo"])
+        assert [(it["sign"], it["word"]) for it in undone["lessons"]] == [("−", "cup")]
+
+
+def test_a_question_which_one_has_an_answer_for_each_thing(page: Page) -> None:
+    with page.connect() as browser:
+        browser.ask(do="show", thing="cup")
+        browser.ask(do="place", thing="cup", right=-0.15, away=0)
+        browser.ask(do="place", thing="book", right=0.15, away=0.1)
+        browser.ask(do="place", thing="apple", right=0, away=-0.15, turn=30, ref="all")
+        assert len(browser.until("view", ref="all")["things"]) == 3
+        turn = browser.say("This is a cup.")
+        assert sorted(it["thing"] for it in turn["answers"]) == [1, 2, 3]
+        meant = turn["answers"][1]
+        last = browser.say(meant["says"])
+        assert (last["thing"], last["answers"]) == (meant["thing"], [])
+        doubt = browser.say("This is sugar.")
+        assert [it["says"] for it in doubt["answers"]] == ["Yes.", "No."]
+        browser.say("No.")
+
+
+def test_what_was_missed_is_told_to_who_comes_back(page: Page) -> None:
+    with page.connect() as browser:
+        run = browser.next()["run"]
+        browser.say("Hello.")
+        last = browser.events[-1]["id"]
+    with page.connect() as other:
+        other.say("Thank you.")
+    with page.connect(run=run, after=last) as again:
+        assert again.next()["after"] == last
+        numbers = [again.next()["id"] for _ in range(page.feed.last - last)]
+    assert numbers == [*range(last + 1, page.feed.last + 1)]
+
+
+@pytest.mark.parametrize(
+    ("run", "after"), [("", 3), ("another", 3), ("same", 99_999), ("same", -1)]
+)
+def test_who_has_another_run_begins_anew(page: Page, run: str, after: int) -> None:
+    with page.connect() as other:
+        other.say("Hello.")
+    with page.connect(run=page.feed.run if run == "same" else run, after=after) as it:
+        assert it.next()["after"] == 0
+        assert it.next()["id"] == page.feed.first
+
+
+def test_two_browsers_see_the_same_dialogue(page: Page) -> None:
+    with page.connect() as one, page.connect() as other:
+        one.say("Hello.", ref="one")
+        other.say("Thank you.", ref="two")
+        one.until("turn", ref="two")
+        heard = [[it for it in who.events if "id" in it] for who in (one, other)]
+    turns = [it["heard"] for it in heard[0] if it["type"] == "turn"]
+    assert turns == ["Hello.", "Thank you."]
+    assert heard[0] == heard[1]
+
+
+def test_pictures_come_as_fast_as_they_are_drawn(page: Page) -> None:
+    with page.connect() as browser:
+        numbers = []
+        while len(numbers) < 5:
+            message = browser.socket.recv(timeout=60)
+            if isinstance(message, bytes):
+                numbers.append(struct.unpack(">I", message[:4])[0])
+                picture = cv2.imdecode(np.frombuffer(message[4:], np.uint8), 1)
+                assert picture is not None
+                assert picture.shape == (480, 640, 3)
+                browser.ask(do="shown")
+    assert numbers == sorted(set(numbers))
+
+
+def test_who_draws_no_pictures_is_sent_no_more_and_delays_nobody(page: Page) -> None:
+    with page.connect() as slow, page.connect() as quick:
+        quick.say("Hello.", ref="quick")
+        for _ in quick.pictures:
+            quick.ask(do="shown")
+        for _ in range(20):
+            while not isinstance(quick.socket.recv(timeout=60), bytes):
+                pass
+            quick.ask(do="shown")
+        slow.until("turn", ref="quick")
+        slow.ask(do="look", ref="end")
+        slow.until("turn", ref="end")
+        assert len(slow.pictures) <= UNDER_WAY
+
+
+def test_who_does_not_look_is_sent_no_pictures(page: Page) -> None:
+    with page.connect() as browser:
+        browser.ask(do="watch", on=False)
+        browser.say("Hello.")
+        so_far = len(browser.pictures)
+        for _ in range(3):
+            browser.ask(do="shown")
+        browser.say("Thank you.")
+        assert len(browser.pictures) == so_far
+
+
+@pytest.mark.parametrize("words", HOSTILE, ids=range(len(HOSTILE)))
+def test_hostile_words_are_words(page: Page, words: str) -> None:
+    with page.connect() as browser:
+        browser.ask(do="say", text=words, ref="hostile")
+        while browser.next()["type"] not in ("turn", "failed", "refused"):
+            pass
+        assert browser.events[-1]["ref"] == "hostile"
+        browser.say("Hello.")
+
+
+@pytest.mark.parametrize(
+    ("message", "why"),
+    [
+        ("no JSON", "one JSON object"),
+        ("[" * 10_000, "one JSON object"),
+        ("[1]", "one JSON object"),
+        ('{"do": "dance"}', "no `do`"),
+        ('{"do": "say"}', "has a `text`"),
+        (json.dumps({"do": "say", "text": "a" * 10_001}), "too long"),
+        ('{"do": "point", "thing": 0}', "from 1"),
+        ('{"do": "point", "box": [5, 5, 1, 1]}', "left, top"),
+        ('{"do": "place", "thing": "cup", "right": NaN}', "from -10"),
+        ('{"do": "show", "thing": 3}', "names a `thing`"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(page: Page, message: str, why: str) -> None:
+    with page.connect() as browser:
+        browser.socket.send(message)
+        assert why in browser.until("refused")["text"]
+        assert browser.say("Hello.")["said"]
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "../x.obj", "~/cup.obj", "unicorn"])
+def test_a_browser_names_no_files(page: Page, name: str) -> None:
+    with page.connect() as browser:
+        browser.ask(do="show", thing=name, ref="file")
+        assert "there is no" in browser.until("failed", ref="file")["text"]
+
+
+def test_a_message_that_is_too_large_ends_the_connection(page: Page) -> None:
+    with page.connect() as browser:
+        browser.socket.send("x" * (MESSAGE + 1))
+        with pytest.raises(ConnectionClosed) as ended:
+            browser.until("never")
+        assert ended.value.rcvd is not None
+        assert ended.value.rcvd.code == 1009
+
+
+def test_more_browsers_than_fit_are_sent_away(page: Page) -> None:
+    browsers = [page.connect() for _ in range(BROWSERS)]
+    try:
+        for it in browsers:
+            it.next()
+        with page.connect() as one_more, pytest.raises(ConnectionClosed) as ended:
+            one_more.next()
+        assert ended.value.rcvd is not None
+        assert ended.value.rcvd.code == 1013
+    finally:
+        for it in browsers:
+            it.close()
+
+
+def test_more_requests_than_can_wait_are_refused(page: Page) -> None:
+    going = Event()
+    stopped = parse_request({"do": "look"})._replace(
+        act=lambda _: str(going.wait(60)), ref="wait"
+    )
+    try:
+        for _ in range(WAITING):
+            page.robot.ask(stopped)
+        with pytest.raises(BusyError, match="too much waits"):
+            page.robot.ask(stopped)
+    finally:
+        going.set()
+    with page.connect() as browser:
+        browser.say("Hello.")
+
+
+class Unplugged:
+    """A camera that can be unplugged, and plugged in again."""
+
+    name = "kinect:test"
+
+    def __init__(self) -> None:
+        self._inner = open_sensor("synthetic:desk?seed=7")
+        self.gone = False
+
+    def frame(self) -> Frame:
+        if self.gone:
+            raise SensorError("the Kinect is gone: plug it in again")
+        return self._inner.frame()
+
+    def close(self) -> None:
+        self._inner.close()
+
+
+@pytest.fixture
+def camera() -> Iterator[tuple[Unplugged, Page]]:
+    sensor = Unplugged()
+    with page_of(sensor) as made:
+        yield sensor, made
+
+
+def test_a_camera_that_goes_is_told_and_so_is_its_return(
+    camera: tuple[Unplugged, Page],
+) -> None:
+    sensor, page = camera
+    with page.connect() as browser:
+        browser.ask(do="look", ref="before")
+        browser.until("view", ref="before")
+        sensor.gone = True
+        assert "is gone" in browser.until("camera")["text"]
+        browser.ask(do="say", text="What is this?", ref="blind")
+        assert "is gone" in browser.until("failed", ref="blind")["text"]
+        assert page.troubles == ["the Kinect is gone: plug it in again"]
+        sensor.gone = False
+        assert browser.until("camera")["text"] == ""
+        assert browser.say("What is this?")["said"]
