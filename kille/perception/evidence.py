@@ -17,27 +17,34 @@ alone rejects: it is what light, distance and dirt do not change, while a thing 
 well have another colour than all examples of its word. b, r, a and v were fitted
 (`tools.fitting.evidence`) to things of which many had not been taught, seen
 in another light and partly hidden, and to pictures of things that are mostly new.
+
+They are where a memory begins. As its lessons grow, they say how much a score proves
+among these very things (`kille.perception.calibration`): b and r become
+
+    b' = slope (b + u) + shift - u,   r' = slope r
+
+where u is what the votes of features add on the whole, since lessons that are left out
+are asked for their traits only. So degrees are right as often as they say, also where
+half of what is asked about was never taught.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 
 import numpy as np
 
-from kille.perception.likeness import Kernel, Likeness, Numbers
+from kille.perception.calibration import LeftOut, calibrate
+from kille.perception.likeness import SIZE, Kernel, Likeness, Numbers
 
 __all__ = ["Evidence", "Weighing", "weighing"]
 
 FEATURES = "features"
 """The name under which the votes of features are counted among the cues."""
-
-SIZE = "size"
-"""The cue that rejects."""
 
 FARTHEST = 3.0
 """What is less alike than that says no more."""
@@ -45,13 +52,25 @@ FARTHEST = 3.0
 
 @dataclass(frozen=True)
 class Weighing:
-    """How evidence is weighed: b, r, v, a, and the kernel of each cue."""
+    """How evidence is weighed: b, r, v, a, the kernel of each cue, and u."""
 
     base: float
     score: float
     votes: float
     size: float
     kernels: Mapping[str, Kernel]
+    usual: float = 0.0
+
+    def calibrated(self, found: LeftOut | None) -> Weighing:
+        """The weighing of a memory whose lessons say this of each other."""
+        if found is None or not self.score:
+            return self
+        traits = self.base + self.usual
+        logits = traits + self.score * found.scores
+        apart = -self.size * _as_far(found.unlike)
+        by = calibrate(found, logits, apart)
+        base = by.slope * traits + by.shift - self.usual
+        return replace(self, base=base, score=by.slope * self.score)
 
     def evidence(
         self, labels: tuple[str, ...], likeness: Likeness, votes: Numbers
@@ -67,8 +86,12 @@ class Weighing:
 
 def unlike_in_size(likeness: Likeness) -> Numbers:
     """d_size for each word (words,): 0 where no size of the word is known."""
-    apart = likeness.unlike[SIZE]
-    return np.where(np.isfinite(apart), np.minimum(apart, FARTHEST), 0.0)
+    return _as_far(likeness.unlike[SIZE])
+
+
+def _as_far(unlike: Numbers) -> Numbers:
+    """d_size of dissimilarities, which are infinite where nothing is known."""
+    return np.where(np.isfinite(unlike), np.minimum(unlike, FARTHEST), 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,4 +151,5 @@ def weighing(name: str = "default") -> Weighing:
         fitted["votes"],
         fitted["size"],
         {cue: Kernel(it["weight"], it["width"]) for cue, it in cues.items()},
+        fitted["usual"],
     )

@@ -40,12 +40,16 @@ from heapq import nsmallest
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.perception.calibration import LeftOut, leave_out
 from kille.perception.index import View
 from kille.perception.negative_examples import weights_with_denials
 from kille.scene import Traits, Vector
 
 Numbers = NDArray[np.float64]
 Places = NDArray[np.intp]
+
+SIZE = "size"
+"""The cue of metric size."""
 
 _NOTHING = np.empty(0, np.float32)
 _HUGE = 1e6
@@ -189,6 +193,27 @@ class Examples:
             return None
         return self._views[int(known[np.argmax(alike[known] / shared[known])])]
 
+    def left_out(self) -> LeftOut | None:
+        """What the examples say of each other, for calibration.
+
+        None where that tells nothing, as of one example a word, or of one word.
+        """
+        counts = np.bincount(self._owners)
+        if len(counts) < 2 or counts.max() < 2:
+            return None
+        size, unlike = self._taught, self._unlike_in_size()
+        inverse = np.asarray(np.linalg.inv(self._system(counts)), np.float64)
+        return leave_out(self._kernel[:size, :size], inverse, self._owners, unlike)
+
+    def _unlike_in_size(self) -> Numbers:
+        """How unlike in size the examples (n, n) are; infinite where it is unknown."""
+        size = self._taught
+        for block in self._blocks:
+            if block.cue == SIZE:
+                apart = block.apart(block.rows[:size])[:, :size]
+                return np.where(block.known[:size, None] > 0, apart, np.inf)
+        return np.full((size, size), np.inf)
+
     def _places_in(self, old: Examples | None) -> Places:
         """The former numbers (n,) of the examples; -1 for a new one."""
         there = {} if old is None else {view: i for i, view in enumerate(old._views)}
@@ -227,16 +252,21 @@ class Examples:
         The last row belongs to everything untaught, the last column to a word that has
         no examples.
         """
+        size, system = self._taught, self._system(counts)
+        signs = np.full((size + 1, len(counts) + 1), -1.0)
+        signs[np.arange(size), self._owners] = 1.0
+        alone = np.asarray(np.linalg.solve(system, signs), np.float64)
+        return alone if not len(self._opposed) else self._oppose(alone, system)
+
+    def _system(self, counts: NDArray[np.intp]) -> Numbers:
+        """K + λ D (n + 1, n + 1), the last row for everything untaught."""
         size = self._taught
         system = np.full((size + 1, size + 1), _ELSE)
         system[:size, :size] = self._kernel[:size, :size]
         excess = (counts / counts.mean())[self._owners] if size else np.empty(0)
         system[np.arange(size), np.arange(size)] += _RIDGE * excess
         system[size, size] = 1 + _ELSE_RIDGE
-        signs = np.full((size + 1, len(counts) + 1), -1.0)
-        signs[np.arange(size), self._owners] = 1.0
-        alone = np.asarray(np.linalg.solve(system, signs), np.float64)
-        return alone if not len(self._opposed) else self._oppose(alone, system)
+        return system
 
     def _oppose(self, alone: Numbers, system: Numbers) -> Numbers:
         """The weights α (all examples + 1, words) with negative examples included."""

@@ -112,6 +112,13 @@ class NearestWords:
         only = Examples(self._chosen[label], [label], self._kernels)
         return only.nearest(traits, 0)
 
+    def left_out(self) -> None:
+        """Nothing: of so many words the lessons do not say how much a score proves.
+
+        Which words a left-out lesson would be told apart from depends on the lesson.
+        Degrees are then as those of a robot of few lessons, which claims less.
+        """
+
     def _choose(self, old: NearestWords | None) -> dict[str, Sequence[View]]:
         """The views of each word that are compared."""
         before: Mapping[str, Sequence[View]] = {}

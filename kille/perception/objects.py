@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.cues import CUES, Cue, measure_cues
-from kille.perception.evidence import SIZE, Evidence, Weighing, weighing
+from kille.perception.evidence import Evidence, Weighing, weighing
 from kille.perception.features import NONE
 from kille.perception.index import (
     AGAIN,
@@ -37,7 +37,7 @@ from kille.perception.index import (
 )
 from kille.perception.index.builders import Builder
 from kille.perception.learners import Key, own_key
-from kille.perception.likeness import Examples, Kernel, Likeness
+from kille.perception.likeness import SIZE, Examples, Kernel, Likeness
 from kille.perception.nearest_words import MANY, NearestWords
 from kille.perception.relevance import Relevance
 from kille.perception.votes import beyond_chance, rivals, votes
@@ -83,6 +83,7 @@ class ObjectMemory:
         self._cues = cues
         self._examples: Comparison | None = None
         self._latest: Comparison | None = None
+        self._calibrated: Weighing | None = None
         for view in denied:
             self.deny(view)
 
@@ -196,9 +197,15 @@ class ObjectMemory:
                 column, own = labels.index(label), self._examples_for(relevance)
                 likeness = likeness.with_column(column, own.likeness(traits))
                 cast[column] *= relevance.votes**2
-        return self._weighing.evidence(
-            labels, self._without_ignored_size(likeness, labels), cast
-        )
+        heard = self._without_ignored_size(likeness, labels)
+        return self._calibrated_weighing().evidence(labels, heard, cast)
+
+    def _calibrated_weighing(self) -> Weighing:
+        """How evidence is weighed, by what the lessons say of each other."""
+        if self._calibrated is None:
+            left_out = self._current_examples().left_out()
+            self._calibrated = self._weighing.calibrated(left_out)
+        return self._calibrated
 
     def _without_ignored_size(
         self, likeness: Likeness, labels: Sequence[str]
@@ -278,7 +285,7 @@ class ObjectMemory:
 
     def _views_changed(self) -> None:
         """Compare the examples anew when it is next asked."""
-        self._examples, self._own_examples = None, {}
+        self._examples, self._own_examples, self._calibrated = None, {}, None
 
     def _weigh_anew(self) -> None:
         """Work out which cues count for which words, by all that was said of them."""

@@ -9,7 +9,9 @@ asks about other views of these and of untaught things. The numbers b, r, a and 
 kernels are given: they were chosen by what tells categories of these pictures apart.
 
 With `--held-out` half of the words are fitted to and the other half asked, both ways:
-so much is to be expected of words that nothing was fitted to.
+so much is to be expected of words that nothing was fitted to. `--degrees` prints
+whether degrees mean what they say, of categories that nothing was fitted to but the
+kernels' weights, before and after the lessons have calibrated them.
 """
 
 from __future__ import annotations
@@ -25,13 +27,15 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.lab.measures.statistics import auroc
+from kille.lab.measures.statistics import auroc, calibration_error
+from kille.lab.protocols.degrees import is_asserted
+from kille.lab.protocols.teaching import ObjectAnswer
 from kille.perception import evidence
 from kille.perception.cues import CUES, Cue, measure_cues, with_embedding
-from kille.perception.evidence import SIZE, Weighing, unlike_in_size
+from kille.perception.evidence import Weighing, unlike_in_size
 from kille.perception.features import features_of
 from kille.perception.index import Index, View, rooted
-from kille.perception.likeness import Examples, Kernel
+from kille.perception.likeness import SIZE, Examples, Kernel
 from kille.perception.segment import overlap, region_of, segment
 from kille.perception.votes import beyond_chance, votes
 from kille.scene import Frame, Region
@@ -48,6 +52,10 @@ ELSEWHERE = 0.6
 EPISODES = 200
 FEW, MANY = 3, 12
 """Words that are taught at most: at the beginning of a dialogue, and later."""
+
+SEEDS = 8
+SHOTS, LAST = 5, 6
+"""Pictures of a word that are taught, and asked, where degrees are measured."""
 
 RIDGE = 1e-3  # on the numbers that are fitted
 WEIGHTS = {
@@ -75,6 +83,9 @@ PARTS: Mapping[str, Collection[str]] = {
     "cues": ("score", "size"),
 }
 """What is heard by a memory of each name: all, the features alone, the traits alone."""
+
+USUAL = 0.6
+"""What votes add on the whole, u: chosen of 0 to 1.3 on the same things."""
 
 EMBEDDING = 100.0
 """The weight of the embedding, where it is had: more than that of all others."""
@@ -231,7 +242,8 @@ def fit_weighing(
         bounds=[(None, None), *((0.0, it) for it in most)],
     ).x
     base, score, cast, size = (round(float(it), 3) for it in found)
-    return Weighing(base, score, cast, size, kernels)
+    usual = USUAL if {"score", "votes"} <= {*heard} else 0.0
+    return Weighing(base, score, cast, size, kernels, usual)
 
 
 def _surprise(
@@ -280,13 +292,14 @@ def draw_episodes(
     kernels: Mapping[str, Kernel],
     words: Sequence[Sequence[str]],
     seed: int,
+    count: int = EPISODES,
 ) -> list[list[Asked]]:
-    """Episodes about some words of each group of views."""
+    """Episodes about some words of each group of views, so many of each."""
     chance = np.random.default_rng(seed)
     return [
         list(episode(views, kernels, some, chance))
         for views, some in zip(groups, words, strict=True)
-        for _ in range(EPISODES)
+        for _ in range(count)
     ]
 
 
@@ -315,6 +328,109 @@ def _halves(
     return words[::2], words[1::2]
 
 
+@dataclass(frozen=True, eq=False)
+class Degrees:
+    """The answers of one run about what was taught, and about what was not."""
+
+    taught: Sequence[ObjectAnswer]
+    strange: Sequence[ObjectAnswer]
+
+
+def measure_degrees(groups: Sequence[Sequence[View]], seeds: int) -> Iterator[str]:
+    """Whether degrees are right as often as they say, of words not fitted to.
+
+    For each seed half of the words are fitted to, and pictures of the others taught,
+    five of each: all of them, or half of them, the others being strangers.
+    """
+    found: dict[tuple[str, str], list[Degrees]] = {}
+    for seed in range(seeds):
+        chance = np.random.default_rng([seed, 34])
+        halves = [_halves(views, chance) for views in groups]
+        for one, other in ((0, 1), (1, 0)):
+            words = [it[one] for it in halves]
+            kernels = kernels_of(_only(groups, words))
+            episodes = draw_episodes(groups, kernels, words, seed, EPISODES // 4)
+            weighed = fit_weighing(episodes, kernels)
+            asked = halves[-1][other]
+            for share, taught in (("all", asked), ("half", asked[::2])):
+                for name, them in _ask_words(groups[-1], asked, taught, weighed, seed):
+                    found.setdefault((share, name), []).append(them)
+    for (share, name), runs in found.items():
+        yield f"{share} taught, {name}: {_format_degrees(runs)}\n"
+
+
+def _only(
+    groups: Sequence[Sequence[View]], words: Sequence[Sequence[str]]
+) -> list[list[View]]:
+    return [
+        [it for it in views if it.label in some]
+        for views, some in zip(groups, words, strict=True)
+    ]
+
+
+def _ask_words(
+    views: Sequence[View],
+    words: Sequence[str],
+    taught: Sequence[str],
+    weighed: Weighing,
+    seed: int,
+) -> Iterator[tuple[str, Degrees]]:
+    """What is said of pictures of these words where some of the words are taught."""
+    chance = np.random.default_rng([seed, 5])
+    lessons, asked = [], []
+    for word in words:
+        own = [it for it in views if it.label == word]
+        order = chance.permutation(len(own))
+        asked += [own[i] for i in order[-LAST:]]
+        lessons += [own[i] for i in order[:SHOTS] if word in taught]
+    lessons = [replace(it, key=key) for key, it in enumerate(lessons)]
+    labels = sorted(taught)
+    left_out = Examples(lessons, labels, weighed.kernels).left_out()
+    found = list(answers(lessons, asked, weighed.kernels))
+    for name, by in (
+        ("as fitted", weighed),
+        ("calibrated", weighed.calibrated(left_out)),
+    ):
+        said = [
+            ObjectAnswer(view.label, _degrees_by(by, it, labels))
+            for view, it in zip(asked, found, strict=True)
+        ]
+        yield (
+            name,
+            Degrees(
+                [it for it in said if it.word in taught],
+                [it for it in said if it.word not in taught],
+            ),
+        )
+
+
+def _degrees_by(
+    weighed: Weighing, it: Asked, labels: Sequence[str]
+) -> dict[str, float]:
+    strengths = np.exp(it.found @ numbers_of(weighed))
+    return dict(zip(labels, (strengths / (1 + strengths.sum())).tolist(), strict=True))
+
+
+def _format_degrees(runs: Sequence[Degrees]) -> str:
+    every = [it for run in runs for it in (*run.taught, *run.strange)]
+    error = calibration_error([it.best for it in every], [it.right for it in every])
+    shares = {
+        "right": [np.mean([it.right for it in run.taught]) for run in runs],
+        "asserted": [
+            np.mean([it.right and is_asserted(it) for it in run.taught]) for run in runs
+        ],
+        "nothing said": [np.mean([it.best < 0.2 for it in run.taught]) for run in runs],
+        "wrongly asserted": [
+            np.mean(
+                [is_asserted(it) and not it.right for it in (*run.taught, *run.strange)]
+            )
+            for run in runs
+        ],
+    }
+    told = [f"{name} {np.mean(x):.3f} ± {np.std(x):.3f}" for name, x in shares.items()]
+    return f"error {error:.3f}, {', '.join(told)}"
+
+
 def kernels_of(groups: Sequence[Sequence[View]]) -> dict[str, Kernel]:
     """The kernels of all cues that tell of some view."""
     weights = {**WEIGHTS, "embedding": EMBEDDING}
@@ -333,6 +449,7 @@ def weighing_as_json(weighed: Weighing) -> dict[str, object]:
         "score": weighed.score,
         "votes": weighed.votes,
         "size": weighed.size,
+        "usual": weighed.usual,
         "cues": cues,
     }
 
@@ -342,6 +459,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("data", type=Path, metavar="DATA")
     parser.add_argument("--held-out", action="store_true", help="cross-validate")
+    parser.add_argument("--degrees", action="store_true", help="measure degrees")
     parser.add_argument("--embedding", action="store_true", help="with the embedding")
     options = parser.parse_args()
     cv2.setNumThreads(1)
@@ -351,6 +469,9 @@ def main() -> None:
         list(render_views(options.data / "ycb_meshes", chance, cues)),
         list(pictures(options.data / "sota_kinect", cues)),
     ]
+    if options.degrees:
+        sys.stdout.writelines(measure_degrees(groups, SEEDS))
+        return
     kernels = kernels_of(groups)
     if options.held_out:
         sys.stdout.writelines(cross_validate(groups, kernels))

@@ -10,11 +10,13 @@ import pytest
 from kille.perception.evidence import Weighing
 from kille.perception.index import View
 from kille.perception.likeness import Kernel
+from tools.fitting import evidence
 from tools.fitting.evidence import (
     Asked,
     _surprise,
     episode,
     fit_weighing,
+    measure_degrees,
     numbers_of,
     right,
     widths,
@@ -83,3 +85,25 @@ def test_an_episode_asks_of_taught_and_of_untaught_words() -> None:
     columns = [it.column for it in episode(views, kernels, words, chance)]
     assert min(columns) == -1
     assert max(columns) >= 0
+
+
+def test_degrees_are_measured_of_words_that_nothing_was_fitted_to(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(evidence, "EPISODES", 40)
+    chance = np.random.default_rng(0)
+    middles = {word: chance.random(4) for word in ("cup", "car", "cap", "book")}
+    views = [
+        View("", word, NONE, {"colour": np.float32(at + 0.05 * chance.random(4))})
+        for word, at in middles.items()
+        for _ in range(12)
+    ]
+    once, again = (list(measure_degrees([views, views], 1)) for _ in range(2))
+    assert once == again
+    assert [line.partition(":")[0] for line in once] == [
+        "all taught, as fitted",
+        "all taught, calibrated",
+        "half taught, as fitted",
+        "half taught, calibrated",
+    ]
+    assert all("right 1.000" in line for line in once[:2])
