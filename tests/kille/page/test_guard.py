@@ -11,7 +11,7 @@ from websockets.exceptions import InvalidStatus
 from kille.page.guard import Access
 from kille.sensors.sources import open_sensor
 
-from .conftest import Page, page_of
+from .pages import Page, page_of
 
 TOKEN = "a-token-of-the-test"
 

@@ -19,7 +19,7 @@ from kille.scene import Frame
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
 
-from .conftest import Page, page_of
+from .pages import Page, page_of
 
 HOSTILE = [
     "<img src=x onerror=alert(1)>",

@@ -15,7 +15,7 @@ from kille.interfaces.cli import main
 from kille.interfaces.serve import MISSING
 from kille.memory import Memory
 
-from .conftest import Browser, Start
+from .pages import Browser, Start
 
 EMPTY = "--sensor", "synthetic:empty?seed=7"
 

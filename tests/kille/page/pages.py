@@ -1,0 +1,185 @@
+"""A page in this process, or as a program of its own, and clients for both."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from itertools import count
+from pathlib import Path
+from threading import Thread
+from typing import Any, NamedTuple
+
+import pytest
+from websockets.sync.client import ClientConnection, connect
+
+from kille.agent.agent import Agent
+from kille.page.app import page_app
+from kille.page.feed import Feed
+from kille.page.guard import Access, Guard
+from kille.page.live_picture import LivePicture
+from kille.page.robot_thread import RobotThread
+from kille.page.server import _greeting, listen, uvicorn_server
+from kille.sensors.sensor import Sensor
+from kille.sensors.sources import open_sensor
+
+SERVE = [sys.executable, "-m", "kille.interfaces.cli", "serve", "--port", "0"]
+_NUMBERS = count(1)
+PATIENCE = 60
+"""Seconds after which a test gives a server up."""
+
+
+class Page(NamedTuple):
+    """A page that is served in this process, and the parts behind it."""
+
+    host: str
+    feed: Feed
+    picture: LivePicture
+    robot: RobotThread
+    troubles: list[str]
+
+    def connect(self, **settings: Any) -> Browser:
+        """A client that is told what happens from now on."""
+        now = {"run": self.feed.run, "after": self.feed.last}
+        return Browser.connect(f"http://{self.host}", **(now | settings))
+
+
+class Browser:
+    """A client that has read what a browser would have been sent."""
+
+    def __init__(self, socket: ClientConnection, close: Callable[[], None]) -> None:
+        self.socket, self.close = socket, close
+        self.events: list[dict[str, Any]] = []
+        self.pictures: list[bytes] = []
+
+    @classmethod
+    def connect(
+        cls, address: str, run: str = "", after: int = 0, **settings: Any
+    ) -> Browser:
+        origin = settings.pop("origin", address.rstrip("/"))
+        live = f"{address.rstrip('/').replace('http', 'ws', 1)}/live"
+        address = f"{live}?run={run}&after={after}"
+        stack = ExitStack()
+        connected = stack.enter_context(
+            connect(address, origin=origin, max_queue=None, close_timeout=1, **settings)
+        )
+        return cls(connected, stack.close)
+
+    def __enter__(self) -> Browser:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def ask(self, **message: Any) -> None:
+        self.socket.send(json.dumps(message))
+
+    def next(self) -> dict[str, Any]:
+        """The next event; pictures before it are kept."""
+        while True:
+            message = self.socket.recv(timeout=PATIENCE)
+            if isinstance(message, str):
+                event: dict[str, Any] = json.loads(message)
+                self.events.append(event)
+                return event
+            self.pictures.append(message)
+
+    def until(self, kind: str, **about: Any) -> dict[str, Any]:
+        """The next event of a kind about which this is so."""
+        while True:
+            event = self.next()
+            if event["type"] == kind and about.items() <= event.items():
+                return event
+
+    def say(self, text: str, ref: str = "") -> dict[str, Any]:
+        """Say something; the turn that came of it."""
+        ref = ref or f"said {next(_NUMBERS)}"
+        self.ask(do="say", text=text, ref=ref)
+        return self.until("turn", ref=ref)
+
+
+@contextmanager
+def page_of(
+    sensor: Sensor, memory: Path | None = None, access: Access | None = None
+) -> Iterator[Page]:
+    """A page of a robot that looks through this sensor."""
+    feed, troubles = Feed(), []
+    picture = LivePicture(lambda text: feed.publish({"type": "camera", "text": text}))
+    robot = RobotThread(
+        lambda: Agent(picture.share(sensor), memory), feed, troubles.append
+    )
+    listener = listen("127.0.0.1", 0)
+    app = page_app(feed, picture, robot.ask, lambda: _greeting(robot.robot))
+    server = uvicorn_server(Guard(app, access or Access("127.0.0.1")))
+    thread = Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread.start()
+    host = f"127.0.0.1:{listener.getsockname()[1]}"
+    try:
+        yield Page(host, feed, picture, robot, troubles)
+    finally:
+        server.should_exit = True
+        thread.join(PATIENCE)
+        robot.close()
+        picture.close()
+        listener.close()
+
+
+@pytest.fixture(scope="module")
+def page() -> Iterator[Page]:
+    """The page of a robot before an empty simulated table; it keeps its words."""
+    with page_of(open_sensor("synthetic:empty?seed=7")) as made:
+        yield made
+
+
+class Program(NamedTuple):
+    """A `kille serve` that is ready."""
+
+    process: subprocess.Popen[str]
+    address: str
+    said: str
+
+
+Start = Callable[..., Program]
+
+
+@contextmanager
+def starting(folder: Path) -> Iterator[Start]:
+    """What starts `kille serve` with memories in a folder, and ends it afterwards."""
+    started: list[subprocess.Popen[str]] = []
+
+    def begin(*words: str) -> Program:
+        process = subprocess.Popen(
+            [*SERVE, "--memory", str(folder / "memory.db"), *words],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=os.environ | {"KILLE_MEMORY": str(folder / "own.db")},
+        )
+        started.append(process)
+        said = ""
+        assert process.stdout is not None
+        for line in process.stdout:
+            said += line
+            if found := re.search(r"https?://\S+", line):
+                return Program(process, found[0], said)
+        assert process.stderr is not None
+        raise AssertionError(f"it ended: {said}{process.stderr.read()}")
+
+    try:
+        yield begin
+    finally:
+        for process in started:
+            if process.poll() is None:
+                process.kill()
+            process.communicate(timeout=PATIENCE)
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Iterator[Start]:
+    """Starts `kille serve`, and ends it with the test."""
+    with starting(tmp_path) as begin:
+        yield begin

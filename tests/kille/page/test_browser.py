@@ -1,0 +1,257 @@
+"""The page in a real browser: lessons by mouse and by keys, and coming back."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from .pages import Program, Start, starting
+
+playwright = pytest.importorskip(
+    "playwright.sync_api", reason="Playwright is not installed: kille[browser]"
+)
+
+CHROMIUM = shutil.which("chromium")
+
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.skipif(
+        CHROMIUM is None, reason="there is no chromium: make oracles installs it"
+    ),
+]
+
+DESK = "--sensor", "synthetic:desk?seed=7"
+EMPTY = "--sensor", "synthetic:empty?seed=7"
+PATIENCE = 60_000
+"""Milliseconds after which a test gives the page up."""
+
+Tab = Any
+"""A page of Playwright's."""
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox"]
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Program]:
+    """A robot before a desk on which a cup, a car and a book lie."""
+    with starting(tmp_path_factory.mktemp("desk")) as begin:
+        yield begin(*DESK)
+
+
+@pytest.fixture
+def tab(chromium: Any) -> Iterator[Tab]:
+    """A tab in which nothing goes wrong that the test did not ask for."""
+    with chromium.new_context(viewport={"width": 1280, "height": 800}) as context:
+        context.set_default_timeout(PATIENCE)
+        wrong: list[str] = []
+        made = context.new_page()
+        made.on("pageerror", lambda error: wrong.append(str(error)))
+        made.on("dialog", lambda it: (wrong.append(it.message), it.dismiss()))
+        yield made
+        assert wrong == []
+
+
+def visit(tab: Tab, program: Program, things: int = 3) -> None:
+    """Open the page, and wait until it shows so many things."""
+    tab.goto(program.address)
+    expect_things(tab, things)
+
+
+def expect_things(tab: Tab, count: int) -> None:
+    playwright.expect(tab.locator(".thing")).to_have_count(count, timeout=PATIENCE)
+
+
+def thing(tab: Tab, number: int) -> Any:
+    return tab.get_by_role("button", name=f"#{number}, ")
+
+
+@contextmanager
+def answering(tab: Tab, text: str) -> Iterator[None]:
+    """Wait until the robot has answered something with such a text in it."""
+    turns = tab.locator(".turns .turn")
+    number = turns.count()
+    yield
+    robot = turns.nth(number).locator(".bubble--robot").first
+    playwright.expect(robot).to_contain_text(text, timeout=PATIENCE)
+
+
+def say(tab: Tab, text: str, answer: str) -> None:
+    field = tab.get_by_role("textbox", name="Say something")
+    with answering(tab, answer):
+        field.fill(text)
+        field.press("Enter")
+
+
+def press(tab: Tab, name: str, answer: str) -> None:
+    """Press a button that says something."""
+    with answering(tab, answer):
+        tab.get_by_role("button", name=name, exact=True).click()
+
+
+def test_a_lesson_by_clicks(desk: Program, tab: Tab) -> None:
+    visit(tab, desk)
+    thing(tab, 2).click()
+    playwright.expect(thing(tab, 2)).to_have_attribute("aria-pressed", "true")
+    say(tab, "This is a car.", "#2) is a car")
+    tab.get_by_role("button", name="#2, car, 100 %").hover()
+    playwright.expect(tab.get_by_role("tooltip")).to_contain_text("car100 %")
+    playwright.expect(tab.locator("#fact-words")).to_have_text("1")
+    say(tab, "What is this?", "This is a car.")
+    press(tab, "Why?", "Because")
+    # On the picture itself, where the book lies.
+    box = tab.locator("#stage").bounding_box()
+    tab.mouse.click(box["x"] + box["width"] * 0.29, box["y"] + box["height"] * 0.43)
+    playwright.expect(thing(tab, 3)).to_have_attribute("aria-pressed", "true")
+    say(tab, "This is a cup.", "is a cup")
+    press(tab, "Undo", "OK, I forgot that")
+    playwright.expect(tab.locator("#fact-words")).to_have_text("1")
+    say(tab, "This is sugar.", "kind of thing?")
+    press(tab, "Yes.", "OK")
+    playwright.expect(tab.locator("#answers")).to_be_hidden()
+    # A region of one's own, drawn over nothing in particular.
+    tab.mouse.move(box["x"] + 300, box["y"] + 420)
+    tab.mouse.down()
+    tab.mouse.move(box["x"] + 420, box["y"] + 500, steps=4)
+    tab.mouse.up()
+    say(tab, "This is a plank.", "is a plank")
+    expect_things(tab, 4)
+
+
+def test_hostile_words_stay_words(desk: Program, tab: Tab) -> None:
+    tab.goto(desk.address)
+    words = "<img src=x onerror=alert(1)></p><script>alert(2)</script>"
+    say(tab, words, "I did not understand")
+    playwright.expect(tab.locator(".bubble--tutor").last).to_contain_text(words)
+    assert tab.locator("#turns img, #turns script").count() == 0
+
+
+def test_a_lesson_by_keys_alone(start: Start, tab: Tab) -> None:
+    visit(tab, start(*EMPTY), things=0)
+    keys = tab.keyboard
+    playwright.expect(tab.get_by_text("Nothing is in view.")).to_be_visible()
+    press_until(tab, "Change what is on the table")
+    keys.press("Enter")
+    press_until(tab, "Show only the cup")
+    keys.press("Enter")
+    expect_things(tab, 1)
+    keys.press("1")
+    playwright.expect(thing(tab, 1)).to_be_focused()
+    keys.press("/")
+    with answering(tab, "I learned a cup"):
+        keys.type("This is a cup.")
+        keys.press("Enter")
+    with answering(tab, "This is a cup."):
+        keys.type("What is this?")
+        keys.press("Enter")
+    keys.press("Shift+Tab")
+    keys.press("Shift+Tab")
+    right = tab.get_by_role("button", name="That is correct.")
+    playwright.expect(right).to_be_focused()
+    with answering(tab, "OK"):
+        keys.press("Enter")
+    press_until(tab, "#1, cup, 100 %")
+    keys.press("r")
+    for key in ("ArrowDown", "Shift+ArrowRight"):
+        playwright.expect(tab.locator("#box")).to_be_focused()
+        keys.press(key)
+    keys.press("Enter")
+    playwright.expect(tab.locator(".stage__box--sent")).to_be_visible()
+    keys.press("/")
+    keys.press("ArrowUp")
+    playwright.expect(tab.locator("#text")).to_have_value("What is this?")
+
+
+def press_until(tab: Tab, name: str) -> None:
+    """Press Tab until what has the focus is called so."""
+    for _ in range(40):
+        tab.keyboard.press("Tab")
+        focused = tab.locator(":focus")
+        if focused.count():
+            label = focused.get_attribute("aria-label") or focused.inner_text()
+            if label == name:
+                return
+    raise AssertionError(f"no key leads to {name}")
+
+
+def test_it_comes_back_by_itself_and_knows_what_was_confirmed(
+    start: Start, tab: Tab, tmp_path: Path
+) -> None:
+    program = start(*EMPTY)
+    visit(tab, program, things=0)
+    tab.get_by_text("Change what is on the table").click()
+    tab.get_by_role("button", name="Show only the cup").click()
+    expect_things(tab, 1)
+    say(tab, "This is a cup.", "I learned a cup")
+    # Stopped, it does not answer; going on, it does, and nothing is lost.
+    program.process.send_signal(signal.SIGSTOP)
+    field = tab.get_by_role("textbox", name="Say something")
+    with answering(tab, "This is a cup."):
+        field.fill("What is this?")
+        field.press("Enter")
+        program.process.send_signal(signal.SIGCONT)
+    # Killed, it has kept what it had answered, and the rest is to be said again.
+    program.process.send_signal(signal.SIGSTOP)
+    field.fill("This is a mug.")
+    field.press("Enter")
+    program.process.kill()
+    program.process.wait()
+    playwright.expect(tab.get_by_role("status")).to_contain_text("Lost")
+    port = program.address.rstrip("/").rpartition(":")[2]
+    start(*EMPTY, "--port", port)
+    playwright.expect(tab.get_by_role("status")).to_contain_text(
+        "Connected", timeout=PATIENCE
+    )
+    playwright.expect(tab.get_by_text("The robot was started anew")).to_be_visible()
+    playwright.expect(field).to_have_value("This is a mug.")
+    playwright.expect(tab.locator("#fact-words")).to_have_text("1")
+
+
+def test_every_thing_and_control_has_a_name_and_a_phone_has_room(
+    start: Start, chromium: Any
+) -> None:
+    program = start(*DESK, "--lang", "sv")
+    with chromium.new_context(
+        viewport={"width": 390, "height": 844}, has_touch=True, color_scheme="dark"
+    ) as context:
+        context.set_default_timeout(PATIENCE)
+        tab = context.new_page()
+        visit(tab, program)
+        named = tab.get_by_role("button").all()
+        labels = [it.get_attribute("aria-label") or it.inner_text() for it in named]
+        assert all(labels)
+        assert labels[:3] == [f"#{n}, inget ord för den än" for n in (1, 2, 3)]
+        assert tab.locator("html").get_attribute("lang") == "sv"
+        wide = tab.locator("body").bounding_box()
+        assert wide["width"] == 390
+        for it in ("#stage", "#say", "#tools", "#turns"):
+            box = tab.locator(it).bounding_box()
+            assert box["x"] >= 0
+            assert box["x"] + box["width"] <= 390
+            assert box["y"] + box["height"] <= 844
+        thing(tab, 2).tap()
+        playwright.expect(thing(tab, 2)).to_have_attribute("aria-pressed", "true")
+
+
+@pytest.mark.deep
+def test_it_comes_back_after_ten_seconds_of_silence(start: Start, tab: Tab) -> None:
+    program = start(*EMPTY)
+    visit(tab, program, things=0)
+    os.kill(program.process.pid, signal.SIGSTOP)
+    tab.wait_for_timeout(10_000)
+    os.kill(program.process.pid, signal.SIGCONT)
+    say(tab, "Hello.", "Hello")
