@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import itemgetter
 from time import process_time
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from kille.dialogue.grammars import (
     LATIN,
@@ -30,6 +30,9 @@ from kille.dialogue.grammars import (
 
 _WAYS = 24
 """How many ways to read the same stretch of text are kept: those with fewest parts."""
+
+MORE_SECONDS = 1.0
+"""How long is looked on once the time is over, in seconds of a core."""
 
 _MOST_WORDS = 120
 """Words; no sentence of a tutor's has more, and a longer one is not parsed."""
@@ -292,6 +295,7 @@ class _Chart:
         self._grammar = grammar
         self._text = text
         self._until = process_time() + SECONDS
+        self._is_last_time = False
         self._rules: dict[tuple[str, int], Found] = {}
         self._terminals: dict[tuple[str, int], tuple[int, str] | None] = {}
         self._here: dict[int, int] = {}
@@ -299,8 +303,23 @@ class _Chart:
 
     def after(self, at: int) -> int:
         """Where the next word begins."""
-        between = self._grammar._between.match(self._text, at, self._until)
+        between = self._match(self._grammar._between, at)
         return between.end() if between else at
+
+    def _match(self, expression: Expression, at: int) -> Any:
+        """What fits the text at a place, as `Expression.match` gives it.
+
+        The time may have gone to something else, such as collecting the garbage of a
+        large process: once for each text there is a little more of it.
+        """
+        try:
+            return expression.match(self._text, at, self._until)
+        except GrammarError:
+            if self._is_last_time:
+                raise
+        self._is_last_time = True
+        self._until = process_time() + MORE_SECONDS
+        return expression.match(self._text, at, self._until)
 
     def rule(self, name: str, at: int) -> Found:
         """The ways in which a rule finds something from here on."""
@@ -396,7 +415,7 @@ class _Chart:
         if not self._grammar.can_begin(name, sign):
             return None
         expression = self._grammar.expression(name)
-        found = expression.match(self._text, at, self._until)
+        found = self._match(expression, at)
         return (self.after(found.end()), found.group()) if found else None
 
 

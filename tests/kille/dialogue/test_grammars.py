@@ -288,6 +288,22 @@ def test_all_that_a_sentence_is_looked_through_for_is_timed_together(
         many.parse("y")
 
 
+def test_a_pause_in_the_middle_of_a_sentence_costs_no_reading(monkeypatch) -> None:
+    """Such as that of collecting garbage, which counts as the process's own time."""
+    seconds = [0.0, 0.0, 100.0]
+
+    def read_clock() -> float:
+        return seconds.pop(0) if len(seconds) > 1 else seconds[0]
+
+    for module in ("grammars", "parsing"):
+        monkeypatch.setattr(f"kille.dialogue.{module}.process_time", read_clock)
+    text = 'start: A B C\nA: /a/\nB: /b/\nC: /c/\n%ignore " "\n'
+    for paused_at in range(1, 9):
+        seconds = [0.0] * paused_at + [100.0]
+        [tree] = Grammar(text).parse("a b c")
+        assert tree.rule == "start"
+
+
 @pytest.mark.parametrize("counts", ["{9999}){9999}", "{999}){999}){999}"])
 def test_repetitions_that_fill_the_memory_are_refused(counts: str) -> None:
     pattern = "(?:" * counts.count(")") + "a" + counts
