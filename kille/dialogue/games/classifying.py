@@ -60,9 +60,6 @@ def refuse_same(s: Record, *, types: DialogueTypes) -> Record | None:
         return plan(s, "SameThing", types=types)
     if not is_kind_of(s, upper, lower):
         return None
-    then = _axiom(s, upper, lower)
-    if then is not None and then.after < 0.0:
-        return plan_earlier_question(s, s.shared.latest, then, types=types)
     return _plan_answer(s, "SameKind", upper, lower, types=types)
 
 

@@ -21,7 +21,7 @@ from kille.dialogue.criteria import (
 from kille.dialogue.meanings import DialogueTypes, predicate_at, value_at
 from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.rules import reply, rule
-from kille.dialogue.taxonomy import LOWER, nouns_in
+from kille.dialogue.taxonomy import LOWER
 from ttr import Model, Record, RecordType, rectype, replace
 from ttr.updates import first
 
@@ -162,7 +162,14 @@ def _plan_now(s: Record, *, types: DialogueTypes) -> Record:
     keys = [it.key for it in _remembered(s, before.content)]
     left = _settle(s)
     if LOWER in before.content:
-        return _plan_kind(left, now, before, keys, types=types)
+        return plan(
+            left,
+            "UnlearnedKind",
+            before.content,
+            signs=before.signs,
+            forgets=keys,
+            types=types,
+        )
     content = now.content
     gone = [it.key for it in criteria_about(s, content)]
     labels = (SUBJECT, PROPERTY, COMPONENT)
@@ -176,35 +183,6 @@ def _plan_now(s: Record, *, types: DialogueTypes) -> Record:
         weighs=[content],
         forgets=gone or keys,
         pending=s.shared.pending,
-        types=types,
-    )
-
-
-def _plan_kind(
-    s: Record,
-    now: Record,
-    before: Record,
-    keys: Sequence[str],
-    *,
-    types: DialogueTypes,
-) -> Record:
-    """The plan to unlearn an axiom, and to learn its reverse if that is said now."""
-    if LOWER not in now.content or now.content == before.content:
-        return plan(
-            s,
-            "UnlearnedKind",
-            before.content,
-            signs=before.signs,
-            forgets=keys,
-            types=types,
-        )
-    return plan(
-        s,
-        "LearnedKind",
-        now.content,
-        signs=nouns_in(now.content, now.signs),
-        classifies=[now.content],
-        forgets=keys,
         types=types,
     )
 
