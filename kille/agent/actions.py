@@ -24,11 +24,15 @@ from kille.grounding.witness_functions import WitnessFunctions, number_of
 from kille.memory import Kind, Word
 from kille.memory.lessons import By
 from kille.scene import Percept
-from ttr import Model, Record, RecordType, replace
+from ttr import Model, Record, RecordType, record, replace
 from ttr.types import PType, TypeNode
 
 BY: Mapping[str, By] = {CUE: "cue", PROPERTY: "quality", COMPONENT: "part"}
 """By what a memory says that things are known, by the label in the content."""
+
+
+MEASURED = ("height", "length", "distance")
+"""What it tells of what it has measured of a thing."""
 
 
 class MoveExecutor:
@@ -81,8 +85,20 @@ class MoveExecutor:
             "reasons": [explainer.reason(it, move.signs) for it in move.explains],
             "recalled": explainer.recall_words(*move.recalls, among=move.signs),
             "cited": explainer.cite_lessons(move.cites),
+            "measured": self._measure(move),
         }
         return replace(move, done), model
+
+    def _measure(self, move: Record) -> list[Record]:
+        """What it measures of the things that it is to measure, if of all of them."""
+        found = []
+        for x in move.measures:
+            extents = self._witnesses.extents(x, str(value_at(move.content, "look")))
+            if extents is None:
+                return []
+            measured = {it: getattr(extents, it) for it in MEASURED}
+            found.append(record(measured, x=x))
+        return found
 
     # --- learning --------------------------------------------------------------------
 

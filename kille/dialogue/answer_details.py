@@ -40,6 +40,8 @@ def details(lexicon: Lexicon, move: Record) -> dict[str, str]:
             "lesson": _lesson_text(reminder),
             "when": _when(data["ages"], reminder),
         }
+    if "measured" in move:
+        slots |= dict(_of_measured(data, move.measured))
     if move.recalls:
         recalled = move.recalled or _without_recall(move.recalls)
         slots |= dict(_of_recalled(lexicon, recalled))
@@ -68,6 +70,26 @@ def _band(bands: Mapping[str, float], degree: float) -> str:
     """The words for the highest band that a degree reaches, or for the lowest."""
     reached = (words for words, least in bands.items() if degree >= least)
     return next(reached, list(bands)[-1])
+
+
+# --- sizes ---------------------------------------------------------------------------
+
+
+def _of_measured(
+    data: Section, measured: Sequence[Record]
+) -> Iterator[tuple[str, str]]:
+    """What was measured of a thing, and of the one that it is compared with."""
+    for rival, it in zip(("", "rival_"), measured, strict=False):
+        yield f"{rival}height", _metric(data, it.height)
+        yield f"{rival}length", _metric(data, it.length)
+        yield f"{rival}distance_away", _metric(data, it.distance)
+
+
+def _metric(data: Section, metres: float) -> str:
+    """A length in centimetres, or from one metre on in metres with one digit."""
+    if metres < 0.995:
+        return f"{max(1, round(100 * metres))} cm"
+    return f"{metres:.1f} m".replace(".", data["knows"]["point"])
 
 
 # --- reasons -------------------------------------------------------------------------

@@ -52,6 +52,7 @@ DOES = (
     "classifies",
     "weighs",
     "cites",
+    "measures",
 )
 """What else a move of the robot may do, by the labels of the type Said."""
 

@@ -19,6 +19,7 @@ from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
 from kille.grounding.comparisons import (
     COMPARISONS,
     SUPERLATIVES,
+    Extents,
     degree_between,
     degree_of,
     superlative_degree,
@@ -246,6 +247,12 @@ class WitnessFunctions:
         if one is None or other is None:
             return UNKNOWN
         return degree_of(word, one, other)
+
+    def extents(self, x: str, handle: str) -> Extents | None:
+        """What is measured of a thing in a look, in metres; None for no place."""
+        if self.percept(x, handle) is None:
+            return None
+        return self._seen[handle].extents[number_of(x) - 1]
 
     def between(self, x: str, y: str, z: str, handle: str) -> Degree:
         """The degree of `between(x, y, z, look)`; [0, 1] for unknown places."""

@@ -16,7 +16,7 @@ from kille.dialogue.games.checking import CHECKING
 from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
 from kille.dialogue.games.classifying import CLASSIFYING, STILL_ANSWERED
 from kille.dialogue.games.colouring import COLOURING
-from kille.dialogue.games.comparing import COMPARING
+from kille.dialogue.games.comparing import COMPARING, MEASURING
 from kille.dialogue.games.confirming import CONFIRMING
 from kille.dialogue.games.continuing import CONTINUING
 from kille.dialogue.games.contradicting import CONTRADICTING, EARLIER_ANSWERED
@@ -53,6 +53,7 @@ __all__ = ["TUTORING", "games_with"]
 
 ANSWERING = first(
     CONTRADICTING,
+    MEASURING,
     CRITICISING,
     CLASSIFYING,
     ACKNOWLEDGING,

@@ -7,12 +7,14 @@ does not decide.
 
 from __future__ import annotations
 
-from kille.dialogue.games.placing import name_thing
+from kille.dialogue.commitments import kind_of
+from kille.dialogue.games.placing import AMID, name_thing
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
     denial,
     set_to,
+    value_at,
     word_of,
 )
 from kille.dialogue.moves import content_of, number_field, plan
@@ -47,7 +49,7 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     if more.name not in COMPARATIVES.values():
         return _plan(s, "SayNo", denial(called), signs, x, types=types)
     if exceeds(s, model, more, y, x) < sure:
-        return plan(s, "CannotCompare", types=types)
+        return plan(s, "CannotCompare", called, signs=signs, types=types)
     swapped = set_to(called, target=called["landmark"], landmark=called["target"])
     if asks_which:
         return _plan(s, "TellMore", swapped, signs, y, types=types)
@@ -55,6 +57,41 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
         rival = denial(called)
         return plan(s, "SayRather", swapped, rival, signs=signs, types=types)
     return _plan(s, "SayNo", denial(called), signs, x, types=types)
+
+
+@rule(answers="AskSize")
+def tell_size(s: Record, *, model: Model, types: DialogueTypes) -> Record:
+    """The tutor asks how big a thing is, or how far away: it says what it measures."""
+    content, signs = content_of(s), s.shared.latest.signs
+    x = str(thing_at(content, "target"))
+    if x not in s.view.placed:
+        return plan(s, "NeedDepth", types=types)
+    phrase, called = name_thing(s, model, phrase_at(content, "target"), x)
+    told = set_to(content, target=phrase)
+    signs = (*signs, *called)
+    return plan(s, "TellSize", told, signs=signs, measures=[x], types=types)
+
+
+@rule(answers=("AskWhy", "Deny"))
+def explain_measure(s: Record, *, types: DialogueTypes) -> Record | None:
+    """What it has said of sizes and places it has measured, whatever the tutor says."""
+    said = s.private.last[0] if len(s.private.last) == 1 else None
+    if said is None or s.shared.pending or kind_of(content_of(s)) is not None:
+        return None
+    told = value_at(said, "content")
+    if not isinstance(told, RecordType) or not {SCALE, AMID} & {*told.labels}:
+        return None
+    compared = () if AMID in told else ("target", "landmark")
+    things = [x for it in compared if (x := thing_at(told, it)) in s.view.things]
+    here = told.get("look") == types["Look"] @ s.view.look
+    return plan(
+        s,
+        "ExplainMeasure",
+        told,
+        signs=value_at(said, "signs"),
+        measures=things if here else (),
+        types=types,
+    )
 
 
 def _plan(
@@ -93,4 +130,6 @@ def _is_called(content: RecordType, label: str) -> bool:
     return any(it in phrase_at(content, label) for it in ("c", "a", "rel"))
 
 
-COMPARING = first(compare)
+COMPARING = first(compare, tell_size)
+MEASURING = explain_measure
+"""What answers why it has compared things so, and that this is wrong."""

@@ -229,3 +229,72 @@ def test_what_is_not_seen_has_nothing_between(scene: Callable[..., Any]) -> None
     robot = scene(3, nouns=nouns, seen=["between"], known=known)
     asked = "Is the book between the cup and the banana?"
     assert robot.hear(asked) == "I do not see what you mean."
+
+
+# --- how big, and why -----------------------------------------------------------------
+
+
+@pytest.fixture
+def pair(scene: Callable[..., Any]) -> Any:
+    """A cup that is bigger than a book."""
+    known = {CUP: 0.9, BOOK: 0.95, ("bigger_than", "o1", "o2"): 0.99}
+    return scene(2, nouns=["cup", "book"], known=known, seen=MORE)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        "Is the cup bigger than the book?",
+        "Is the book bigger than the cup?",
+        "Which is bigger, the cup or the book?",
+    ],
+)
+@pytest.mark.parametrize("then", ["Why?", "No.", "That is wrong."])
+def test_a_comparison_rests_on_what_is_measured(
+    pair: Any, asked: str, then: str
+) -> None:
+    pair.hear(asked)
+    assert pair.hear(then) == "I go by what I measure of them."
+    assert not pair.state.private.lessons
+    assert not pair.state.shared.pending
+
+
+def test_why_and_no_after_what_is_between(row: Any) -> None:
+    for then in ("Why?", "No."):
+        row.hear("Is the cup between the book and the banana?")
+        assert row.acts(then) == ["explain_measure"]
+
+
+def test_why_after_something_else_is_no_comparison(pair: Any) -> None:
+    pair.hear("Is the cup bigger than the book?")
+    pair.hear("What is this?")
+    assert pair.acts("Why?") == ["explain_name"]
+    pair.hear("Is the cup bigger than the book?")
+    pair.hear("Hello.")
+    assert pair.acts("Why?") == ["no_claim"]
+
+
+@pytest.mark.parametrize(
+    "text", ["How big is it?", "How tall is the cup?", "How far away is the cup?"]
+)
+def test_a_size_is_asked_for(pair: Any, text: str) -> None:
+    assert pair.acts(text) == ["tell_size"]
+    assert not pair.state.private.lessons
+
+
+def test_what_is_not_seen_has_no_size(pair: Any) -> None:
+    assert pair.hear("How big is the fork?") == "I have not learned what a fork is."
+
+
+def test_no_size_without_depth(scene: Callable[..., Any]) -> None:
+    robot = scene(1, placed=0, nouns=["cup"], known={CUP: 0.9})
+    assert robot.acts("How big is the cup?") == ["need_depth"]
+
+
+def test_sizes_are_asked_for_in_swedish(scene: Callable[..., Any]) -> None:
+    known = {("kopp", "o1"): 0.9, ("bok", "o2"): 0.9, ("bigger_than", "o1", "o2"): 0.99}
+    robot = scene(2, nouns=["kopp", "bok"], known=known, seen=MORE, language="sv")
+    assert robot.acts("Hur stor är koppen?") == ["tell_size"]
+    assert robot.acts("Hur långt bort ligger boken?") == ["tell_size"]
+    assert robot.acts("Är koppen större än boken?") == ["say_yes"]
+    assert robot.hear("Varför?") == "Jag går efter vad jag mäter hos dem."

@@ -7,7 +7,7 @@ tried, whoever adds it.
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from string import Formatter
 
 import pytest
@@ -116,6 +116,12 @@ TOLD_BESIDES = {
     "qualities": "recalled",
     "type": "recalled",
     "lost": "lost",
+    "height": "measured",
+    "length": "measured",
+    "distance_away": "measured",
+    "rival_height": "measured",
+    "rival_length": "measured",
+    "rival_distance_away": "measured",
 }
 """Slots of what is beside the content: how certain, why, from which lesson."""
 
@@ -177,7 +183,19 @@ def besides(
         "recalls": [sign] if told & {"recalled", "confused"} else [],
         "recalled": known if told & {"recalled", "confused"} else [],
         "lost": [sign] if "lost" in told else [],
+        "measured": _extents(chance, slots),
     }
+
+
+def _extents(chance: random.Random, slots: Set[str]) -> list[Record]:
+    """What was measured of the things of which a wording tells that."""
+    labels = ("height", "length", "distance")
+    lengths = (0.004, 0.07, 0.99, 1.26)
+    return [
+        record({label: chance.choice(lengths) for label in labels}, x=x)
+        for x, slot in (("o1", "height"), ("o2", "rival_height"))
+        if slot in slots
+    ]
 
 
 def in_view(chance: random.Random, wording: str) -> dict[str, RecordType]:
@@ -233,6 +251,7 @@ TOLD_OF = {
     "ask_also": "Asked",
     "ask_quality": "Asked",
     "ask_find": "Asked",
+    "ask_size": "Asked",
     "ask_view": "Scene",
     "ask_count": "Scene",
     "ask_places": "Scene",
