@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from kille.perception.foreground import guess, saliency
+from kille.perception.foreground import cut_off, enclosed, guess, saliency
 from kille.scene import Frame, Mask
 from kille.sensors.pictures import read_colour
 
@@ -56,6 +56,19 @@ def test_what_goes_on_to_the_edges_is_background() -> None:
     salient = cv2.resize(saliency(frame.colour[::2, ::2]), mask.shape)
     assert salient[mask].mean() > 0.7
     assert salient[~mask].mean() < 0.1
+
+
+@pytest.mark.parametrize("colour", [(228, 226, 224), (240, 240, 240)])
+def test_white_before_white_is_found(colour: tuple[int, int, int]) -> None:
+    frame, mask = thing(colour, 215)
+    assert agreement(guess(frame), mask) > 0.7
+
+
+def test_what_reaches_the_edges_is_not_cut_off_and_not_enclosed() -> None:
+    frame, mask = thing((200, 40, 40), 120)
+    small, there = frame.colour[::2, ::2], mask[::2, ::2]
+    for guessed, least in ((cut_off(small), 3.0), (enclosed(small), 1.2)):
+        assert guessed[there].mean() > least * guessed[~there].mean()
 
 
 def test_a_guess_is_the_same_each_time() -> None:
