@@ -52,6 +52,8 @@ class BrowserRequest(NamedTuple):
     """Lets it happen to the robot; returns what that then says."""
     pointed: dict[str, Any] | None = None
     """What it points at, if it does."""
+    arranges: bool = False
+    """Whether it changes the scene: that it cannot is the tutor's concern alone."""
 
 
 def parse_message(text: str) -> dict[str, Any]:
@@ -132,7 +134,7 @@ def _change(ref: str, verb: str, name: str, spot: str) -> BrowserRequest:
             raise SensorError(f"there is no {name[:40]!r} to be shown")
         return robot.do(f"{verb} {name}{spot}")
 
-    return BrowserRequest(ref, f"{verb} {name}", change)
+    return BrowserRequest(ref, f"{verb} {name}", change, arranges=True)
 
 
 def _utterance(text: object) -> str:

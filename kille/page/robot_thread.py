@@ -94,7 +94,8 @@ class RobotThread:
         try:
             request.act(robot)
         except (SensorError, MemoryFileError, TTRError) as error:
-            self._tell_trouble(str(error))
+            if not request.arranges and request.pointed is None:
+                self._tell_trouble(str(error))
             self._fail(request, str(error))
             return
         self._tell_trouble("")

@@ -25,6 +25,7 @@ const connection = new Connection({
   state: (state) => {
     const link = byId("link");
     link.dataset.state = state === "full" ? "lost" : state;
+    document.documentElement.dataset.link = link.dataset.state;
     link.textContent = t(state);
   },
   hello,
@@ -96,6 +97,7 @@ function label(spoken) {
   for (const [id, name] of [["picture", "picture"], ["things", "things"], ["seen", "seen"], ["talk", "talk"], ["turns", "talk"], ["answers", "answers"], ["tools", "tools"]])
     byId(id).setAttribute("aria-label", t(name));
   byId("empty").textContent = t("empty");
+  byId("turns").dataset.hint = t("begin");
   field.placeholder = t("placeholder");
   byId("say").querySelector("label").textContent = t("say");
   byId("say").querySelector("button").textContent = t("send");

@@ -13,6 +13,7 @@ export class Talk {
     this.list = byId("turns");
     this.waiting = new Map();
     this.answers = [];
+    new ResizeObserver(() => this.scroll()).observe(this.list);
   }
 
   clear() {

@@ -20,7 +20,7 @@ const EN = {
   unconfirmed: "It had not confirmed your last sentence: it is back in the field, to be said again.",
   anew: "A new dialogue; what was learned stays.",
   full: "Too many browsers look at this page.",
-  old: "This browser is too old for this page: take a newer one.",
+  begin: "Click on a thing and say what it is: “This is a cup.” Or ask: “What is this?” “Help.” says what else.",
 };
 
 const SV = {
@@ -43,7 +43,7 @@ const SV = {
   unconfirmed: "Din sista mening hade den inte bekräftat: den står i fältet och kan sägas igen.",
   anew: "En ny dialog; det som lärts in finns kvar.",
   full: "För många webbläsare tittar på den här sidan.",
-  old: "Webbläsaren är för gammal för den här sidan: ta en nyare.",
+  begin: "Klicka på en sak och säg vad den är: ”Det här är en kopp.” Eller fråga: ”Vad är det här?” ”Hjälp.” säger vad mer.",
 };
 
 export const TEXTS = { en: EN, sv: SV };

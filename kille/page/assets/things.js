@@ -114,6 +114,7 @@ export class Things {
     const [width, height] = this.view.size ?? [640, 480];
     const scale = { x: stage.clientWidth / width, y: stage.clientHeight / height };
     const taken = [];
+    byId("rivals").hidden = true;
     for (const thing of this.view.things) {
       const button = this.buttons.get(thing.number);
       const size = { width: button.offsetWidth, height: button.offsetHeight };
