@@ -41,6 +41,7 @@ from kille.dialogue.games.mishearing import MISHEARD
 from kille.dialogue.games.misspelling import OFFER_ANSWERED, OFFERING
 from kille.dialogue.games.naming import NAMING
 from kille.dialogue.games.noticing import WATCHING
+from kille.dialogue.games.pairing import PAIR_ANSWERED, PAIRING
 from kille.dialogue.games.placing import BETWEEN, PLACING
 from kille.dialogue.games.referring import CHOOSING, REFERRING
 from kille.dialogue.games.several import SEVERAL, SEVERAL_ANSWERED
@@ -72,6 +73,7 @@ ANSWERING = first(
     SURVEYING,
     COUNTING,
     EXPLAINING,
+    PAIRING,
     GENERALISING,
     KNOWING,
     FORGETTING,
@@ -100,6 +102,7 @@ def games_with(*answers: Rule) -> Algorithm:
                 GATHERED,
                 VETTED,
                 FORGET_ANSWERED,
+                PAIR_ANSWERED,
                 EARLIER_ANSWERED,
                 BOTH_ANSWERED,
                 STILL_ANSWERED,

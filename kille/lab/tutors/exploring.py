@@ -272,6 +272,7 @@ def _plain_answers(talk: WorldTalk, asked: str) -> Sayings:
             | "AskForget"
             | "AskEvery"
             | "AskOnly"
+            | "AskSwapped"
         ):
             return [it for act in _YES_OR_NO for it in _worldless_sayings(talk, act)]
         case "AskEarlier":

@@ -89,6 +89,7 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
                 | "AskMeant"
                 | "AskEvery"
                 | "AskOnly"
+                | "AskSwapped"
             ),
             "affirm" | "deny",
         ):
