@@ -213,16 +213,16 @@ def forget_last_kind(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Instruct")
 def object_to_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """A thing is said to be one kind, and was said not to be what that is a kind of."""
-    return _plan_objection(s, types=types)
+    return plan_objection(s, types=types)
 
 
 @rule(answers="Reject")
 def object_to_denial(s: Record, *, types: DialogueTypes) -> Record | None:
     """A thing is said not to be of a kind, and was said to be of a kind of that."""
-    return _plan_objection(s, types=types)
+    return plan_objection(s, types=types)
 
 
-def _plan_objection(s: Record, *, types: DialogueTypes) -> Record | None:
+def plan_objection(s: Record, *, types: DialogueTypes) -> Record | None:
     """The plan to say which axiom and which lesson the latest move is against."""
     content = content_of(s)
     for lower, upper, told in _conflicts(s, content):

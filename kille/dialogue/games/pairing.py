@@ -2,7 +2,8 @@
 
 The tutor says so of two things that the robot has just named, or that are in view. It
 says what that means, and learns it from a yes: of each that it is the other, and not
-what it was called. Asked if they are the same, it says what it takes each for.
+what it was called. It objects where an axiom of kinds is against that. Asked if they
+are the same, it says what it takes each for.
 """
 
 from __future__ import annotations
@@ -11,12 +12,18 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from kille.dialogue.beliefs import knows, names_of, thinks
-from kille.dialogue.commitments import effects_of_rejection, signs_for
+from kille.dialogue.commitments import (
+    effects_of_rejection,
+    opposite_lesson_keys,
+    signs_for,
+)
+from kille.dialogue.games.classifying import plan_objection
 from kille.dialogue.games.distinguishing import say_where
-from kille.dialogue.meanings import DialogueTypes, is_denial, set_to
+from kille.dialogue.meanings import DialogueTypes, denial, is_denial, set_to
 from kille.dialogue.moves import issue, plan, said_of
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
+from kille.dialogue.taxonomy import are_related
 from ttr import Model, Record, replace
 from ttr.updates import first
 
@@ -38,7 +45,7 @@ class NamedThing(NamedTuple):
 def ask_swapped(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says that it has mixed two things up: it says what that means."""
     two = _named_pair(s, model)
-    if two is None or knows([two[0].sign], two[1].sign):
+    if two is None or are_related(s, two[0].sign, two[1].sign):
         return None
     one, other = two
     right = [
@@ -51,6 +58,11 @@ def ask_swapped(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
     options = [
         replace(s.shared.latest, content=it, signs=signs) for it in (*right, *wrong)
     ]
+    for claim in (*right, *map(denial, wrong)):
+        said = replace(s.shared.latest, content=claim, signs=signs)
+        objection = plan_objection(replace(s, {"shared.latest": said}), types=types)
+        if objection is not None:
+            return objection
     asks = [issue(SWAPPED, options)]
     asked = plan(s, "AskMeant", shown[0], signs=signs, asks=asks, types=types)
     return plan(asked, "AskMeantToo", shown[1], signs=signs, types=types)
@@ -80,7 +92,7 @@ def learn_swapped(s: Record, *, types: DialogueTypes) -> Record | None:
             wrong,
             signs=signs_for(s, *teaches, wrong),
             teaches=teaches,
-            forgets=forgets,
+            forgets=[*forgets, *opposite_lesson_keys(s, right, types=types)],
             types=types,
         )
     return learned

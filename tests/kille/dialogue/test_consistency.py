@@ -207,6 +207,7 @@ WORDS = (*NOUNS, *QUALITIES)
 
 LESSONS = st.tuples(st.sampled_from(THINGS), st.sampled_from(WORDS), st.booleans())
 KINDS = st.tuples(st.sampled_from(NOUNS), st.sampled_from(NOUNS))
+SWAPS = st.just(("swap",))
 DEGREES = st.fixed_dictionaries(
     {
         (word, x): st.sampled_from([0.0, 0.3, 0.6, 0.95])
@@ -215,7 +216,7 @@ DEGREES = st.fixed_dictionaries(
     }
 )
 
-ANSWERS = {"ask_both": "Yes.", "ask_kind_still": "Yes."}
+ANSWERS = {"ask_both": "Yes.", "ask_kind_still": "Yes.", "ask_meant_too": "Yes."}
 """What the tutor says when the robot asks before it learns."""
 
 
@@ -236,10 +237,10 @@ def tell(robot: Any, text: str) -> None:
         robot.acts(ANSWERS[act])
 
 
-@given(st.lists(st.one_of(LESSONS, KINDS), max_size=8), DEGREES)
+@given(st.lists(st.one_of(LESSONS, KINDS, SWAPS), max_size=8), DEGREES)
 def test_what_was_taught_is_affirmed(
     scene: Callable[..., Any],
-    said: list[tuple[str, str, bool] | tuple[str, str]],
+    said: list[tuple[str, str, bool] | tuple[str, str] | tuple[str]],
     degrees: dict[tuple[str, str], float],
 ) -> None:
     known = {
@@ -254,6 +255,8 @@ def test_what_was_taught_is_affirmed(
                 tell(robot, f"This is {'' if so else 'not '}{claim(word)}.")
             case (lower, upper):
                 tell(robot, f"A {lower} is a kind of {upper}.")
+            case ("swap",):
+                tell(robot, "You mixed them up.")
     held = [
         (str(value_at(it.content["target"], "x")), it.sign, not is_denial(it.content))
         for it in robot.state.private.lessons
@@ -268,6 +271,8 @@ def test_what_was_taught_is_affirmed(
     for x, sign, so in [*held, *follow]:
         point_at(robot, x)
         [act] = robot.acts(f"Is this {claim(sign.form)}?")
+        number = THINGS.index(x) + 1
+        assert robot.acts(f"Is #{number} {claim(sign.form)}?") == [act]
         assert (act == "say_yes") is so, (x, sign.form, so, act)
         assert so or act in ("say_no", "say_rather"), (x, sign.form, act)
     for x in THINGS:

@@ -87,6 +87,21 @@ def test_of_three_things_it_is_the_two_talked_about(scene: Callable[..., Any]) -
     assert names(robot.state) == ["o1 not cup", "o1 banana", "o3 not banana", "o3 cup"]
 
 
+def test_an_axiom_against_it_is_objected_to(table: Any) -> None:
+    table.hear("A cup is a kind of vessel.")
+    table.hear("Yes.")
+    table.hear("#2 is not a vessel.")
+    before = names(table.state)
+    assert table.acts(SWAPS[0]) == ["object_kind"]
+    assert table.acts("Yes.") != ["corrected", "corrected"]
+    assert names(table.state) == before
+
+
+def test_kinds_of_one_another_are_not_mixed_up(table: Any) -> None:
+    table.hear("A book is a kind of cup.")
+    assert table.acts(SWAPS[0]) == ["wonder"]
+
+
 @pytest.mark.parametrize(
     ("known", "answer"),
     [
