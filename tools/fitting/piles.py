@@ -33,6 +33,7 @@ from tools.modelling.shapes import (
     lathe,
     move,
     rotation,
+    tube,
 )
 from tools.modelling.sheets import Sheet, assemble
 
@@ -83,6 +84,37 @@ def tidy(seed: int, meshes: Sequence[Path] = ()) -> Frame:
     for right in np.linspace(-0.36, 0.36, 4) + chance.uniform(-0.03, 0.03, 4):
         heap.put_down(a_manifold(chance, meshes), float(right))
     return _capture_heap(camera, heap)
+
+
+def crowd(seed: int, meshes: Sequence[Path] = ()) -> Frame:
+    """A frame of packs, tins and mugs close together, stacked or flush; else as `pile`.
+
+    Up to a dozen groups cover the table until only scraps of it are seen. Of every
+    other table there is no depth behind the things, as in a capture that was trimmed.
+    """
+    chance = np.random.default_rng([80, seed])
+    camera = SimulatedCamera(chance.uniform(0.7, 1.25), chance.uniform(26, 60))
+    heap = _Heap(chance, meshes)
+    for _ in range(int(chance.integers(1, 13))):
+        heap.put_group()
+    frame = _capture_heap(camera, heap)
+    return _trim(frame, camera, heap) if chance.random() < 0.5 else frame
+
+
+def _trim(frame: Frame, camera: SimulatedCamera, heap: _Heap) -> Frame:
+    """The frame without depth a little behind the farthest thing, and on the floor."""
+    assert frame.depth is not None
+    last = max((it.pose.away for it in heap.bodies), default=0.0)
+    rows, columns = np.indices(frame.depth.shape)
+    lens = camera.intrinsics
+    rays = np.stack(
+        [(columns - lens.cx) / lens.fx, (rows - lens.cy) / lens.fy, 1 + 0 * rows],
+        axis=-1,
+    )
+    points = (rays * frame.depth[..., None]) @ camera.rotation + camera.position
+    gone = points[..., 1] > last + heap.chance.uniform(0.05, 0.2)
+    gone |= points[..., 2] < -0.05
+    return replace(frame, depth=np.where(gone, np.float32(np.nan), frame.depth))
 
 
 def _capture_heap(camera: SimulatedCamera, heap: _Heap) -> Frame:
@@ -156,6 +188,30 @@ class _Heap:
         gap = (wide.size[1] + thin.size[1]) / 2 + self.chance.uniform(0, 0.1)
         aside = right + self.chance.normal(0, 0.02)
         self._put(thin, Pose(aside, away - gap, self.chance.uniform(-45, 45)))
+
+    def put_group(self) -> None:
+        """Packs on or beside each other, or one thing, where there is room."""
+        kind = self.chance.random()
+        if kind < 0.35:
+            group = _stack(self.chance)
+        elif kind < 0.6:
+            group = _row(self.chance)
+        elif kind < 0.8:
+            group = [(a_mug(self.chance), 0.0, 0.0)]
+        else:
+            group = [(a_thing(self.chance, self.meshes), 0.0, 0.0)]
+        for _ in range(_TRIES):
+            right, away = self.chance.uniform((-0.34, -0.25), (0.34, 0.3))
+            place = Pose(right, away, self.chance.uniform(0, 360))
+            posed = [
+                (model, replace(place, right=float(there[0]), away=float(there[1])))
+                for model, x, y in group
+                for there in place.move_points(np.array([[x, y]]))
+            ]
+            if not any(self.tops[self._ground(*it)].any() for it in posed):
+                for it in posed:
+                    self._put(*it)
+                return
 
     def _put(self, model: ToyModel, pose: Pose) -> None:
         ground = self._ground(model, pose)
@@ -240,6 +296,74 @@ def a_tin(chance: Chance) -> ToyModel:
 def _tin(radius: float, height: float) -> ToyModel:
     wall = lathe([(radius, height), (radius, 0)])
     return _of(wall, move(disc(radius), z=height))
+
+
+def a_mug(chance: Chance) -> ToyModel:
+    """A hollow cylinder with a handle, every tenth one fallen over."""
+    r, h = chance.uniform(0.03, 0.05), chance.uniform(0.07, 0.12)
+    wall, inner, floor = (
+        lathe([(r, h), (chance.uniform(0.75, 1) * r, 0)]),
+        0.93 * r,
+        0.006,
+    )
+    hollow = inside_out(lathe([(inner, h), (0.75 * inner, floor)]))
+    rim = lathe([(inner, h), (r, h)])
+    out, high = chance.uniform(0.02, 0.04), chance.uniform(0.3, 0.42) * h
+    angle = np.linspace(-np.pi / 2, np.pi / 2, 12)
+    x, z = 0.93 * r + out * np.cos(angle), 0.52 * h + high * np.sin(angle)
+    handle = tube(np.stack([x, 0 * x, z], axis=1), chance.uniform(0.004, 0.008))
+    mug = _of(wall, hollow, rim, move(disc(0.75 * inner), z=floor), handle)
+    return _drop(mug, chance, 0.1)
+
+
+_Group = list[tuple[ToyModel, float, float]]
+"""Things and where they are, metres right and away of the middle of the group."""
+
+
+def _stack(chance: Chance) -> _Group:
+    """Two or three packs on each other, many of them with edges that are flush."""
+    size = chance.uniform((0.09, 0.07, 0.02), (0.28, 0.20, 0.10))
+    group: _Group = [(_of(*box(*size).values()), 0.0, 0.0)]
+    x, y, height = 0.0, 0.0, size[2]
+    for _ in range(int(chance.integers(1, 3))):
+        if chance.random() < 0.25:
+            small = a_mug(chance) if chance.random() < 0.5 else a_tin(chance)
+            group.append((lift_model(small, height), x, y))
+            break
+        less = np.where(chance.random(2) < 0.35, 1.0, chance.uniform(0.55, 1.0, 2))
+        upper = np.array([*(size[:2] * less), chance.uniform(0.02, 0.10)])
+        room = (size[:2] - upper[:2]) / 2
+        aside = np.where(
+            chance.random(2) < 0.6, chance.choice([-1, 1], 2), chance.uniform(-1, 1, 2)
+        )
+        shift = room * aside + chance.normal(0, 0.004, 2)
+        x, y = x + shift[0], y + shift[1]
+        group.append((lift_model(_of(*box(*upper).values()), height), x, y))
+        size, height = upper, height + upper[2]
+        if height > _HIGHEST:
+            break
+    return group
+
+
+def _row(chance: Chance) -> _Group:
+    """Two or three packs side by side, most of them with fronts that are flush."""
+    low, high = _BOXES[int(chance.integers(1, len(_BOXES)))]
+    front, x = 0.0, 0.0
+    group: _Group = []
+    for _ in range(int(chance.integers(2, 4))):
+        width, depth, height = chance.uniform(low, high)
+        width *= 0.7
+        flush = chance.random() < 0.7
+        back = chance.normal(0, 0.003) if flush else chance.uniform(-0.04, 0.04)
+        group.append(
+            (
+                _of(*box(width, depth, height).values()),
+                x + width / 2,
+                front + back + depth / 2,
+            )
+        )
+        x += width + chance.uniform(0.0, 0.006)
+    return [(model, right - x / 2, away) for model, right, away in group]
 
 
 def a_bowl(chance: Chance) -> ToyModel:

@@ -166,7 +166,7 @@ def regions(
             of_kind = scores[name]
             of_kind[capture.kind] = of_kind.get(capture.kind, SegmentationScore()) + one
             if number in shown:
-                pictures.append(_picture(frame, found).tolist())
+                pictures.append(paint_regions(frame, found).tolist())
                 captions.append(f"{capture.shot.name}, {name}: {one.found}/{one.there}")
                 good.append(one.exact == 1)
         steps(f"looking at {capture.shot.name}")
@@ -318,7 +318,7 @@ def _evenly_spread(count: int) -> set[int]:
     return {int(it) for it in np.linspace(0, max(count - 1, 0), _SHOWN)}
 
 
-def _picture(frame: Frame, found: Sequence[Region]) -> NDArray[np.uint8]:
+def paint_regions(frame: Frame, found: Sequence[Region]) -> NDArray[np.uint8]:
     """The frame, grey, with each region in its own ink."""
     step = max(1, round(frame.colour.shape[1] / _WIDTH))
     grey = frame.colour[::step, ::step].mean(axis=2, keepdims=True)

@@ -17,7 +17,7 @@ import cv2
 import numpy as np
 
 from kille.perception.geometry import Array
-from kille.perception.surfaces.relief import Labels, Relief, jumps
+from kille.perception.surfaces.relief import Labels, Relief, jumps, step_of
 from kille.scene import Mask
 
 CONCAVE = 0.13
@@ -67,7 +67,7 @@ def patches_of(relief: Relief, inside: Mask, surface: Surface) -> Labels:
     Every pixel inside has the label of the patch that is nearest in the picture.
     """
     concave = surface.most_inwards < -CONCAVE
-    core = (inside & ~jumps(relief.depth) & ~concave).astype(np.uint8)
+    core = (inside & ~jumps(relief.depth, of=step_of) & ~concave).astype(np.uint8)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(core, connectivity=4)
     kept = stats[:, cv2.CC_STAT_AREA] >= _LEAST
     kept[0] = False

@@ -7,6 +7,7 @@ reading of its block, so that the depths of two things are never mixed.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import cv2
@@ -85,11 +86,29 @@ def protruding_pixels(relief: Relief, table: Plane | None) -> Mask:
     return above & reach_of(table, relief.rays, relief.depth, flat)
 
 
-def jumps(depth: Array, least: float = 0.0) -> Mask:
+def jump_of(depth: Array) -> Array:
+    """The least difference in depth, in metres, that is a jump at this depth."""
+    least: Array = 0.004 + 0.012 * depth
+    return least
+
+
+def step_of(depth: Array) -> Array:
+    """The least difference in depth, in metres, that is more than noise at this depth.
+
+    What faces the camera has no such differences, a slanting surface may have them.
+    """
+    least: Array = 0.003 + 0.008 * depth**2
+    return least
+
+
+def jumps(
+    depth: Array, least: float = 0.0, of: Callable[[Array], Array] = jump_of
+) -> Mask:
     """The pixels (h, w) just behind a jump in depth, in a row or a column.
 
-    A jump exceeds the noise, and `least` metres. Only its far side is marked: that is
-    the less certain one, and one pixel is enough to separate two things.
+    A jump exceeds what `of` says at its depth, and `least` metres. Only its far side is
+    marked: that is the less certain one, and one pixel is enough to separate two
+    things.
     """
     filled = np.nan_to_num(depth)
     behind = np.zeros(depth.shape, bool)
@@ -98,16 +117,10 @@ def jumps(depth: Array, least: float = 0.0) -> Mask:
         (np.s_[:, :-1], np.s_[:, 1:]),
     ):
         rise = filled[back] - filled[ahead]
-        step = np.maximum(jump_of(np.minimum(filled[back], filled[ahead])), least)
+        step = np.maximum(of(np.minimum(filled[back], filled[ahead])), least)
         behind[back] |= rise > step
         behind[ahead] |= -rise > step
     return behind
-
-
-def jump_of(depth: Array) -> Array:
-    """The least difference in depth, in metres, that is a jump at this depth."""
-    least: Array = 0.004 + 0.012 * depth
-    return least
 
 
 def window_of(inside: Mask) -> Window:

@@ -218,6 +218,18 @@ def test_a_thing_behind_a_narrow_one_is_one_thing() -> None:
     assert len(segment_by_contact(frame).regions) == 3
 
 
+@pytest.mark.parametrize(("turn", "back"), [(-30.0, 0.015), (0.0, 0.01), (0.0, 0.02)])
+def test_packs_that_form_steep_stairs_are_taken_apart(turn: float, back: float) -> None:
+    """Each is set back by a little more than what the depth is noisy by."""
+    packs = (0.2, 0.0, 0.0), (0.18, 0.05, back), (0.16, 0.1, 2 * back)
+    bodies = [
+        PosedToy(lift_model(_lying(width, 0.12, 0.05), low), Pose(0, away, turn))
+        for width, low, away in packs
+    ]
+    frame = seen(*bodies, camera=SimulatedCamera(0.8, 30))
+    assert score(segment(frame).regions, frame).found == 3
+
+
 def test_a_thing_on_a_scrap_of_table_that_others_cut_off_is_found() -> None:
     wide, tin = _lying(1.3, 0.05, 0.12), _standing(0.035, 0.12)
     camera = SimulatedCamera(0.9, 40)
