@@ -12,7 +12,7 @@ from threading import Thread
 from typing import TYPE_CHECKING
 
 from kille.agent.agent import Agent
-from kille.interfaces.formatting import introduction
+from kille.interfaces.formatting import derivation, in_short, introduction
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError, default_path
 from kille.sensors.sensor import Sensor, SensorError
@@ -48,6 +48,7 @@ def serve(
     token. With `show` it is opened in a browser; `make` makes the robot.
     """
     try:
+        from kille.page.inside import Insight
         from kille.page.server import Terminal, serve_page
     except ImportError:
         return complain(MISSING)
@@ -67,7 +68,8 @@ def serve(
             lambda error: report_unforeseen("kille", error),
         )
         try:
-            serve_page(sensor, robot, settings, terminal)
+            insight = Insight(derivation, in_short)
+            serve_page(sensor, robot, settings, terminal, insight)
         except (SensorError, MemoryFileError) as error:
             return complain(error)
     return FINE

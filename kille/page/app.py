@@ -13,13 +13,14 @@ import asyncio
 import json
 import struct
 from collections.abc import Callable
+from concurrent.futures import Future
 from contextlib import suppress
 from importlib.resources import files
 from typing import Any
 
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
@@ -30,14 +31,19 @@ from kille.page.browser_requests import (
     parse_request,
 )
 from kille.page.feed import Event, Feed
+from kille.page.inside import MATRIX_STYLE
 from kille.page.live_picture import LivePicture
 from kille.page.robot_thread import BusyError
+from ttr import TTRError
 
 BROWSERS = 16
 """How many may look at the page at a time."""
 
 UNDER_WAY = 2
 """Pictures that were sent and not yet drawn."""
+
+_TOGETHER = 8
+"""Exchanges of one turn, at most."""
 
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -52,11 +58,12 @@ def page_app(
     picture: LivePicture,
     ask: Callable[[BrowserRequest], None],
     greeting: Callable[[], Event],
+    inside: Callable[[int, int], Future[Event | None]] | None = None,
 ) -> Starlette:
     """The page of a robot: what it tells, what it sees, and how it is asked.
 
     `ask` has a request done, or raises BusyError; `greeting` is what a browser is told
-    first.
+    first; `inside` looks inside turns.
     """
     connected: set[WebSocket] = set()
 
@@ -73,17 +80,20 @@ def page_app(
 
     routes: list[BaseRoute] = [WebSocketRoute("/live", live)]
     routes += [_file_route(*it) for it in _page_files()]
+    if inside is not None:
+        routes.append(_inside_route(inside))
     return Starlette(routes=routes)
 
 
 def _page_files() -> list[tuple[str, bytes]]:
     """The names and contents of the page's files."""
     folder = files("kille.page") / "assets"
-    return [
+    found = [
         (it.name, it.read_bytes())
         for it in sorted(folder.iterdir(), key=lambda it: it.name)
         if "." + it.name.rpartition(".")[2] in _TYPES
     ]
+    return [*found, ("matrix.css", MATRIX_STYLE.encode())]
 
 
 def _file_route(name: str, content: bytes) -> Route:
@@ -93,6 +103,22 @@ def _file_route(name: str, content: bytes) -> Route:
         return Response(content, headers={"Content-Type": kind})
 
     return Route("/" if name == "index.html" else f"/{name}", answer)
+
+
+def _inside_route(inside: Callable[[int, int], Future[Event | None]]) -> Route:
+    """What a turn did: the exchanges from one number to before another."""
+
+    async def answer(request: Request) -> Response:
+        first, last = request.path_params["first"], request.path_params["last"]
+        if not 0 <= first < last <= first + _TOGETHER:
+            return Response(status_code=404)
+        try:
+            found = await asyncio.wrap_future(inside(first, last))
+        except TTRError as error:
+            found = {"lines": [["", str(error)]], "state": []}
+        return Response(status_code=404) if found is None else JSONResponse(found)
+
+    return Route("/inside/{first:int}/{last:int}", answer)
 
 
 class _Connection:

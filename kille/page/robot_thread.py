@@ -6,7 +6,8 @@ it is on disk.
 | event | has |
 | --- | --- |
 | `heard` | what the tutor has said or done, before the robot answers: `says`, `ref` |
-| `turn` | the turn, as `turn_report` has it; `ms`, how long it took; `ref` |
+| `turn` | the turn, as `turn_report` has it; `ms`, how long it took; `ref`; `turns`, \
+the numbers of its exchanges, to look inside |
 | `view` | what is in view after it, as `view_report` has it |
 | `pointed` | what the tutor points at now: `thing` or `box`; `ref` |
 | `failed` | why nothing came of it: `text`, `ref` |
@@ -17,7 +18,7 @@ it is on disk.
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from threading import Lock
 from time import perf_counter
 
@@ -25,6 +26,7 @@ from kille.agent.agent import Agent
 from kille.memory import MemoryFileError
 from kille.page.browser_requests import BrowserRequest
 from kille.page.feed import Feed
+from kille.page.inside import PLAIN, Insight, Json, inside_report
 from kille.page.turn_reports import turn_report, view_report
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
@@ -49,7 +51,9 @@ class RobotThread:
         feed: Feed,
         tell: Callable[[str], object] = lambda _: None,
         report: Callable[[Exception], object] = lambda _: None,
+        insight: Insight = PLAIN,
     ) -> None:
+        self._insight = insight
         self._feed, self._tell, self._report = feed, tell, report
         self._counting, self._waiting, self._closed = Lock(), 0, False
         self._thread = ThreadPoolExecutor(1, "kille-robot")
@@ -67,6 +71,17 @@ class RobotThread:
                 raise BusyError("too much waits to be answered: say it again later")
             self._waiting += 1
         self._thread.submit(self._do, request)
+
+    def look_inside(self, first: int, last: int) -> Future[Json | None]:
+        """What the turns from the first to before the last did; None if there are none.
+
+        It is worked out when it is its turn: the types of a robot are one thread's.
+        """
+        return self._thread.submit(self._inside, first, last)
+
+    def _inside(self, first: int, last: int) -> Json | None:
+        turns = self.robot.exchanges[first:last]
+        return inside_report(turns, self._insight) if turns else None
 
     def close(self) -> None:
         """End the turn that is taken now, drop those that wait, and let go of all."""
@@ -104,7 +119,8 @@ class RobotThread:
             self._publish("pointed", request, **request.pointed)
             return
         report = turn_report(robot, robot.exchanges[turns:])
-        self._publish("turn", request, ms=took, **report)
+        taken = [turns, len(robot.exchanges)]
+        self._publish("turn", request, ms=took, turns=taken, **report)
         self._publish("view", request, **view_report(robot))
 
     def _publish(self, kind: str, request: BrowserRequest, **about: object) -> None:

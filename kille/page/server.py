@@ -17,6 +17,7 @@ from kille.page.app import page_app
 from kille.page.browser_requests import MESSAGE, parse_request
 from kille.page.feed import Event, Feed
 from kille.page.guard import Access, Guard
+from kille.page.inside import PLAIN, Insight
 from kille.page.live_picture import LivePicture
 from kille.page.robot_thread import RobotThread
 from kille.sensors.sensor import Sensor, Stage
@@ -56,6 +57,7 @@ def serve_page(
     make: Callable[[Sensor], Agent],
     settings: PageSettings,
     terminal: Terminal,
+    insight: Insight = PLAIN,
 ) -> None:
     """Serve the page of the robot that `make` makes of the sensor until Ctrl-C.
 
@@ -79,12 +81,19 @@ def serve_page(
                 feed,
                 terminal.trouble,
                 terminal.unforeseen,
+                insight,
             )
             failing.pop_all()
         closing.callback(robot.close)
         robot.ask(parse_request({"do": "look"}))
         terminal.ready(robot.robot)
-        app = page_app(feed, picture, robot.ask, lambda: _greeting(robot.robot))
+        app = page_app(
+            feed,
+            picture,
+            robot.ask,
+            lambda: _greeting(robot.robot),
+            robot.look_inside,
+        )
         server = uvicorn_server(Guard(app, settings.access), settings.certificate)
         with _signals_end(server):
             server.run(sockets=[settings.listener])

@@ -2,6 +2,7 @@
 
 import { Connection } from "./connection.js";
 import { byId, el } from "./dom.js";
+import { Lab } from "./lab.js";
 import { LivePicture } from "./picture.js";
 import { Region } from "./region.js";
 import { Talk } from "./talk.js";
@@ -10,7 +11,8 @@ import { Things } from "./things.js";
 
 const picture = new LivePicture();
 const things = new Things(choose);
-const talk = new Talk(say, (number, on) => things.light(number, on));
+const lab = new Lab((number, on) => things.light(number, on));
+const talk = new Talk(say, (number, on) => things.light(number, on), (event) => lab.choose(event));
 const region = new Region(things, choose, (box) => connection.ask({ do: "point", box }));
 const field = byId("text");
 const said = []; // by the tutor, for the arrow keys
@@ -33,6 +35,7 @@ const connection = new Connection({
   heard: (event) => talk.heard(event),
   turn: (event) => {
     confirm(event.ref);
+    lab.add(event);
     talk.turn(event);
     meant = event.said ? event.thing : null;
     count("words", event.words);
@@ -69,6 +72,7 @@ function hello(event, before) {
   old = event.last;
   if (event.after === 0) {
     talk.clear();
+    lab.clear();
     byId("trouble").hidden = true;
     byId("stage").classList.remove("stage--stale");
   }
@@ -97,6 +101,7 @@ function label(spoken) {
   for (const [id, name] of [["picture", "picture"], ["things", "things"], ["seen", "seen"], ["talk", "talk"], ["turns", "talk"], ["answers", "answers"], ["tools", "tools"]])
     byId(id).setAttribute("aria-label", t(name));
   byId("empty").textContent = t("empty");
+  lab.label();
   byId("turns").dataset.hint = t("begin");
   field.placeholder = t("placeholder");
   byId("say").querySelector("label").textContent = t("say");

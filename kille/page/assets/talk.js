@@ -6,8 +6,10 @@ import { t } from "./texts.js";
 const KEPT = 300; // turns on the page
 
 export class Talk {
-  /** `say(text)` says something for the tutor; `light(number, on)` shows a thing. */
-  constructor(say, light) {
+  /** `say(text)` says something for the tutor; `light(number, on)` shows a thing,
+   *  `inspect(event)` what a turn did inside. */
+  constructor(say, light, inspect) {
+    this.inspect = inspect;
     this.say = say;
     this.light = light;
     this.list = byId("turns");
@@ -41,7 +43,7 @@ export class Talk {
     for (const line of paragraphs(event.said)) turn.append(this.bubble("robot", line));
     const chips = this.chips(event);
     if (chips.length) turn.append(el("div", { class: "chips" }, ...chips));
-    if (event.rules.length) turn.append(this.rules(event.rules));
+    if (event.rules.length) turn.append(this.rules(event));
     if (turn.childElementCount && !turn.isConnected && (event.said || event.lessons.length)) this.add(turn);
     this.offer(event.answers);
     this.scroll();
@@ -94,9 +96,11 @@ export class Talk {
     return el("button", { class: "chip chip--do", type: "button", onclick: () => this.say(says) }, t(name));
   }
 
-  rules(rules) {
+  rules(event) {
+    const { rules } = event;
     const items = rules.map(({ name, does }) => el("li", {}, el("b", {}, name), ` ${does}`));
-    return el("details", { class: "rules" }, el("summary", {}, t("rules")), el("ol", {}, ...items));
+    const inside = el("button", { class: "chip chip--inside", type: "button", onclick: () => this.inspect(event) }, t("inside"));
+    return el("details", { class: "rules" }, el("summary", {}, t("rules")), el("ol", {}, ...items), inside);
   }
 
   /** "Undo" and "Why?" are about the latest turn: earlier ones lose theirs. */

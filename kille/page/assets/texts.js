@@ -20,6 +20,9 @@ const EN = {
   unconfirmed: "It had not confirmed your last sentence: it is back in the field, to be said again.",
   anew: "A new dialogue; what was learned stays.",
   full: "Too many browsers look at this page.",
+  lab: "Look inside", inside: "Look inside this turn", timeline: "Turn", changed: "changed",
+  turn: "Turn {number}: {heard}", noTurn: "No turn has been taken yet", looked: "it looked",
+  derivation: "Derivation", shared: "Shared", view: "In view", private: "Private", empties: "Empty: {names}",
   begin: "Click on a thing and say what it is: “This is a cup.” Or ask: “What is this?” “Help.” says what else.",
 };
 
@@ -43,6 +46,9 @@ const SV = {
   unconfirmed: "Din sista mening hade den inte bekräftat: den står i fältet och kan sägas igen.",
   anew: "En ny dialog; det som lärts in finns kvar.",
   full: "För många webbläsare tittar på den här sidan.",
+  lab: "Titta inuti", inside: "Titta inuti den här turen", timeline: "Tur", changed: "ändrat",
+  turn: "Tur {number}: {heard}", noTurn: "Ingen tur har tagits än", looked: "den tittade",
+  derivation: "Härledning", shared: "Gemensamt", view: "I bild", private: "Privat", empties: "Tomma: {names}",
   begin: "Klicka på en sak och säg vad den är: ”Det här är en kopp.” Eller fråga: ”Vad är det här?” ”Hjälp.” säger vad mer.",
 };
 

@@ -18,9 +18,11 @@ import pytest
 from websockets.sync.client import ClientConnection, connect
 
 from kille.agent.agent import Agent
+from kille.interfaces.formatting import derivation, in_short
 from kille.page.app import page_app
 from kille.page.feed import Feed
 from kille.page.guard import Access, Guard
+from kille.page.inside import Insight
 from kille.page.live_picture import LivePicture
 from kille.page.robot_thread import RobotThread
 from kille.page.server import _greeting, listen, uvicorn_server
@@ -110,10 +112,19 @@ def page_of(
     feed, troubles = Feed(), []
     picture = LivePicture(lambda text: feed.publish({"type": "camera", "text": text}))
     robot = RobotThread(
-        lambda: Agent(picture.share(sensor), memory), feed, troubles.append
+        lambda: Agent(picture.share(sensor), memory),
+        feed,
+        troubles.append,
+        insight=Insight(derivation, in_short),
     )
     listener = listen("127.0.0.1", 0)
-    app = page_app(feed, picture, robot.ask, lambda: _greeting(robot.robot))
+    app = page_app(
+        feed,
+        picture,
+        robot.ask,
+        lambda: _greeting(robot.robot),
+        robot.look_inside,
+    )
     server = uvicorn_server(Guard(app, access or Access("127.0.0.1")))
     thread = Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()

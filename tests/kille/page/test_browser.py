@@ -140,6 +140,22 @@ def test_hostile_words_stay_words(desk: Program, tab: Tab) -> None:
     assert tab.locator("#turns img, #turns script").count() == 0
 
 
+def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
+    tab.goto(desk.address)
+    say(tab, "Hello.", "Hello")
+    tab.get_by_role("button", name="Look inside", exact=True).click()
+    title = tab.locator("#lab-title")
+    playwright.expect(title).to_contain_text("Hello.")
+    changed = tab.locator(".field--changed")
+    playwright.expect(changed.filter(has_text="latest").first).to_be_visible()
+    assert tab.locator("#lab .ttr-changed").count() > 0
+    tab.get_by_role("slider", name="Turn").press("Home")
+    playwright.expect(title).to_contain_text("Turn 1: it looked")
+    playwright.expect(tab.locator(".step").first).to_contain_text("see")
+    say(tab, "Thank you.", "welcome")
+    playwright.expect(title).to_contain_text("Turn 1: it looked")
+
+
 def test_a_lesson_by_keys_alone(start: Start, tab: Tab) -> None:
     visit(tab, start(*EMPTY), things=0)
     keys = tab.keyboard

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from http.client import HTTPConnection, HTTPResponse
+from typing import Any
 
 import pytest
 from websockets.exceptions import InvalidStatus
@@ -22,6 +24,15 @@ def guarded() -> Iterator[Page]:
     access = Access("127.0.0.1", token=TOKEN)
     with page_of(open_sensor("synthetic:empty"), access=access) as made:
         yield made
+
+
+def fetch_json(page: Page, path: str) -> Any:
+    connection = HTTPConnection(page.host, timeout=60)
+    connection.request("GET", path)
+    with connection.getresponse() as answer:
+        found = json.loads(answer.read())
+    connection.close()
+    return found
 
 
 def get(
@@ -106,3 +117,32 @@ def test_a_token_comes_once_in_the_address_and_then_in_a_cookie(guarded: Page) -
 def test_without_the_token_there_is_no_socket(guarded: Page) -> None:
     with pytest.raises(InvalidStatus):
         guarded.connect()
+
+
+# --- looking inside ------------------------------------------------------------------
+
+
+def test_a_turn_has_an_inside_with_what_changed_marked(page: Page) -> None:
+    with page.connect() as browser:
+        turn = browser.say("Is <b>this</b> a cup & more?")
+        turn = browser.say("Hello.")
+    first, last = turn["turns"]
+    found = fetch_json(page, f"/inside/{first}/{last}")
+    assert ["rule", "hear"] in [[kind, text[:4]] for kind, text in found["lines"]]
+    assert [it["name"] for it in found["state"]] == ["shared", "view", "private"]
+    shared = {it["name"]: it for it in found["state"][0]["fields"]}
+    assert shared["latest"]["changed"]
+    assert "ttr-changed" in shared["latest"]["html"]
+    assert not shared["frame"]["changed"]
+    inside = "".join(it["html"] for part in found["state"] for it in part["fields"])
+    assert "<script" not in inside
+    assert "style=" not in inside
+
+
+@pytest.mark.parametrize("path", ["0/0", "5/2", "0/99", "999/1000", "-1/1", "a/b"])
+def test_a_turn_that_was_not_taken_has_none(page: Page, path: str) -> None:
+    assert get(page, f"/inside/{path}").status == 404
+
+
+def test_the_inside_is_behind_the_token(guarded: Page) -> None:
+    assert get(guarded, "/inside/0/1").status == 403

@@ -1,0 +1,142 @@
+// The lab: what each turn did to the information state, chosen on a timeline.
+
+import { byId, el } from "./dom.js";
+import { t } from "./texts.js";
+
+export class Lab {
+  /** `light(number, on)` shows a thing in the picture. */
+  constructor(light) {
+    this.turns = [];
+    this.shown = -1;
+    this.folded = new Map();
+    this.toggle = byId("lab-toggle");
+    this.timeline = byId("timeline");
+    for (const it of ["pointerover", "pointerout"])
+      byId("lab-body").addEventListener(it, (event) => this.point(event, light));
+    this.toggle.addEventListener("click", () => this.open(byId("lab").hidden));
+    this.timeline.addEventListener("input", () => this.show(Number(this.timeline.value) - 1));
+  }
+
+  /** Have a thing of the picture light up while the pointer is on its name, "o2". */
+  point(event, light) {
+    const text = event.target.childElementCount ? "" : event.target.textContent;
+    const number = /(?:^|\W)o(\d{1,4})$/.exec(text.trim())?.[1];
+    if (number) light(Number(number), event.type === "pointerover");
+  }
+
+  label() {
+    this.toggle.textContent = t("lab");
+    byId("lab").setAttribute("aria-label", t("lab"));
+    this.timeline.setAttribute("aria-label", t("timeline"));
+    this.title();
+  }
+
+  open(on) {
+    byId("lab").hidden = !on;
+    this.toggle.setAttribute("aria-pressed", String(on));
+    document.documentElement.classList.toggle("with-lab", on);
+    if (on) this.show(this.turns.length - 1);
+  }
+
+  clear() {
+    this.turns = [];
+    this.shown = -1;
+    byId("lab-body").replaceChildren();
+    this.title();
+  }
+
+  /** A turn was taken; the lab follows, unless an earlier one is looked at. */
+  add(event) {
+    if (!event.turns || event.turns[0] === event.turns[1]) return;
+    const follows = this.shown === this.turns.length - 1;
+    this.turns.push(event);
+    this.timeline.max = this.turns.length;
+    if (byId("lab").hidden) this.shown = this.turns.length - 1;
+    else if (follows) this.show(this.turns.length - 1);
+  }
+
+  /** Show the turn of which the talk shows this event. */
+  choose(event) {
+    this.open(true);
+    this.show(this.turns.indexOf(event));
+  }
+
+  title() {
+    const turn = this.turns[this.shown];
+    const number = this.shown + 1;
+    const heard = turn ? turn.heard || t("looked") : "";
+    byId("lab-title").textContent = turn ? t("turn", { number, heard }) : t("noTurn");
+  }
+
+  async show(index) {
+    const turn = this.turns[index];
+    this.shown = index;
+    this.timeline.value = index + 1;
+    this.title();
+    if (!turn) return;
+    const answer = await fetch(`/inside/${turn.turns.join("/")}`);
+    if (!answer.ok || this.shown !== index) return;
+    const { lines, state } = await answer.json();
+    if (this.shown !== index) return;
+    byId("lab-body").replaceChildren(this.account(lines), ...state.map((part) => this.part(part)));
+  }
+
+  /** The derivation: what was heard, each rule with its changes, what was judged and said. */
+  account(lines) {
+    const made = el("section", { class: "part" }, el("h3", {}, t("derivation")));
+    let changes = null;
+    for (const [kind, text] of lines) {
+      if (kind === "rule") {
+        changes = el("ul", { class: "step__changes" });
+        made.append(this.step(text, changes));
+      } else if (kind === "" && changes) changes.append(el("li", {}, brief(text)));
+      else made.append(el("p", { class: "line" }, el("span", { class: "line__kind" }, kind), brief(text)));
+    }
+    return made;
+  }
+
+  /** A rule that fired: its name, what it is for, and on demand what it changed. */
+  step(text, changes) {
+    const [name, ...does] = text.split(": ");
+    return el(
+      "details",
+      { class: "step" },
+      el("summary", {}, el("b", {}, name), ` ${does.join(": ")}`),
+      changes,
+    );
+  }
+
+  part({ name, fields }) {
+    const full = fields.filter((it) => !it.empty || it.changed);
+    const empty = fields.filter((it) => it.empty && !it.changed).map((it) => it.name);
+    return el(
+      "section",
+      { class: "part" },
+      el("h3", {}, t(name)),
+      ...full.map((field) => this.field(name, field)),
+      empty.length ? el("p", { class: "part__empty" }, t("empties", { names: empty.join(", ") })) : null,
+    );
+  }
+
+  /** A field as a matrix that folds; what has changed is open, unless it was folded. */
+  field(part, { name, changed, html }) {
+    const key = `${part}.${name}`;
+    const made = el(
+      "details",
+      { class: `field${changed ? " field--changed" : ""}`, open: this.folded.get(key) ?? changed },
+      el("summary", {}, name, changed ? el("span", { class: "field__mark" }, t("changed")) : null),
+      matrix(html),
+    );
+    made.querySelector("summary").addEventListener("click", () => this.folded.set(key, !made.open));
+    return made;
+  }
+}
+
+/** A text with its long numbers rounded. */
+const brief = (text) => text.replace(/\d+\.\d{4,}/g, (number) => String(Number(Number(number).toFixed(3))));
+
+/** What the robot's library has drawn, which has no script and escapes every word. */
+function matrix(html) {
+  const parsed = new DOMParser().parseFromString(html, "text/html");
+  return document.adoptNode(parsed.body.firstElementChild);
+}

@@ -1,0 +1,69 @@
+"""What a turn did to the information state, for who wants to look inside.
+
+Nothing of it is worked out before somebody asks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from kille.agent.exchanges import Exchange
+from ttr import Record, record
+from ttr.display.differences import layout_of_changes
+from ttr.display.html import STYLE, part_of_page
+from ttr.safety.budgets import within_budget
+from ttr.types.interning import identity
+from ttr.types.objects import Object
+
+Json = dict[str, Any]
+
+MATRIX_STYLE = STYLE
+"""The style of the matrices, as a file of its own: the page has no style inline."""
+
+PARTS = ("shared", "view", "private")
+
+
+class Insight(NamedTuple):
+    """How turns are told to people: their derivations, and values in short."""
+
+    derive: Callable[[Exchange], Iterable[tuple[str, str]]] = lambda _: ()
+    """The derivation of a turn: pairs of what a line is about, and its text."""
+    shorten: Callable[[Object], Object] = lambda value: value
+
+
+PLAIN = Insight()
+
+
+@within_budget
+def inside_report(turns: Sequence[Exchange], insight: Insight) -> Json:
+    """The derivation of a turn, and the state after it with what has changed marked.
+
+    `state` has a matrix for each field of the state's parts, as HTML.
+    """
+    steps = [step for turn in turns for step in turn.steps]
+    lines = [line for turn in turns for line in insight.derive(turn)]
+    state: list[Json] = []
+    if steps:
+        before, after = (
+            insight.shorten(steps[0].before),
+            insight.shorten(steps[-1].after),
+        )
+        if isinstance(before, Record) and isinstance(after, Record):
+            state = [_part(name, before[name], after[name]) for name in PARTS]
+    return {"lines": lines, "state": state}
+
+
+def _part(name: str, before: Record, after: Record) -> Json:
+    return {"name": name, "fields": [*_fields(before, after)]}
+
+
+def _fields(before: Record, after: Record) -> Iterator[Json]:
+    for label in after:
+        changes = layout_of_changes(before[label], after[label])
+        yield {
+            "name": label,
+            "changed": identity(before[label]) != identity(after[label]),
+            "empty": after[label] in ((), record(), ""),
+            "html": part_of_page(changes),
+        }
