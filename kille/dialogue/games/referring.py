@@ -263,7 +263,7 @@ def _by_distance(
     """
     left = readings
     for label in PARTS:
-        if label in left[0].open and _is_shown(left[0], label):
+        if label in left[0].things and _is_shown(left[0], label):
             things = [it.things[label] for it in left]
             near = _nearer(s, phrase_at(left[0].open, label), things, types=types)
             left = [it for it in left if it.things[label] in near] or left
@@ -343,7 +343,8 @@ def _unfitting_phrases(
 ) -> Iterator[RecordType]:
     """What is asked for by the phrases that fit nothing in view by themselves."""
     for label in phrases(content):
-        alone = rectype(look=content["look"], target=content[label])
+        look = content.get("look") or types["Look"]
+        alone = rectype(look=look, target=content[label])
         if not fitting_readings(s, possible_readings(s, model, alone, types=types)):
             yield alone
 

@@ -23,6 +23,8 @@ class Word(NamedTuple):
     is_harmless: bool
     joins: bool = False
     """Whether it joins clauses: it may be left out, but not from within an island."""
+    phrase: int = 1
+    """How many words the harmless phrase has in which it stands: "no problem"."""
 
 
 def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
@@ -41,7 +43,7 @@ def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
     found = [(it.start(), it.end(), it[0]) for it in _WORD.finditer(text)]
     forms = [it.lower().replace("’", "'").replace("´", "'") for _, _, it in found]
     runs = list(lists.harmless_runs(forms))
-    harmless = {at for run in runs for at in run}
+    harmless = {at: len(run) for run in runs for at in run}
     breaks = {
         at
         for at in range(1, len(found))
@@ -55,7 +57,8 @@ def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
     for at, ((begin, end, _), form) in enumerate(zip(found, forms, strict=True)):
         joins = form in lists.joining
         clause += at > 0 and (joins or at in breaks)
-        words.append(Word(begin, end, form, clause, joins or at in harmless, joins))
+        is_harmless, phrase = joins or at in harmless, harmless.get(at, 1)
+        words.append(Word(begin, end, form, clause, is_harmless, joins, phrase))
     return tuple(words)
 
 

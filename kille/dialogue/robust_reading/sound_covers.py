@@ -212,6 +212,8 @@ def _may_answer_stand(place: _Place, situation: Situation) -> bool | None:
         return place.begins
     if place.other_claims or is_question:
         return False
+    if any(it.phrase > len(place.inside) for it in place.inside):
+        return False  # "No problem."
     if is_no and any(it.rule == "okay" for it in place.cover.islands):
         return False
     if place.cover.missed:

@@ -11,6 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.meanings import record_type
+from kille.lab.robots.simulated import SimulatedRobot
+from kille.lab.scenes.occasions import Occasion
 from kille.lab.tutors.exploring import NONSENSE, exploring_tutor
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING
@@ -169,6 +171,22 @@ def test_whatever_is_said_there_is_an_answer_and_a_state(texts, language):
             assert not move.sit.teaches or "text" in str(turn.heard)
     now = dialogue.now
     assert now.model.judge(now.state, record_type("State")).holds
+
+
+FOUND_BY_CHANCE = [
+    ["This is a cup.", "Forget that.", "Is the cup between the book and the box?"],
+    [*["Why?"] * 7, "Is it bigger?", "And the red one?"],
+]
+"""Dialogues in which a rule once failed, found by `benchmarks/sentences.py`."""
+
+
+@pytest.mark.parametrize("texts", FOUND_BY_CHANCE)
+def test_dialogues_that_once_failed(texts):
+    world = draw_world(1)
+    robot = SimulatedRobot(simulated_game(world))
+    for seen in (world.point_at(world.in_view[0]), world):
+        robot.see(Occasion("noun", seen, 1))
+    assert all(robot.hear(text).text for text in texts)
 
 
 @pytest.mark.parametrize("text", ["cup " * 2500, "?" * 10_000, "\U0001f600" * 10_000])

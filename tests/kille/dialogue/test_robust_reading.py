@@ -116,6 +116,30 @@ def test_what_teaches_by_a_part_is_asked_about(text: str, claims: str) -> None:
     assert claims in moves_of(found.moves)
 
 
+@pytest.mark.parametrize(
+    ("language", "text"),
+    [
+        ("en", "No problem."),
+        ("en", "No worries!"),
+        ("en", "No rush."),
+        ("en", "No kidding."),
+        ("sv", "Ingen orsak."),
+        ("sv", "Ingen fara."),
+        ("sv", "Inga problem."),
+    ],
+)
+def test_a_no_of_an_idiom_denies_nothing(language: str, text: str) -> None:
+    """Where the robot has claimed something, such a no would teach it the opposite."""
+    claimed = Situation(things=1, asks_whether=True, known=KNOWN[language])
+    for move in hear_in_parts(understand(text, language), claimed, language).moves:
+        assert move_of(move).partition(" ")[0] in (
+            "okay",
+            "remark",
+            "correct!",
+            "reject!",
+        )
+
+
 FRAMES = ["no one says {}", "it is never {}", "if {}", "I wish {}", "as if {}"]
 
 
