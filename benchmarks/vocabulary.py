@@ -45,6 +45,7 @@ VIEWS = 10  # of each word
 FEATURES = 100  # of a thing, of which each view has half
 NOISE = 12  # of each number of a descriptor, which are bytes
 TRAIT_NOISE = 0.05  # of the length of a vector
+AT_ONCE = 500  # lessons that are written in one transaction
 LESSONS = 7  # that are followed by a question
 FIRST, START = 150.0, 3_000.0
 """Milliseconds: the first question after a lesson; a start with the largest memory."""
@@ -225,14 +226,20 @@ def measure_start(found: Result, views: list[View], clock: Clock) -> Result:
 
 
 def write(path: Path, views: list[View]) -> None:
-    with Memory.open(path) as memory, memory.together():
+    with Memory.open(path) as memory:
         dialogue = memory.begin_dialogue("2026-01-31T12:00:00")
-        for view in views:
-            turn = Turn(dialogue, int(view.key), "tutor", "This is it.", "", "")
-            points = np.zeros((len(view.descriptors), 3), np.float32)
-            scan = Scan(view.descriptors, points)
-            sighting = Sighting("synthetic", 0.0, (scan,), None, view.traits)
-            memory.learn_object(turn, view.label, view.label, sighting)
+        for start in range(0, len(views), AT_ONCE):
+            with memory.together():
+                for view in views[start : start + AT_ONCE]:
+                    keep(memory, dialogue, view)
+
+
+def keep(memory: Memory, dialogue: int, view: View) -> None:
+    turn = Turn(dialogue, int(view.key), "tutor", "This is it.", "", "")
+    points = np.zeros((len(view.descriptors), 3), np.float32)
+    scan = Scan(view.descriptors, points)
+    sighting = Sighting("synthetic", 0.0, (scan,), None, view.traits)
+    memory.learn_object(turn, view.label, view.label, sighting)
 
 
 def main() -> None:

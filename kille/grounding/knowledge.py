@@ -471,8 +471,9 @@ def _views(memory: Memory, denied: list[View]) -> Iterator[View]:
 
 
 def _view(memory: Memory, lesson: ObjectLesson) -> View:
-    descriptors = np.concatenate(
-        [NONE.descriptors, *(it.descriptors for it in lesson.seen.scans)]
+    blocks = [it.descriptors for it in lesson.seen.scans]
+    descriptors = (
+        blocks[0] if len(blocks) == 1 else np.concatenate([NONE.descriptors, *blocks])
     )
     traits = _up_to_date(memory, lesson)
     return View(lesson.key, lesson.word.name, descriptors, traits)
@@ -480,8 +481,9 @@ def _view(memory: Memory, lesson: ObjectLesson) -> View:
 
 def _up_to_date(memory: Memory, lesson: ObjectLesson) -> Traits:
     """The traits of a lesson, measured again if a cue has changed since."""
-    kept = _of_cues(lesson.seen.traits)
-    if kept and len(kept) == len(lesson.seen.traits.keys() - {PALETTE}):
+    traits = lesson.seen.traits
+    kept = _of_cues(traits)
+    if kept and len(kept) == len(traits) - (PALETTE in traits):
         return kept
     picture = memory.picture(lesson.key)
     if picture is None or picture.crop is None:
