@@ -167,7 +167,8 @@ def _plan_unknown_word(s: Record, *, types: DialogueTypes) -> Record | None:
 def claim_in_question(s: Record) -> RecordType | None:
     """The claim that a question is about: the one in it, or what was claimed last.
 
-    What has just been confirmed, corrected, taught or explained is a claim too.
+    What has just been confirmed, corrected, taught or explained is a claim too, and so
+    is what it has just said to be sure of, or not.
     """
     asked = content_of(s)
     if kind_of(asked) is not None:
@@ -175,13 +176,18 @@ def claim_in_question(s: Record) -> RecordType | None:
     if s.shared.pending:
         claimed: RecordType = s.shared.pending[0]
         return claimed
-    told = [
+    told: list[RecordType] = [
         it
         for move in s.private.last
         for label in ("teaches", "explains")
         for it in values_at(move, label)
     ]
-    return told[-1] if told else _claim_of_criterion(s)
+    judged: list[RecordType] = [
+        value_at(move, "content")
+        for move in s.private.last
+        if predicate_at(move, "e").name == "tell_certainty"
+    ]
+    return [_claim_of_criterion(s), *(told or judged)][-1]
 
 
 def _claim_of_criterion(s: Record) -> RecordType | None:

@@ -108,6 +108,13 @@ def test_it_is_as_sure_of_what_it_was_told_as_it_has_said(table: Any) -> None:
     assert table.hear("How sure are you?") == "I am very sure (1.00)."
 
 
+def test_why_it_is_sure_of_what_it_has_just_learned(table: Any) -> None:
+    table.hear("This is a cup.")
+    assert table.acts("Are you sure?") == ["tell_certainty"]
+    assert table.acts("Why?") == ["explain_name"]
+    assert table.acts("Are you sure?") == ["tell_certainty"]
+
+
 def test_what_was_claimed_may_still_be_confirmed(table: Any) -> None:
     table.hear("What is this?")
     table.hear("How sure are you?")
