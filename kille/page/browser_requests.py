@@ -52,6 +52,8 @@ class BrowserRequest(NamedTuple):
     """Lets it happen to the robot; returns what that then says."""
     pointed: dict[str, Any] | None = None
     """What it points at, if it does."""
+    restarts: bool = False
+    """Whether a new dialogue begins."""
     arranges: bool = False
     """Whether it changes the scene: that it cannot is the tutor's concern alone."""
 
@@ -97,7 +99,7 @@ def _read(message: dict[str, Any], ref: str) -> BrowserRequest:
         case "look":
             return BrowserRequest(ref, "", lambda robot: robot.look())
         case "restart":
-            return BrowserRequest(ref, "", _restart)
+            return BrowserRequest(ref, "", _restart, restarts=True)
         case "show" | "remove" as verb:
             return _change(ref, str(verb), _name(message), "")
         case "place":

@@ -23,6 +23,9 @@ RATE = 30.0
 QUALITY = 80
 """Of JPEG, in percent."""
 
+_REST = 0.1
+"""Seconds between two looks for somebody who watches."""
+
 _RETRY = 1.0
 """Seconds after which a camera that failed is read again."""
 
@@ -51,7 +54,7 @@ class LivePicture:
         self._tell = tell
         self._changed = Condition()
         self._newest: Frame | None = None
-        self._read_at = 0.0
+        self._due = 0.0  # when a frame is read that nobody asked for
         self._watchers: list[Callable[[], object]] = []
         self._picture: Picture | None = None
         self._colour: Colour | None = None
@@ -77,7 +80,7 @@ class LivePicture:
     def show(self, frame: Frame) -> None:
         """Take a frame to be shown, in no time: another thread encodes it."""
         with self._changed:
-            self._newest, self._read_at = frame, monotonic()
+            self._newest, self._due = frame, monotonic() + 1 / RATE
             self._changed.notify()
 
     def watch(self, wake: Callable[[], object]) -> Callable[[], None]:
@@ -101,22 +104,32 @@ class LivePicture:
             self._thread.join(_RETRY)
 
     def _go_on(self) -> None:
-        wait = 1 / RATE
         while True:
             with self._changed:
                 watched = self._changed.wait_for(
                     lambda: self._closed or (self._watchers and self._newest),
-                    timeout=wait,
+                    timeout=self._pause(),
                 )
                 if self._closed:
                     return
                 frame, self._newest = (self._newest, None) if watched else (None, None)
-                is_idle = monotonic() - self._read_at >= 1 / RATE
-                sensor = self._sensor if self._watchers else None
+                due, is_due = self._due, self._runs and monotonic() >= self._due
             if frame is not None:
                 self._encode(frame)
-            elif is_idle and sensor is not None and sensor.runs_by_itself:
-                wait = self._read(sensor)
+            if is_due and self._sensor is not None:
+                wait = self._read(self._sensor)
+                with self._changed:
+                    self._due = max(due + wait, monotonic())
+
+    @property
+    def _runs(self) -> bool:
+        """Whether frames are read that nobody but a browser asks for."""
+        sensor = self._sensor
+        return bool(self._watchers) and sensor is not None and sensor.runs_by_itself
+
+    def _pause(self) -> float:
+        """Seconds until such a frame is due, or until somebody may watch."""
+        return max(0.0, self._due - monotonic()) if self._runs else _REST
 
     def _read(self, sensor: SharedSensor) -> float:
         """Read a frame that nobody asked for; returns how long to wait for the next."""

@@ -118,6 +118,8 @@ class RobotThread:
         if request.pointed is not None:
             self._publish("pointed", request, **request.pointed)
             return
+        if request.restarts:
+            self._publish("restarted", request)
         report = turn_report(robot, robot.exchanges[turns:])
         taken = [turns, len(robot.exchanges)]
         self._publish("turn", request, ms=took, turns=taken, **report)

@@ -85,6 +85,7 @@ def serve_page(
             )
             failing.pop_all()
         closing.callback(robot.close)
+        closing.callback(picture.close)  # before the sensor that it reads
         robot.ask(parse_request({"do": "look"}))
         terminal.ready(robot.robot)
         app = page_app(

@@ -40,6 +40,10 @@ const connection = new Connection({
     meant = event.said ? event.thing : null;
     count("words", event.words);
   },
+  restarted: () => {
+    talk.endLatest();
+    talk.notice(t("anew"));
+  },
   failed: (event) => {
     confirm(event.ref);
     talk.failed(event);
@@ -110,10 +114,7 @@ function label(spoken) {
   byId("tools").replaceChildren(
     tool("look", () => connection.ask({ do: "look" })),
     tool("region", () => region.beginByKeys()),
-    tool("restart", () => {
-      talk.notice(t("anew"));
-      connection.ask({ do: "restart" });
-    }),
+    tool("restart", () => connection.ask({ do: "restart" })),
     el("span", { class: "tools__hint" }, t("hint")),
   );
 }

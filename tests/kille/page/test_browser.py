@@ -250,7 +250,7 @@ def test_every_thing_and_control_has_a_name_and_a_phone_has_room(
         named = tab.get_by_role("button").all()
         labels = [it.get_attribute("aria-label") or it.inner_text() for it in named]
         assert all(labels)
-        assert labels[:3] == [f"#{n}, inget ord för den än" for n in (1, 2, 3)]
+        assert {f"#{n}, inget ord för den än" for n in (1, 2, 3)} <= {*labels}
         assert tab.locator("html").get_attribute("lang") == "sv"
         wide = tab.locator("body").bounding_box()
         assert wide["width"] == 390

@@ -161,6 +161,15 @@ def test_who_does_not_look_is_sent_no_pictures(page: Page) -> None:
         assert len(browser.pictures) == so_far
 
 
+def test_a_new_dialogue_is_told_to_all(page: Page) -> None:
+    with page.connect() as one, page.connect() as other:
+        one.say("Hello.")
+        other.ask(do="restart", ref="anew")
+        one.until("restarted", ref="anew")
+        one.until("view", ref="anew")
+        assert one.say("What did you say?")["said"]
+
+
 @pytest.mark.parametrize("words", HOSTILE, ids=range(len(HOSTILE)))
 def test_hostile_words_are_words(page: Page, words: str) -> None:
     with page.connect() as browser:
