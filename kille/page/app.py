@@ -32,7 +32,7 @@ from kille.page.browser_requests import (
 )
 from kille.page.feed import Event, Feed
 from kille.page.inside import MATRIX_STYLE
-from kille.page.live_picture import LivePicture
+from kille.page.live_picture import LivePicture, Watcher
 from kille.page.robot_thread import BusyError
 from ttr import TTRError
 
@@ -159,23 +159,24 @@ class _Connection:
             "last": self._feed.last,
         }
         await self._socket.send_text(json.dumps(greeting))
-        unwatch = self._picture.watch(self._rouse)
+        watcher = Watcher(self._rouse, self._can_take_picture)
         self._wake.set()
-        try:
-            with self._feed.listener(self._rouse):
-                sending = asyncio.create_task(self._send())
-                receiving = asyncio.create_task(self._receive())
-                done, left = await asyncio.wait(
-                    (sending, receiving), return_when=asyncio.FIRST_COMPLETED
-                )
-                for task in left:
-                    task.cancel()
-                await asyncio.gather(*left, return_exceptions=True)
-                for task in done:
-                    with suppress(WebSocketDisconnect, RuntimeError):
-                        task.result()
-        finally:
-            unwatch()
+        with self._feed.listener(self._rouse), self._picture.watched_by(watcher):
+            sending = asyncio.create_task(self._send())
+            receiving = asyncio.create_task(self._receive())
+            done, left = await asyncio.wait(
+                (sending, receiving), return_when=asyncio.FIRST_COMPLETED
+            )
+            for task in left:
+                task.cancel()
+            await asyncio.gather(*left, return_exceptions=True)
+            for task in done:
+                with suppress(WebSocketDisconnect, RuntimeError):
+                    task.result()
+
+    def _can_take_picture(self) -> bool:
+        """Whether the browser looks, and has drawn the pictures that it was sent."""
+        return self._looks and self._pictures - self._shown < UNDER_WAY
 
     def _rouse(self) -> None:
         """Wake the sender, from any thread."""
@@ -197,9 +198,9 @@ class _Connection:
     async def _send_picture(self) -> None:
         """Send the newest picture, if the browser has drawn those before it."""
         newest = self._picture.newest
-        if newest is None or newest.number == self._sent or not self._looks:
+        if newest is None or newest.number == self._sent:
             return
-        if self._pictures - self._shown >= UNDER_WAY:
+        if not self._can_take_picture():
             return
         self._sent = newest.number
         self._pictures += 1
@@ -214,8 +215,10 @@ class _Connection:
                 match message.get("do"):
                     case "shown":
                         self._shown = min(self._shown + 1, self._pictures)
+                        self._picture.go_on()
                     case "watch":
                         self._looks = message.get("on") is not False
+                        self._picture.go_on()
                     case _:
                         self._ask(parse_request(message))
             except (RequestError, BusyError) as error:

@@ -7,7 +7,8 @@ the newest frame is kept, as a JPEG, and none is made where nobody looks.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from threading import Condition, Lock, Thread
 from time import monotonic
 from typing import NamedTuple
@@ -36,6 +37,13 @@ A recording is read by the robot alone, so that no part of it goes by unseen.
 """
 
 
+class Watcher(NamedTuple):
+    """Somebody who watches: what wakes them, and whether they can take a picture."""
+
+    wake: Callable[[], object]
+    can_take: Callable[[], bool] = lambda: True
+
+
 class Picture(NamedTuple):
     """The newest picture, and how many there were: its number."""
 
@@ -55,7 +63,7 @@ class LivePicture:
         self._changed = Condition()
         self._newest: Frame | None = None
         self._due = 0.0  # when a frame is read that nobody asked for
-        self._watchers: list[Callable[[], object]] = []
+        self._watchers: list[Watcher] = []
         self._picture: Picture | None = None
         self._colour: Colour | None = None
         self._sensor: SharedSensor | None = None
@@ -83,17 +91,22 @@ class LivePicture:
             self._newest, self._due = frame, monotonic() + 1 / RATE
             self._changed.notify()
 
-    def watch(self, wake: Callable[[], object]) -> Callable[[], None]:
-        """Have `wake` called for each new picture; returns what ends that."""
+    @contextmanager
+    def watched_by(self, watcher: Watcher) -> Iterator[None]:
+        """Have somebody woken for each new picture."""
         with self._changed:
-            self._watchers.append(wake)
+            self._watchers.append(watcher)
             self._changed.notify()
-
-        def end() -> None:
+        try:
+            yield
+        finally:
             with self._changed:
-                self._watchers.remove(wake)
+                self._watchers.remove(watcher)
 
-        return end
+    def go_on(self) -> None:
+        """Somebody who watches can take a picture again."""
+        with self._changed:
+            self._changed.notify()
 
     def close(self) -> None:
         """Show no more."""
@@ -106,13 +119,13 @@ class LivePicture:
     def _go_on(self) -> None:
         while True:
             with self._changed:
-                watched = self._changed.wait_for(
-                    lambda: self._closed or (self._watchers and self._newest),
-                    timeout=self._pause(),
-                )
+                if self._newest is None or not self._is_wanted:
+                    self._changed.wait(self._pause())
                 if self._closed:
                     return
-                frame, self._newest = (self._newest, None) if watched else (None, None)
+                frame = None
+                if self._is_wanted:
+                    frame, self._newest = self._newest, None
                 due, is_due = self._due, self._runs and monotonic() >= self._due
             if frame is not None:
                 self._encode(frame)
@@ -122,10 +135,15 @@ class LivePicture:
                     self._due = max(due + wait, monotonic())
 
     @property
+    def _is_wanted(self) -> bool:
+        """Whether anybody who watches can take a picture."""
+        return any(it.can_take() for it in self._watchers)
+
+    @property
     def _runs(self) -> bool:
         """Whether frames are read that nobody but a browser asks for."""
         sensor = self._sensor
-        return bool(self._watchers) and sensor is not None and sensor.runs_by_itself
+        return sensor is not None and sensor.runs_by_itself and self._is_wanted
 
     def _pause(self) -> float:
         """Seconds until such a frame is due, or until somebody may watch."""
@@ -156,8 +174,8 @@ class LivePicture:
         self._picture = Picture(number, encode_jpeg(frame.colour))
         with self._changed:
             watchers = tuple(self._watchers)
-        for wake in watchers:
-            wake()
+        for it in watchers:
+            it.wake()
 
 
 class SharedSensor:

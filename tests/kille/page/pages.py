@@ -57,6 +57,7 @@ class Browser:
         self.socket, self.close = socket, close
         self.events: list[dict[str, Any]] = []
         self.pictures: list[bytes] = []
+        self.draws = False
 
     @classmethod
     def connect(
@@ -89,6 +90,8 @@ class Browser:
                 self.events.append(event)
                 return event
             self.pictures.append(message)
+            if self.draws:
+                self.ask(do="shown")
 
     def until(self, kind: str, **about: Any) -> dict[str, Any]:
         """The next event of a kind about which this is so."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Iterator
+from pathlib import Path
 from threading import Event
 
 import cv2
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosed
 
+from kille.interfaces.cli import main
 from kille.page.app import BROWSERS, UNDER_WAY
 from kille.page.browser_requests import MESSAGE, parse_request
 from kille.page.robot_thread import WAITING, BusyError
@@ -278,6 +280,7 @@ def test_a_camera_that_goes_is_told_and_so_is_its_return(
 ) -> None:
     sensor, page = camera
     with page.connect() as browser:
+        browser.draws = True
         browser.ask(do="look", ref="before")
         browser.until("view", ref="before")
         sensor.gone = True
@@ -288,3 +291,13 @@ def test_a_camera_that_goes_is_told_and_so_is_its_return(
         sensor.gone = False
         assert browser.until("camera")["text"] == ""
         assert browser.say("What is this?")["said"]
+
+
+def test_who_comes_after_the_look_sees_what_a_recording_showed(tmp_path: Path) -> None:
+    assert main(["record", str(tmp_path / "lesson"), "--frames", "12"]) == 0
+    with page_of(open_sensor(str(tmp_path / "lesson"))) as page:
+        page.robot.ask(parse_request({"do": "look", "ref": "first"}))
+        with page.connect(after=0) as browser:
+            browser.until("view", ref="first")
+            while not browser.pictures:
+                browser.pictures.append(browser.socket.recv(timeout=60))

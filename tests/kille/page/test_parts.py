@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from kille.dialogue.language import understand
 from kille.page.browser_requests import RequestError, parse_message, parse_request
 from kille.page.feed import Feed
-from kille.page.live_picture import LivePicture
+from kille.page.live_picture import LivePicture, Watcher
 from kille.page.phrases import PHRASES, phrases
 from kille.perception.outlines import polygon_of
 from kille.sensors.sensor import Stage
@@ -102,12 +102,24 @@ def test_a_picture_is_made_only_for_who_watches() -> None:
     sensor = picture.share(open_sensor("synthetic:empty?seed=7"))
     sensor.frame()
     assert picture.newest is None
-    with_wake = picture.watch(lambda: woken.append(1))
-    while len(woken) < 3:
-        pass
-    with_wake()
+    with picture.watched_by(Watcher(lambda: woken.append(1))):
+        while len(woken) < 3:
+            sensor.frame()
     assert picture.newest is not None
     assert picture.newest.jpeg.startswith(b"\xff\xd8")
+    picture.close()
+    sensor.close()
+
+
+def test_no_picture_is_made_for_who_cannot_take_one() -> None:
+    picture, woken, frames = LivePicture(), [], []
+    inner = open_sensor("synthetic:empty?seed=7")
+    sensor = picture.share(inner)
+    full = Watcher(lambda: woken.append(1), lambda: len(woken) < 2)
+    with picture.watched_by(full):
+        for _ in range(50):
+            frames.append(sensor.frame())
+    assert len(woken) <= 2
     picture.close()
     sensor.close()
 
