@@ -55,7 +55,7 @@ class Server(NamedTuple):
 
 
 @contextmanager
-def serving() -> Iterator[Server]:
+def running_server() -> Iterator[Server]:
     with TemporaryDirectory() as folder:
         words = ["--sensor", SENSOR, "--memory", str(Path(folder, "memory.db"))]
         began = time.perf_counter()
@@ -92,16 +92,16 @@ def open_tab(browser: Any, server: Server) -> Any:
     return tab
 
 
-def drawn(tab: Any) -> int:
+def count_drawn(tab: Any) -> int:
     return int(tab.locator("#picture").get_attribute("data-pictures") or 0)
 
 
 def frame_rate(tab: Any, server: Server, seconds: float) -> tuple[float, float]:
     """The frames that are drawn in a second, and what of a core the server takes."""
-    count, cpu, began = drawn(tab), server.cpu(), time.perf_counter()
+    count, cpu, began = count_drawn(tab), server.cpu(), time.perf_counter()
     tab.wait_for_timeout(seconds * 1000)
     took = time.perf_counter() - began
-    return (drawn(tab) - count) / took, (server.cpu() - cpu) / took
+    return (count_drawn(tab) - count) / took, (server.cpu() - cpu) / took
 
 
 def milliseconds(tab: Any, act: str, done: str) -> float:
@@ -201,7 +201,7 @@ def main() -> None:
     from playwright.sync_api import sync_playwright
 
     camera = camera_share(options.seconds)
-    with serving() as server, sync_playwright() as driver:
+    with running_server() as server, sync_playwright() as driver:
         browser = driver.chromium.launch(
             executable_path=chromium, args=["--no-sandbox"]
         )

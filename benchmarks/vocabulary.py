@@ -76,7 +76,7 @@ def noise(
 
 
 @cache
-def seen() -> tuple[tuple[Region, Traits, Features], ...]:
+def rendered_things() -> tuple[tuple[Region, Traits, Features], ...]:
     """The ten things of the simulated table: where they are, cues, features."""
     stage = open_sensor("synthetic:empty?seed=3")
     assert isinstance(stage, Stage)
@@ -92,10 +92,13 @@ def seen() -> tuple[tuple[Region, Traits, Features], ...]:
 def invent_thing(word: str, chance: np.random.Generator) -> Thing:
     """A thing like no other: a mixture of two others in each cue."""
     traits = {}
-    for cue in seen()[0][1]:
-        one, other = (seen()[chance.integers(len(seen()))][1][cue] for _ in range(2))
+    for cue in rendered_things()[0][1]:
+        one, other = (
+            rendered_things()[chance.integers(len(rendered_things()))][1][cue]
+            for _ in range(2)
+        )
         traits[cue] = (one + (other - one) * np.float32(chance.random())).astype("f4")
-    rows = np.concatenate([scan.descriptors for _, _, scan in seen()])
+    rows = np.concatenate([scan.descriptors for _, _, scan in rendered_things()])
     return Thing(word, traits, rows[chance.integers(0, len(rows), FEATURES)])
 
 
@@ -103,7 +106,7 @@ def percept_of(view: View) -> Percept:
     """What is seen in a view: one scan."""
     nowhere = np.zeros((len(view.descriptors), 3), np.float32)
     scan = Features(view.descriptors, nowhere[:, :2], nowhere)
-    return Percept(seen()[0][0], (scan,), lambda: view.traits, None)
+    return Percept(rendered_things()[0][0], (scan,), lambda: view.traits, None)
 
 
 @dataclass(frozen=True)

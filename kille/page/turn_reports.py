@@ -26,7 +26,7 @@ YES_OR_NO = frozenset(
     {
         "AskBoth", "AskEvery", "AskForget", "AskForgetAll", "AskHeardOne", "AskHow",
         "AskKind", "AskKindStill", "AskMeant", "AskMeantToo", "AskNewName", "AskOnly",
-        "OfferWord",
+        "AskSwapped", "OfferWord",
     }
 )  # fmt: skip
 """The questions of the robot's that yes and no answer."""

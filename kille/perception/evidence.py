@@ -61,7 +61,7 @@ class Weighing:
     kernels: Mapping[str, Kernel]
     usual: float = 0.0
 
-    def calibrated(self, found: LeftOut | None) -> Weighing:
+    def calibrate_by(self, found: LeftOut | None) -> Weighing:
         """The weighing of a memory whose lessons say this of each other."""
         if found is None or not self.score:
             return self

@@ -56,7 +56,7 @@ def guess(frame: Frame) -> Mask:
     if min(small.shape[:2]) < 2 * _PATCH:
         return np.ones((height, width), bool)
     near = 1 - _MILD + _MILD * _middle(small.shape)
-    guesses = saliency(small), near * cut_off(small), near * enclosed(small)
+    guesses = saliency(small), near * isolation(small), near * enclosure(small)
     whole = _stretch(np.sum([_stretch(it) for it in guesses], axis=0))
     found = _large(_grab_cut(small, whole))
     if not _LEAST <= found.mean() <= _MOST:
@@ -96,7 +96,7 @@ def saliency(colour: NDArray[np.uint8]) -> Array:
     return salient.astype(np.float32)[labels]
 
 
-def cut_off(colour: NDArray[np.uint8]) -> Array:
+def isolation(colour: NDArray[np.uint8]) -> Array:
     """How often each pixel (h, w) is cut off from the edges of the picture.
 
     Each channel of Lab is cut at many thresholds, and what is above or below and does
@@ -116,7 +116,7 @@ def cut_off(colour: NDArray[np.uint8]) -> Array:
     return often
 
 
-def enclosed(colour: NDArray[np.uint8]) -> Array:
+def enclosure(colour: NDArray[np.uint8]) -> Array:
     """In how many directions each pixel (h, w) has contours before the picture ends.
 
     Two in a direction are as good as many; the directions with the fewest count.

@@ -204,7 +204,7 @@ class ObjectMemory:
         """How evidence is weighed, by what the lessons say of each other."""
         if self._calibrated is None:
             left_out = self._current_examples().left_out()
-            self._calibrated = self._weighing.calibrated(left_out)
+            self._calibrated = self._weighing.calibrate_by(left_out)
         return self._calibrated
 
     def _without_ignored_size(

@@ -389,7 +389,7 @@ def _ask_words(
     found = list(answers(lessons, asked, weighed.kernels))
     for name, by in (
         ("as fitted", weighed),
-        ("calibrated", weighed.calibrated(left_out)),
+        ("calibrated", weighed.calibrate_by(left_out)),
     ):
         said = [
             ObjectAnswer(view.label, _degrees_by(by, it, labels))

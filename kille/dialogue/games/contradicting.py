@@ -87,7 +87,7 @@ def ask_earlier_again(s: Record, *, types: DialogueTypes) -> Record | None:
     if not _asks(s):
         return None
     now, before = s.shared.qud[0].options
-    for then in _remembered(s, before.content):
+    for then in _axioms_saying(s, before.content):
         return plan_earlier_question(_settle(s), now, then, types=types)
     return None
 
@@ -142,7 +142,7 @@ def _words(move: Record) -> Sequence[str]:
     return [it.form for it in move.signs]
 
 
-def _remembered(s: Record, content: RecordType) -> list[Record]:
+def _axioms_saying(s: Record, content: RecordType) -> list[Record]:
     """The kinds and criteria of the state that say this."""
     known = (*s.private.kinds, *s.private.criteria)
     return [it for it in known if it.content == content]
@@ -159,7 +159,7 @@ def _plan_before(s: Record, *, types: DialogueTypes) -> Record:
 def _plan_now(s: Record, *, types: DialogueTypes) -> Record:
     """The plan to learn what is said now, in place of what was taught earlier."""
     now, before = s.shared.qud[0].options
-    keys = [it.key for it in _remembered(s, before.content)]
+    keys = [it.key for it in _axioms_saying(s, before.content)]
     left = _settle(s)
     if LOWER in before.content:
         return plan(

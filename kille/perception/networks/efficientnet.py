@@ -111,7 +111,7 @@ class _Network:
         clipped: bool = True,
     ) -> None:
         """Convolve all channels together, or each by itself."""
-        filters, biases = self._folded(name, norm)
+        filters, biases = self._fold_norm(name, norm)
         self.constants.append(constant(f"{name}.weight", filters))
         self.constants.append(constant(f"{name}.bias", biases))
         self.compute(
@@ -132,7 +132,7 @@ class _Network:
         self.nodes.append(node(operator, inputs, output, **attributes))
         self.last = output
 
-    def _folded(
+    def _fold_norm(
         self, name: str, norm: str
     ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """The weights and biases of a convolution with the normalisation in them."""

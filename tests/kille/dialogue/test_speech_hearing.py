@@ -19,7 +19,7 @@ from kille.dialogue.robust_reading.speech_hearing import (
 from kille.dialogue.robust_reading.text_hearing import hear_in_parts
 
 
-def heard(texts: Hypotheses, language: str = "en") -> tuple[UncertainMove, ...]:
+def hear_moves(texts: Hypotheses, language: str = "en") -> tuple[UncertainMove, ...]:
     return hear_hypotheses_in_parts(texts, Situation(things=1), language).moves
 
 
@@ -58,15 +58,15 @@ ALIKE = [
 def test_hypotheses_are_alternatives_of_one_move(
     language: str, texts: Hypotheses, moves: list[str]
 ) -> None:
-    [move] = heard(texts, language)
+    [move] = hear_moves(texts, language)
     assert acts(move) == moves
     assert list(move.p) == [p for _, p in texts][: len(moves)]
 
 
 def test_the_likeliest_alone_counts_where_it_is_several_moves() -> None:
     texts = [("um this is a cup and where is the book", 0.6), ("well hello", 0.3)]
-    assert [acts(it) for it in heard(texts)] == [["ask_place"], ["instruct"]]
-    assert {it.p for it in heard(texts)} == {(0.6,)}
+    assert [acts(it) for it in hear_moves(texts)] == [["ask_place"], ["instruct"]]
+    assert {it.p for it in hear_moves(texts)} == {(0.6,)}
 
 
 def test_where_nothing_is_understood_the_phrases_of_the_likeliest_are_kept() -> None:
@@ -89,7 +89,7 @@ def test_no_claim_that_was_not_heard_for_sure_is_without_doubt(
 ) -> None:
     text, situation = " ".join(words), Situation(things=1)
     typed = hear_in_parts(understand(text), situation).moves
-    moves = heard([(text, p)])
+    moves = hear_moves([(text, p)])
     assert len(moves) == len(typed)
     for move in moves:
         if p < SURE and acts(move)[0] in CLAIMS:

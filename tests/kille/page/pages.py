@@ -161,7 +161,7 @@ Start = Callable[..., Program]
 
 
 @contextmanager
-def starting(folder: Path) -> Iterator[Start]:
+def page_starter(folder: Path) -> Iterator[Start]:
     """What starts `kille serve` with memories in a folder, and ends it afterwards."""
     started: list[subprocess.Popen[str]] = []
 
@@ -195,5 +195,5 @@ def starting(folder: Path) -> Iterator[Start]:
 @pytest.fixture
 def start(tmp_path: Path) -> Iterator[Start]:
     """Starts `kille serve`, and ends it with the test."""
-    with starting(tmp_path) as begin:
+    with page_starter(tmp_path) as begin:
         yield begin

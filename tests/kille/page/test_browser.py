@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from .pages import Program, Start, starting
+from .pages import Program, Start, page_starter
 
 playwright = pytest.importorskip(
     "playwright.sync_api", reason="Playwright is not installed: kille[browser]"
@@ -50,7 +50,7 @@ def chromium() -> Iterator[Any]:
 @pytest.fixture(scope="module")
 def desk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Program]:
     """A robot before a desk on which a cup, a car and a book lie."""
-    with starting(tmp_path_factory.mktemp("desk")) as begin:
+    with page_starter(tmp_path_factory.mktemp("desk")) as begin:
         yield begin(*DESK)
 
 

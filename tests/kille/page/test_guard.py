@@ -19,7 +19,7 @@ TOKEN = "a-token-of-the-test"
 
 
 @pytest.fixture(scope="module")
-def guarded() -> Iterator[Page]:
+def guarded_page() -> Iterator[Page]:
     """A page that needs a token."""
     access = Access("127.0.0.1", token=TOKEN)
     with page_of(open_sensor("synthetic:empty"), access=access) as made:
@@ -97,26 +97,28 @@ def test_a_page_of_somebody_else_cannot_speak_to_the_robot(
     assert refused.value.response.status_code == 403
 
 
-def test_a_token_comes_once_in_the_address_and_then_in_a_cookie(guarded: Page) -> None:
-    assert get(guarded).status == 403
-    assert get(guarded, "/main.js").status == 403
-    assert get(guarded, "/?token=wrong").status == 403
-    assert get(guarded, "/?token=%00%ff").status == 403
-    answer = get(guarded, f"/?token={TOKEN}")
+def test_a_token_comes_once_in_the_address_and_then_in_a_cookie(
+    guarded_page: Page,
+) -> None:
+    assert get(guarded_page).status == 403
+    assert get(guarded_page, "/main.js").status == 403
+    assert get(guarded_page, "/?token=wrong").status == 403
+    assert get(guarded_page, "/?token=%00%ff").status == 403
+    answer = get(guarded_page, f"/?token={TOKEN}")
     assert (answer.status, answer.headers["Location"]) == (303, "/")
     whole = answer.headers["Set-Cookie"]
     assert "HttpOnly" in whole
     assert "SameSite=Strict" in whole
     cookie = whole.partition(";")[0]
-    assert get(guarded, Cookie=f"other=1; {cookie}").status == 200
-    assert get(guarded, Cookie=f"{cookie}x").status == 403
-    with guarded.connect(additional_headers={"Cookie": cookie}) as browser:
+    assert get(guarded_page, Cookie=f"other=1; {cookie}").status == 200
+    assert get(guarded_page, Cookie=f"{cookie}x").status == 403
+    with guarded_page.connect(additional_headers={"Cookie": cookie}) as browser:
         assert browser.next()["type"] == "hello"
 
 
-def test_without_the_token_there_is_no_socket(guarded: Page) -> None:
+def test_without_the_token_there_is_no_socket(guarded_page: Page) -> None:
     with pytest.raises(InvalidStatus):
-        guarded.connect()
+        guarded_page.connect()
 
 
 # --- looking inside ------------------------------------------------------------------
@@ -144,5 +146,5 @@ def test_a_turn_that_was_not_taken_has_none(page: Page, path: str) -> None:
     assert get(page, f"/inside/{path}").status == 404
 
 
-def test_the_inside_is_behind_the_token(guarded: Page) -> None:
-    assert get(guarded, "/inside/0/1").status == 403
+def test_the_inside_is_behind_the_token(guarded_page: Page) -> None:
+    assert get(guarded_page, "/inside/0/1").status == 403

@@ -118,7 +118,7 @@ def test_one_word_or_one_lesson_of_each_proves_nothing(lessons):
     assert examples(views(2, lessons, "cup")).left_out() is None
     assert examples(views(2, 1, "cup", "mug", "cap")).left_out() is None
     weighed = weighing()
-    assert weighed.calibrated(None) is weighed
+    assert weighed.calibrate_by(None) is weighed
 
 
 def left_out(scores: np.ndarray, columns: list[int]) -> LeftOut:
@@ -126,7 +126,7 @@ def left_out(scores: np.ndarray, columns: list[int]) -> LeftOut:
     return LeftOut(scores, np.zeros_like(scores), every, right, np.ones(len(right)))
 
 
-def drawn(slope: float, shift: float, count: int, seed: int = 0) -> LeftOut:
+def draw_left_out(slope: float, shift: float, count: int, seed: int = 0) -> LeftOut:
     """Lessons whose words are as probable as this calibration says."""
     chance = np.random.default_rng(seed)
     scores = chance.normal(0, 1.5, (count, 3))
@@ -141,7 +141,7 @@ def drawn(slope: float, shift: float, count: int, seed: int = 0) -> LeftOut:
 
 @pytest.mark.parametrize(("slope", "shift"), [(1.0, 0.0), (2.0, -1.0), (0.7, 1.0)])
 def test_many_lessons_give_the_slope_and_shift_that_hold(slope, shift):
-    found = drawn(slope, shift, 4000)
+    found = draw_left_out(slope, shift, 4000)
     by = calibrate(found, found.scores, np.zeros_like(found.scores))
     assert by.slope == pytest.approx(slope, abs=0.12)
     assert by.shift == pytest.approx(shift, abs=0.12)
@@ -149,7 +149,7 @@ def test_many_lessons_give_the_slope_and_shift_that_hold(slope, shift):
 
 @given(st.integers(0, 200))
 def test_few_lessons_prove_little(seed):
-    found = drawn(2.0, -1.0, 4, seed)
+    found = draw_left_out(2.0, -1.0, 4, seed)
     by = calibrate(found, found.scores, np.zeros_like(found.scores))
     assert abs(by.slope - 1) < 1.6
     assert abs(by.shift) < 1.6
@@ -159,7 +159,7 @@ def test_few_lessons_prove_little(seed):
 
 @given(st.integers(0, 50), st.floats(-60, 60), st.floats(-60, 60))
 def test_any_scores_give_numbers(seed, high, off):
-    found = drawn(1.0, 0.0, 12, seed)
+    found = draw_left_out(1.0, 0.0, 12, seed)
     by = calibrate(found, high * found.scores + off, np.zeros_like(found.scores))
     assert 0.5 <= by.slope <= 3.0
     assert math.isfinite(by.shift)
@@ -169,7 +169,7 @@ def test_a_weighing_becomes_steeper_where_lessons_tell_words_apart():
     weighed = Weighing(-1.0, 2.0, 1.0, 1.0, KERNELS, 0.5)
     apart = examples(views(3, 6, "cup", "mug", "cap", apart=3.0)).left_out()
     mixed = examples(views(3, 6, "cup", "mug", "cap", apart=0.0)).left_out()
-    steep, flat = weighed.calibrated(apart), weighed.calibrated(mixed)
+    steep, flat = weighed.calibrate_by(apart), weighed.calibrate_by(mixed)
     assert steep.score > 1.2 * weighed.score
     assert flat.score < weighed.score
     assert (steep.votes, steep.size) == (weighed.votes, weighed.size)

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from kille.perception.foreground import cut_off, enclosed, guess, saliency
+from kille.perception.foreground import enclosure, guess, isolation, saliency
 from kille.scene import Frame, Mask
 from kille.sensors.pictures import read_colour
 
@@ -67,7 +67,7 @@ def test_white_before_white_is_found(colour: tuple[int, int, int]) -> None:
 def test_what_reaches_the_edges_is_not_cut_off_and_not_enclosed() -> None:
     frame, mask = thing((200, 40, 40), 120)
     small, there = frame.colour[::2, ::2], mask[::2, ::2]
-    for guessed, least in ((cut_off(small), 3.0), (enclosed(small), 1.2)):
+    for guessed, least in ((isolation(small), 3.0), (enclosure(small), 1.2)):
         assert guessed[there].mean() > least * guessed[~there].mean()
 
 

@@ -13,7 +13,7 @@ from kille.perception.networks.onnx_files import Port, constant, node, onnx_file
 Array = NDArray[np.float32]
 
 
-def convolved(picture: Array, filters: Array, biases: Array, step: int) -> Array:
+def convolve_slowly(picture: Array, filters: Array, biases: Array, step: int) -> Array:
     """Convolve with one row more below and one column more on the right."""
     padded = np.pad(picture, ((0, 0), (0, 1), (0, 1)))
     kernel = filters.shape[2]
@@ -33,7 +33,7 @@ def test_a_network_computes_what_its_nodes_say(
     picture = chance.random((2, side, side), np.float32)
     filters = chance.random((out, 2, 3, 3), np.float32)
     biases = chance.random(out, np.float32)
-    expected = np.minimum(convolved(picture, filters, biases, step), 9)
+    expected = np.minimum(convolve_slowly(picture, filters, biases, step), 9)
     nodes = [
         node(
             "Conv",
