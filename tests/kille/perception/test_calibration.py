@@ -175,7 +175,7 @@ def test_a_weighing_becomes_steeper_where_lessons_tell_words_apart():
     assert (steep.votes, steep.size) == (weighed.votes, weighed.size)
     # What has votes alone has nothing to calibrate.
     deaf = replace(weighed, score=0.0)
-    assert deaf.calibrated(apart) is deaf
+    assert deaf.calibrate_by(apart) is deaf
 
 
 def test_degrees_follow_from_the_lessons_however_they_came():
