@@ -466,9 +466,16 @@ def up_to_first_lesson(out: IO[str]) -> str:
     return said
 
 
+THINGS = ("cup", "book", "banana", "teddy bear")
+
+
 @contextmanager
-def lessons(first: int) -> Iterator[subprocess.Popen[str]]:
-    """A talk that is fed many lessons through a pipe, once it has begun."""
+def lessons(number: int) -> Iterator[subprocess.Popen[str]]:
+    """A talk that is fed many lessons through a pipe, once it has begun.
+
+    Each talk is about another thing, as the robot knows again what an earlier one was
+    about, and asks which of its names is right.
+    """
     with subprocess.Popen(
         [*COMMAND, "talk", "--sensor", EMPTY],
         stdin=subprocess.PIPE,
@@ -478,8 +485,9 @@ def lessons(first: int) -> Iterator[subprocess.Popen[str]]:
     ) as child:
         assert child.stdin is not None
         assert child.stdout is not None
+        first = 1000 * number
         taught = "".join(f"This is a thing{n}.\n" for n in range(first, first + 200))
-        child.stdin.write(SHOWN + taught)
+        child.stdin.write(f"@ show {THINGS[number]}\n{taught}")
         child.stdin.flush()
         assert child.stdout.readline() == "Nothing is in view.\n"
         yield child
@@ -490,7 +498,7 @@ def test_kill_9_in_mid_lesson_loses_no_acknowledged_lesson(memory: Path) -> None
     rng = np.random.default_rng(9)
     known: set[str] = set()
     for number, seconds in enumerate(rng.uniform(0.2, 1.2, size=4)):
-        with lessons(1000 * number) as child:
+        with lessons(number) as child:
             assert child.stdout is not None
             # Some are killed after their first lesson, others perhaps before it.
             said = up_to_first_lesson(child.stdout) if number % 2 else ""
