@@ -136,12 +136,21 @@ def sayable(source: str, unsaid: Iterable[str] = ()) -> State:
 
 
 def _terminal_network(pattern: str, unsaid: frozenset[str]) -> State:
-    """The ways to say a terminal; none, if it stands for any word."""
+    """The ways to say a terminal; none, if it stands for any word, or for a sign that
+    is only written, such as "#"."""
     try:
         ways = [split_words(it.replace("-", " ")) for it in spellings(pattern)]
     except UncountablePatternError:
         return NOTHING
-    return union(sequence(way) for way in ways if way and unsaid.isdisjoint(way))
+    return union(
+        sequence(way)
+        for way in ways
+        if way and unsaid.isdisjoint(way) and all(map(_is_word, way))
+    )
+
+
+def _is_word(word: str) -> bool:
+    return any(sign.isalnum() for sign in word)
 
 
 class _Unfolding:
