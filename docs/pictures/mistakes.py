@@ -32,6 +32,7 @@ SCENES = (
 )
 SIZE = 320, 240
 IN_A_ROW = 3
+SHRINK = 0.7
 
 
 def draw(number: int, frame: Frame) -> NDArray[np.uint8]:
@@ -53,7 +54,9 @@ def main() -> None:
         np.concatenate(tiles[first : first + IN_A_ROW], axis=1)
         for first in range(0, len(tiles), IN_A_ROW)
     ]
-    write_picture(HERE / "mistakes.png", np.concatenate(rows))
+    whole = np.concatenate(rows)
+    small = cv2.resize(whole, None, fx=SHRINK, fy=SHRINK, interpolation=cv2.INTER_AREA)
+    write_picture(HERE / "mistakes.png", np.asarray(small, np.uint8))
 
 
 if __name__ == "__main__":
