@@ -92,10 +92,13 @@ class Likeness:
     others: Mapping[str, float]
 
     def with_column(self, column: int, other: Likeness) -> Likeness:
-        """The same, but for one word what the other says of it by the same cues."""
+        """The same, but for one word what the other says of it by the same cues.
+
+        Of a cue by which the other says nothing the word has no score.
+        """
         return Likeness(
-            _with_column(self.scores, column, other.scores),
-            _with_column(self.unlike, column, other.unlike),
+            _with_column(self.scores, column, other.scores, 0.0),
+            _with_column(self.unlike, column, other.unlike, np.inf),
             self.others,
         )
 
@@ -282,11 +285,14 @@ class Examples:
 
 
 def _with_column(
-    these: Mapping[str, Numbers], column: int, others: Mapping[str, Numbers]
+    these: Mapping[str, Numbers],
+    column: int,
+    others: Mapping[str, Numbers],
+    missing: float,
 ) -> dict[str, Numbers]:
     changed = {cue: numbers.copy() for cue, numbers in these.items()}
     for cue, numbers in changed.items():
-        numbers[column] = others[cue][column]
+        numbers[column] = others[cue][column] if cue in others else missing
     return changed
 
 

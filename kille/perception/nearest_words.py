@@ -22,10 +22,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from hashlib import blake2b
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.perception.calibration import LeftOut
 from kille.perception.index import View
 from kille.perception.likeness import (
     Examples,
@@ -87,20 +89,20 @@ class NearestWords:
     def likeness(self, traits: Traits) -> Likeness:
         """What each cue says of a thing with these traits, for each word."""
         apart = self._vectors.apart(traits, self._kernels, self._rows)
-        told_of = sum((self._kernels[cue].weight for cue in apart), 0.0)
-        alike = sum(
-            (self._kernels[cue].weight * np.exp(-d) for cue, d in apart.items()),
-            np.zeros(len(self._views)),
-        ) / np.sqrt(max(told_of, 1e-9) * self._told_of())
+        alike = self._likeness_to_examples(apart)
         near = self._nearest_words(alike)
         found = self._tell_apart(near, alike).likeness(traits)
+        nothing = np.zeros(len(near))
+        others = {cue: found.others.get(cue, 0.0) for cue in apart}
         return Likeness(
             {
-                cue: _spread(scores, near, found.others[cue], len(self._labels))
-                for cue, scores in found.scores.items()
+                cue: _spread(
+                    found.scores.get(cue, nothing), near, other, len(self._labels)
+                )
+                for cue, other in others.items()
             },
             {cue: np.minimum.reduceat(d, self._firsts) for cue, d in apart.items()},
-            found.others,
+            others,
         )
 
     def nearest(self, traits: Traits, column: int) -> View | None:
@@ -112,12 +114,28 @@ class NearestWords:
         only = Examples(self._chosen[label], [label], self._kernels)
         return only.nearest(traits, 0)
 
-    def left_out(self) -> None:
-        """Nothing: of so many words the lessons do not say how much a score proves.
+    def left_out(self) -> LeftOut | None:
+        """What the examples say of each other that one question compares.
 
-        Which words a left-out lesson would be told apart from depends on the lesson.
-        Degrees are then as those of a robot of few lessons, which claims less.
+        The question is about an example of a word drawn by lot: its nearest words are
+        as hard to tell apart as those of any thing. None where that tells nothing.
         """
+        pivot = min(self._labels, key=_lot, default=None)
+        if pivot is None or not self._chosen[pivot]:
+            return None
+        traits = self._chosen[pivot][-1].traits
+        apart = self._vectors.apart(traits, self._kernels, self._rows)
+        alike = self._likeness_to_examples(apart)
+        return self._tell_apart(self._nearest_words(alike), alike).left_out()
+
+    def _likeness_to_examples(self, apart: Mapping[str, Numbers]) -> Numbers:
+        """The likeness k (n,) of a thing that is so unlike each example."""
+        told_of = sum((self._kernels[cue].weight for cue in apart), 0.0)
+        alike: Numbers = sum(
+            (self._kernels[cue].weight * np.exp(-d) for cue, d in apart.items()),
+            np.zeros(len(self._views)),
+        ) / np.sqrt(max(told_of, 1e-9) * self._told_of())
+        return alike
 
     def _choose(self, old: NearestWords | None) -> dict[str, Sequence[View]]:
         """The views of each word that are compared."""
@@ -187,6 +205,11 @@ class NearestWords:
         yield from (first + np.sort(best)).tolist()
 
 
+def _lot(label: str) -> bytes:
+    """The place of a word in a random order that is the same on every machine."""
+    return blake2b(label.encode("utf-8", "surrogatepass"), digest_size=8).digest()
+
+
 def _spread(
     scores: Numbers, columns: NDArray[np.intp], other: float, size: int
 ) -> Numbers:
@@ -214,7 +237,8 @@ def _vectors_for(
 class _Vectors:
     """The vectors of views, by cue: a row for each view that was asked for.
 
-    Rows are added, and never changed: what has numbers of rows finds the same there.
+    Rows are added, and never changed: what has numbers of rows finds the same there. It
+    is of one thread at a time, as is the memory that asks.
     """
 
     def __init__(self, lengths: Mapping[str, int]) -> None:

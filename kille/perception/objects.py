@@ -198,7 +198,8 @@ class ObjectMemory:
                 likeness = likeness.with_column(column, own.likeness(traits))
                 cast[column] *= relevance.votes**2
         heard = self._without_ignored_size(likeness, labels)
-        return self._calibrated_weighing().evidence(labels, heard, cast)
+        weighing = self._calibrated_weighing() if heard.scores else self._weighing
+        return weighing.evidence(labels, heard, cast)
 
     def _calibrated_weighing(self) -> Weighing:
         """How evidence is weighed, by what the lessons say of each other."""

@@ -169,6 +169,68 @@ def test_what_is_denied_weakens_a_word_and_lessons_are_taken_back() -> None:
     assert memory.nearest(asked, "cup") in memory.views
 
 
+def without_cue(percept: objects.Percept, cue: str) -> objects.Percept:
+    """The same, but nothing is known by one of its cues."""
+    traits = {name: it for name, it in percept.traits.items() if name != cue}
+    return replace(percept, measure=lambda: traits)
+
+
+def test_every_cue_of_a_thing_has_a_score_whatever_its_nearest_words_lack(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("kille.perception.nearest_words._NEAREST", 1)
+    whole, asked = views_of(["a", "b"]), views_of(["a"])[0].traits
+    bare = {cue: it for cue, it in whole[0].traits.items() if cue != "size"}
+    found = nearest([replace(whole[0], traits=bare), whole[1]]).likeness(asked)
+    assert found.scores.keys() == found.others.keys() == found.unlike.keys()
+
+
+@pytest.mark.usefixtures("many")
+@pytest.mark.parametrize("counts", [True, False])
+def test_a_word_may_be_known_by_other_cues_than_a_thing_is_seen_by(
+    counts: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("kille.perception.nearest_words._NEAREST", 1)
+    memory = ObjectMemory()
+    for key, word in enumerate([*WORDS, *WORDS]):
+        shown = seen(word, key)
+        shown = shown if word == "book" else without_cue(shown, "size")
+        memory.learn_one(shown, word, key=key)
+    memory.weigh("cup", "colour", counts, key="said")
+    for word in WORDS:
+        found = memory.predict_proba_one(seen(word, 9))
+        assert max(found, key=lambda it: found[it]) == word
+
+
+def test_one_word_more_leaves_the_robot_as_sure_as_it_was(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(objects, "MANY", 2)
+    memory = ObjectMemory()
+    for key, word in enumerate(["cup", "book"] * 4):
+        memory.learn_one(seen(word, key), word, key=key)
+    asked = seen("cup", 99)
+    before = memory.predict_proba_one(asked)["cup"]
+    for key in range(4):
+        memory.learn_one(seen("shoe", key), "shoe", key=f"shoe {key}")
+    assert memory.predict_proba_one(asked)["cup"] > before - 0.05
+
+
+def test_where_all_words_are_near_lessons_say_of_each_other_what_they_do_there() -> (
+    None
+):
+    views = views_of(["a", "b", "c"] * 3)
+    ours, theirs = (
+        nearest(views).left_out(),
+        Examples(views, ["a", "b", "c"], KERNELS).left_out(),
+    )
+    assert ours is not None
+    assert theirs is not None
+    np.testing.assert_allclose(ours.scores, theirs.scores, atol=1e-5)
+    assert ours.columns.tolist() == theirs.columns.tolist()
+    assert nearest(views_of(["a", "b", "c"])).left_out() is None
+
+
 def test_the_step_to_very_many_words_and_back_leaves_nothing_behind(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
