@@ -31,12 +31,15 @@ MOST = 30
 
 def recall_grammar(text: str, starts: Sequence[str]) -> GrammarSource:
     """What `read_grammar` gives, from the cache if it is there; if not, it is kept."""
-    path = cache_folder() / f"{_digest(_reader(), text, *starts)}.json"
+    try:
+        path = cache_folder() / f"{_digest(_reader(), text, *starts)}.json"
+    except (OSError, ValueError):  # there is no code to read, as in an archive
+        return read_grammar(text, starts)
     try:
         digest, _, body = path.read_text("utf-8").partition("\n")
         if digest == _digest(body):
             return _from_json(json.loads(body))
-    except (OSError, ValueError):  # not there, or not as it was written
+    except (OSError, ValueError, TypeError):  # not there, or not as it was written
         pass
     found = read_grammar(text, starts)
     with suppress(OSError, TTRError):
