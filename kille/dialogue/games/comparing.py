@@ -22,6 +22,7 @@ from kille.dialogue.reference import phrase_at, thing_at
 from kille.dialogue.reference.comparing import COMPARATIVES, exceeds
 from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType
+from ttr.types import Singleton
 from ttr.updates import first
 
 SCALE = "scale"
@@ -78,6 +79,8 @@ def explain_measure(s: Record, *, types: DialogueTypes) -> Record | None:
     said = s.private.last[0] if len(s.private.last) == 1 else None
     if said is None or s.shared.pending or kind_of(content_of(s)) is not None:
         return None
+    if not all(isinstance(said[it], Singleton) for it in ("content", "signs")):
+        return None  # a rule of one's own has left open what it says
     told = value_at(said, "content")
     if not isinstance(told, RecordType) or not {SCALE, AMID} & {*told.labels}:
         return None

@@ -231,7 +231,7 @@ def test_all_that_is_wrong_with_types_is_told_before_it_talks(
     change(file, "Phrase    := [x : Ind,", "Phrase    := [x : Idn,")
     done = kille("talk", "--sensor", EMPTY, "--theory", str(file), typed="Hello.\n")
     assert (done.code, done.out) == (2, "")
-    assert "mine.ttr:24: nothing is called Idn here" in done.err
+    assert "mine.ttr:25: nothing is called Idn here" in done.err
 
 
 def test_python_of_a_study_is_run_only_with_consent(kille: Run, study: Path) -> None:

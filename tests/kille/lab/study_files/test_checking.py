@@ -233,7 +233,7 @@ def test_a_rule_that_can_never_fire_is_told_where_it_is_written(tmp_path: Path) 
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ("Sign := [", "Sing := [", "own.ttr:122: nothing is called Sign here"),
+        ("Sign := [", "Sing := [", "own.ttr:133: nothing is called Sign here"),
         ("Teaching   :=", "Teachings :=", "study.toml:4: tried out, it fails at"),
         ("State := [", "Sate := [", "own.ttr:1: the games cannot be made of it"),
         ("State := [", "check Cue <= Ind\nState := [", "check Cue <= Ind does not"),
