@@ -137,6 +137,26 @@ def correct_either(s: Record, *, types: DialogueTypes) -> Record | None:
     return _plan_either(s, types=types)
 
 
+@rule(answers="PreferNow")
+def take_new_name(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor prefers what they have just called the thing to what it was called."""
+    return _plan_option(s, 0, types=types)
+
+
+@rule(answers="PreferEarlier")
+def keep_old_name(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor prefers what the thing was called before."""
+    return _plan_option(s, 1, types=types)
+
+
+def _plan_option(s: Record, number: int, *, types: DialogueTypes) -> Record | None:
+    """The plan to learn the option of this number, and to unlearn the other."""
+    if not (_asks(s, EITHER) or _asks(s, BOTH)):
+        return None
+    preferred = s.shared.qud[0].options[number]
+    return _plan_either(replace(s, {"shared.latest": preferred}), types=types)
+
+
 def _plan_either(s: Record, *, types: DialogueTypes) -> Record | None:
     """The plan to learn the one of the two that is said, and to unlearn the other."""
     if not (_asks(s, EITHER) or _asks(s, BOTH)):
@@ -196,7 +216,9 @@ def _other_name(s: Record, content: RecordType) -> RecordType | None:
     return names[-1] if names else None
 
 
-BOTH_ANSWERED = first(learn_both, ask_either, take_either, correct_either)
+BOTH_ANSWERED = first(
+    learn_both, ask_either, take_either, correct_either, take_new_name, keep_old_name
+)
 """What answers whether it is both, or which of the two it is."""
 
 DOUBLING = first(ask_both, ask_earlier_name)

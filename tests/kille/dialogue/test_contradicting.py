@@ -195,7 +195,12 @@ def names(s: Record) -> list[str]:
 
 @pytest.mark.parametrize(
     ("answer", "after"),
-    [("A lamp.", ["not mug", "lamp"]), ("It is a mug.", ["mug"])],
+    [
+        ("A lamp.", ["not mug", "lamp"]),
+        ("What I say now.", ["not mug", "lamp"]),
+        ("It is a mug.", ["mug"]),
+        ("What I said before.", ["mug"]),
+    ],
 )
 def test_a_thing_that_was_called_something_else_is_asked_about(
     table: Any, answer: str, after: list[str]
