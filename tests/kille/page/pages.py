@@ -101,10 +101,12 @@ class Browser:
                 return event
 
     def say(self, text: str, ref: str = "") -> dict[str, Any]:
-        """Say something; the turn that came of it."""
+        """Say something; the turn that came of it. Its view has come, too."""
         ref = ref or f"said {next(_NUMBERS)}"
         self.ask(do="say", text=text, ref=ref)
-        return self.until("turn", ref=ref)
+        turn = self.until("turn", ref=ref)
+        self.until("view", ref=ref)
+        return turn
 
 
 @contextmanager
