@@ -33,6 +33,8 @@ EMPTY = "--sensor", "synthetic:empty?seed=7"
 PATIENCE = 60_000
 """Milliseconds after which a test gives the page up."""
 
+playwright.expect.set_options(timeout=PATIENCE)
+
 Tab = Any
 """A page of Playwright's."""
 
@@ -70,11 +72,12 @@ def tab(chromium: Any) -> Iterator[Tab]:
 def visit(tab: Tab, program: Program, things: int = 3) -> None:
     """Open the page, and wait until it shows so many things."""
     tab.goto(program.address)
+    playwright.expect(tab.locator("html[data-ready]")).to_have_count(1)
     expect_things(tab, things)
 
 
 def expect_things(tab: Tab, count: int) -> None:
-    playwright.expect(tab.locator(".thing")).to_have_count(count, timeout=PATIENCE)
+    playwright.expect(tab.locator(".thing")).to_have_count(count)
 
 
 def thing(tab: Tab, number: int) -> Any:
@@ -88,7 +91,7 @@ def answering(tab: Tab, text: str) -> Iterator[None]:
     number = turns.count()
     yield
     robot = turns.nth(number).locator(".bubble--robot").first
-    playwright.expect(robot).to_contain_text(text, timeout=PATIENCE)
+    playwright.expect(robot).to_contain_text(text)
 
 
 def say(tab: Tab, text: str, answer: str) -> None:
