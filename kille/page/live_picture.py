@@ -7,6 +7,7 @@ the newest frame is kept, as a JPEG, and none is made where nobody looks.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Condition, Lock, Thread
@@ -184,7 +185,8 @@ class SharedSensor:
     def __init__(self, sensor: Sensor, picture: LivePicture) -> None:
         self._sensor, self._picture = sensor, picture
         self._reading = Lock()
-        self.runs_by_itself = sensor.name.startswith(_ON_ITS_OWN)
+        kind = re.split(r"[:?]", sensor.name, maxsplit=1)[0]
+        self.runs_by_itself = kind in _ON_ITS_OWN
 
     @property
     def name(self) -> str:

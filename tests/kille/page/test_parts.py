@@ -16,9 +16,10 @@ from hypothesis import strategies as st
 from kille.dialogue.language import understand
 from kille.page.browser_requests import RequestError, parse_message, parse_request
 from kille.page.feed import Feed
-from kille.page.live_picture import LivePicture, Watcher
+from kille.page.live_picture import LivePicture, SharedSensor, Watcher
 from kille.page.phrases import PHRASES, phrases
 from kille.perception.outlines import polygon_of
+from kille.scene import Frame
 from kille.sensors.sensor import Stage
 from kille.sensors.sources import open_sensor
 
@@ -122,6 +123,42 @@ def test_no_picture_is_made_for_who_cannot_take_one() -> None:
     assert len(woken) <= 2
     picture.close()
     sensor.close()
+
+
+class Renamed:
+    """A sensor under another name."""
+
+    def __init__(self, name: str) -> None:
+        self.name, self._inner = name, open_sensor("synthetic:empty?seed=7")
+
+    def frame(self) -> Frame:
+        return self._inner.frame()
+
+    def close(self) -> None:
+        self._inner.close()
+
+
+@pytest.mark.parametrize(
+    ("name", "runs"),
+    [
+        ("synthetic", True),
+        ("synthetic:desk?seed=7", True),
+        ("kinect", True),
+        ("kinect?fps=15", True),
+        ("ros:/camera", True),
+        ("kinect_lesson/", False),
+        ("rosbags/cup", False),
+        ("synthetic.npz", False),
+    ],
+)
+def test_a_recording_is_none_that_is_called_like_a_camera(
+    name: str, runs: bool
+) -> None:
+    picture = LivePicture()
+    sensor = SharedSensor(Renamed(name), picture)
+    assert sensor.runs_by_itself is runs
+    sensor.close()
+    picture.close()
 
 
 def test_an_outline_is_that_of_the_largest_piece() -> None:
