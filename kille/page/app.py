@@ -12,7 +12,7 @@ from __future__ import annotations
 import asyncio
 import json
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
 from importlib.resources import files
@@ -121,6 +121,14 @@ def _inside_route(inside: Callable[[int, int], Future[Event | None]]) -> Route:
     return Route("/inside/{first:int}/{last:int}", answer)
 
 
+def _text_of(received: Mapping[str, Any]) -> str:
+    """The text of a message. RequestError if it is binary."""
+    text = received.get("text")
+    if not isinstance(text, str):
+        raise RequestError("a message is text, not bytes")
+    return text
+
+
 class _Connection:
     """A browser that looks at the page: what it has, and what it is sent next."""
 
@@ -209,9 +217,11 @@ class _Connection:
 
     async def _receive(self) -> None:
         while True:
-            text = await self._socket.receive_text()
+            received = await self._socket.receive()
+            if received["type"] == "websocket.disconnect":
+                return
             try:
-                message = parse_message(text)
+                message = parse_message(_text_of(received))
                 match message.get("do"):
                     case "shown":
                         self._shown = min(self._shown + 1, self._pictures)

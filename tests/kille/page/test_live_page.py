@@ -195,10 +195,15 @@ def test_hostile_words_are_words(page: Page, words: str) -> None:
         ('{"do": "point", "thing": 0}', "from 1"),
         ('{"do": "point", "box": [5, 5, 1, 1]}', "left, top"),
         ('{"do": "place", "thing": "cup", "right": NaN}', "from -10"),
+        ('{"do": "place", "thing": "cup", "away": -Infinity}', "from -10"),
+        ('{"do": "point", "thing": 1' + 400 * "0" + "}", "from 1"),
         ('{"do": "show", "thing": 3}', "names a `thing`"),
+        (b'{"do": "look"}', "text, not bytes"),
     ],
 )
-def test_what_cannot_be_asked_is_refused(page: Page, message: str, why: str) -> None:
+def test_what_cannot_be_asked_is_refused(
+    page: Page, message: str | bytes, why: str
+) -> None:
     with page.connect() as browser:
         browser.socket.send(message)
         assert why in browser.until("refused")["text"]
