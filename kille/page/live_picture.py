@@ -128,10 +128,8 @@ class LivePicture:
                 if self._is_wanted:
                     frame, self._newest = self._newest, None
                 due, is_due = self._due, self._runs and monotonic() >= self._due
-            if frame is not None:
-                self._encode(frame)
-            if is_due and self._sensor is not None:
-                wait = self._read(self._sensor)
+            wait = self._work(frame, self._sensor if is_due else None)
+            if wait:
                 with self._changed:
                     self._due = max(due + wait, monotonic())
 
@@ -150,13 +148,21 @@ class LivePicture:
         """Seconds until such a frame is due, or until somebody may watch."""
         return max(0.0, self._due - monotonic()) if self._runs else _REST
 
-    def _read(self, sensor: SharedSensor) -> float:
-        """Read a frame that nobody asked for; returns how long to wait for the next."""
+    def _work(self, frame: Frame | None, sensor: SharedSensor | None) -> float:
+        """Encode a frame, and read one that nobody asked for, if either is given.
+
+        Returns how long to wait before the next is read; 0 to leave that as it is.
+        Whatever goes wrong is told in one line, and the thread goes on.
+        """
         try:
+            if frame is not None:
+                self._encode(frame)
+            if sensor is None:
+                return 0.0
             sensor.frame()
-        except SensorError as error:
+        except Exception as error:
             if not self._closed:
-                self._complain(str(error))
+                self._complain(_line_about(error))
             return _RETRY
         self._complain("")
         return 1 / RATE
@@ -177,6 +183,13 @@ class LivePicture:
             watchers = tuple(self._watchers)
         for it in watchers:
             it.wake()
+
+
+def _line_about(error: Exception) -> str:
+    """What went wrong: a sensor says it itself."""
+    if isinstance(error, SensorError):
+        return str(error)
+    return " ".join(f"there is no picture: {error or type(error).__name__}".split())
 
 
 class SharedSensor:

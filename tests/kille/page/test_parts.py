@@ -5,7 +5,7 @@ from __future__ import annotations
 import stat
 from contextlib import suppress
 from pathlib import Path
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import numpy as np
@@ -121,6 +121,36 @@ def test_no_picture_is_made_for_who_cannot_take_one() -> None:
         for _ in range(50):
             frames.append(sensor.frame())
     assert len(woken) <= 2
+    picture.close()
+    sensor.close()
+
+
+class Stumbling:
+    """A camera that fails once as nobody foresaw."""
+
+    name = "kinect:test"
+
+    def __init__(self) -> None:
+        self._inner, self._read = open_sensor("synthetic:empty?seed=7"), 0
+
+    def frame(self) -> Frame:
+        self._read += 1
+        if self._read == 1:
+            raise ValueError("a frame of\nno size")
+        return self._inner.frame()
+
+    def close(self) -> None:
+        self._inner.close()
+
+
+def test_pictures_go_on_after_an_error_that_nobody_foresaw() -> None:
+    told: list[str] = []
+    made = Event()
+    picture = LivePicture(told.append)
+    sensor = picture.share(Stumbling())
+    with picture.watched_by(Watcher(made.set)):
+        assert made.wait(60)
+    assert told == ["there is no picture: a frame of no size", ""]
     picture.close()
     sensor.close()
 
