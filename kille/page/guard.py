@@ -132,6 +132,8 @@ class Guard:
         host = headers.get("host", "")
         if not self._access.allows_name(split_host(host)):
             await _answer(send, 421, "kille: the page has another name.\n")
+        elif _is_foreign(scope, headers):
+            await _answer(send, 403, "kille: only its own page looks inside.\n")
         elif scope["method"] not in ("GET", "HEAD"):
             await _answer(send, 405, "kille: there is nothing to send here.\n")
         elif token := _query(scope, "token"):
@@ -183,6 +185,12 @@ def _cookie_name(host: str) -> str:
     except ValueError:
         port = None
     return f"kille-{port or 'page'}"
+
+
+def _is_foreign(scope: Scope, headers: dict[str, str]) -> bool:
+    """Whether a page of somebody else's asks for what makes the robot work."""
+    site = headers.get("sec-fetch-site", "none")
+    return scope["path"].startswith("/inside/") and site not in ("same-origin", "none")
 
 
 def _query(scope: Scope, name: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from http.client import HTTPConnection, HTTPResponse
+from socket import create_connection
 from typing import Any
 
 import pytest
@@ -144,6 +145,28 @@ def test_a_turn_has_an_inside_with_what_changed_marked(page: Page) -> None:
 @pytest.mark.parametrize("path", ["0/0", "5/2", "0/99", "999/1000", "-1/1", "a/b"])
 def test_a_turn_that_was_not_taken_has_none(page: Page, path: str) -> None:
     assert get(page, f"/inside/{path}").status == 404
+
+
+@pytest.mark.parametrize(
+    ("site", "status"),
+    [("cross-site", 403), ("same-site", 403), ("same-origin", 404), ("none", 404)],
+)
+def test_only_its_own_page_looks_inside(page: Page, site: str, status: int) -> None:
+    assert get(page, "/inside/998/999", Sec_Fetch_Site=site).status == status
+
+
+def test_a_foreign_name_has_no_socket(page: Page) -> None:
+    host = f"evil.example:{page.host.partition(':')[2]}"
+    with create_connection(
+        ("127.0.0.1", int(page.host.partition(":")[2])), 60
+    ) as plain:
+        plain.sendall(
+            f"GET /live HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n"
+            "Connection: Upgrade\r\nUpgrade: websocket\r\n"
+            "Sec-WebSocket-Version: 13\r\n"
+            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n".encode()
+        )
+        assert plain.recv(64).startswith(b"HTTP/1.1 403")
 
 
 def test_the_inside_is_behind_the_token(guarded_page: Page) -> None:
