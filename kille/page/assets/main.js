@@ -144,7 +144,6 @@ function choose(number) {
     say(answer);
     return;
   }
-  things.point(number);
   connection.ask({ do: "point", thing: number });
 }
 
