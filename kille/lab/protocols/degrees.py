@@ -4,8 +4,8 @@ A run draws categories and shuffles the pictures of each. Half of the categories
 taught, from one, three, five and ten pictures, and the last six pictures (or a third,
 where a category has few) are asked for, first of what was taught, then of the rest: so
 half of what is asked was never taught, and whatever is said of it is wrong. A robot
-asserts its best word where this has a degree of .6, and .3 more than any other word, and says
-that it does not know below .2, as in the paper's wording.
+asserts its best word where this has a degree of .6, and .3 more than any other word,
+and says that it does not know below .2, as in the paper's wording.
 
 The calibration error is the mean distance, over ten bins, of the degrees of the best
 word from the share in which it is right. Wrong assertions are counted among all that
