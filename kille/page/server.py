@@ -87,7 +87,6 @@ def serve_page(
         closing.callback(robot.close)
         closing.callback(picture.close)  # before the sensor that it reads
         robot.ask(parse_request({"do": "look"}))
-        terminal.ready(robot.robot)
         app = page_app(
             feed,
             picture,
@@ -97,6 +96,7 @@ def serve_page(
         )
         server = uvicorn_server(Guard(app, settings.access), settings.certificate)
         with _signals_end(server):
+            terminal.ready(robot.robot)  # from now on Ctrl-C ends it well
             server.run(sockets=[settings.listener])
 
 
