@@ -127,11 +127,22 @@ def test_a_lesson_by_clicks(desk: Program, tab: Tab) -> None:
     say(tab, "This is sugar.", "kind of thing?")
     press(tab, "Yes.", "OK")
     playwright.expect(tab.locator("#answers")).to_be_hidden()
-    # A region of one's own, drawn over nothing in particular.
+
+
+# On a busy machine the box has once come to nothing; why is not known.
+@pytest.mark.deep
+def test_a_region_of_ones_own_is_drawn_over_nothing_in_particular(
+    desk: Program, tab: Tab
+) -> None:
+    visit(tab, desk)
+    thing(tab, 3).click()
+    playwright.expect(thing(tab, 3)).to_have_attribute("aria-pressed", "true")
+    box = tab.locator("#stage").bounding_box()
     tab.mouse.move(box["x"] + 300, box["y"] + 420)
     tab.mouse.down()
     tab.mouse.move(box["x"] + 420, box["y"] + 500, steps=4)
     tab.mouse.up()
+    playwright.expect(thing(tab, 3)).to_have_attribute("aria-pressed", "false")
     say(tab, "This is a plank.", "is a plank")
     expect_things(tab, 4)
 
