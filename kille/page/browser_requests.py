@@ -79,22 +79,22 @@ def parse_request(message: dict[str, Any]) -> BrowserRequest:
     ref = message.get("ref", "")
     ref = ref if isinstance(ref, str) and len(ref) <= _REF else ""
     try:
-        return _read(message, ref)
+        return _read_request(message, ref)
     except RequestError as error:
         raise RequestError(str(error), ref) from None
 
 
-def _read(message: dict[str, Any], ref: str) -> BrowserRequest:
+def _read_request(message: dict[str, Any], ref: str) -> BrowserRequest:
     match message.get("do"):
         case "say":
             text = _utterance(message.get("text"))
             return BrowserRequest(ref, text, lambda robot: robot.hear(text))
         case "point" if "box" in message:
             box = _box(message["box"])
-            return _pointing(ref, " ".join(map(str, box)), {"box": box})
+            return _point_request(ref, " ".join(map(str, box)), {"box": box})
         case "point":
             number = int(_number(message, "thing", 1, _THINGS))
-            return _pointing(ref, str(number), {"thing": number})
+            return _point_request(ref, str(number), {"thing": number})
         case "look":
             return BrowserRequest(ref, "", lambda robot: robot.look())
         case "restart":
@@ -110,7 +110,7 @@ def _read(message: dict[str, Any], ref: str) -> BrowserRequest:
     raise RequestError("a message has no `do` that is known")
 
 
-def _pointing(ref: str, target: str, pointed: dict[str, Any]) -> BrowserRequest:
+def _point_request(ref: str, target: str, pointed: dict[str, Any]) -> BrowserRequest:
     return BrowserRequest(
         ref, "", lambda robot: robot.do(f"point {target}"), pointed=pointed
     )

@@ -44,7 +44,7 @@ def host_certificate(host: str, folder: Path) -> Certificate:
     """
     names = _names_of(host)
     path = folder / f"page-{re.sub(r'[^A-Za-z0-9.-]', '_', host)}.pem"
-    kept = _read(path, names)
+    kept = _read_certificate(path, names)
     if kept is None:
         kept = _make(path, names)
     digest = kept.fingerprint(hashes.SHA256()).hex(":").upper()
@@ -60,7 +60,7 @@ def _names_of(host: str) -> tuple[str, ...]:
     return tuple(sorted(found - {"0.0.0.0", "::"}))
 
 
-def _read(path: Path, names: Sequence[str]) -> x509.Certificate | None:
+def _read_certificate(path: Path, names: Sequence[str]) -> x509.Certificate | None:
     """The certificate in the file, if it is of all these names and valid for long."""
     try:
         data = path.read_bytes()

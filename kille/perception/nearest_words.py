@@ -171,7 +171,7 @@ class NearestWords:
 
     def _told_of(self) -> Numbers:
         """The weights (n,) of all cues that tell of each example."""
-        known = self._vectors.known(self._rows)
+        known = self._vectors.known_rows(self._rows)
         told = sum(
             (self._kernels[cue].weight * it for cue, it in known.items()),
             np.zeros(len(self._views)),
@@ -267,7 +267,7 @@ class _Vectors:
             places[view] = len(places)
         return np.array([places[view] for view in views], np.intp)
 
-    def known(self, rows: NDArray[np.intp]) -> Mapping[str, Numbers]:
+    def known_rows(self, rows: NDArray[np.intp]) -> Mapping[str, Numbers]:
         """Which of these rows are known (n,), by cue."""
         return {cue: it[rows] for cue, it in self._known.items()}
 

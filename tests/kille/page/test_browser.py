@@ -85,7 +85,7 @@ def thing(tab: Tab, number: int) -> Any:
 
 
 @contextmanager
-def answering(tab: Tab, text: str) -> Iterator[None]:
+def await_answer(tab: Tab, text: str) -> Iterator[None]:
     """Wait until the robot has answered something with such a text in it."""
     turns = tab.locator(".turns .turn")
     number = turns.count()
@@ -96,14 +96,14 @@ def answering(tab: Tab, text: str) -> Iterator[None]:
 
 def say(tab: Tab, text: str, answer: str) -> None:
     field = tab.get_by_role("textbox", name="Say something")
-    with answering(tab, answer):
+    with await_answer(tab, answer):
         field.fill(text)
         field.press("Enter")
 
 
 def press(tab: Tab, name: str, answer: str) -> None:
     """Press a button that says something."""
-    with answering(tab, answer):
+    with await_answer(tab, answer):
         tab.get_by_role("button", name=name, exact=True).click()
 
 
@@ -183,17 +183,17 @@ def test_a_lesson_by_keys_alone(start: Start, tab: Tab) -> None:
     keys.press("1")
     playwright.expect(thing(tab, 1)).to_be_focused()
     keys.press("/")
-    with answering(tab, "I learned a cup"):
+    with await_answer(tab, "I learned a cup"):
         keys.type("This is a cup.")
         keys.press("Enter")
-    with answering(tab, "This is a cup."):
+    with await_answer(tab, "This is a cup."):
         keys.type("What is this?")
         keys.press("Enter")
     keys.press("Shift+Tab")
     keys.press("Shift+Tab")
     right = tab.get_by_role("button", name="That is correct.")
     playwright.expect(right).to_be_focused()
-    with answering(tab, "OK"):
+    with await_answer(tab, "OK"):
         keys.press("Enter")
     press_until(tab, "#1, cup, 100 %")
     keys.press("r")
@@ -231,7 +231,7 @@ def test_it_comes_back_by_itself_and_knows_what_was_confirmed(
     # Stopped, it does not answer; going on, it does, and nothing is lost.
     program.process.send_signal(signal.SIGSTOP)
     field = tab.get_by_role("textbox", name="Say something")
-    with answering(tab, "This is a cup."):
+    with await_answer(tab, "This is a cup."):
         field.fill("What is this?")
         field.press("Enter")
         program.process.send_signal(signal.SIGCONT)

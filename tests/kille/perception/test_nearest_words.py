@@ -132,7 +132,7 @@ def many(monkeypatch: pytest.MonkeyPatch) -> None:
 WORDS = {"cup": 1, "book": 2, "shoe": 3}
 
 
-def seen(word: str, seed: int) -> objects.Percept:
+def view_of_thing(word: str, seed: int) -> objects.Percept:
     """A view of the thing, which looks as things of its word do, but for a little."""
     chance = np.random.default_rng([seed, WORDS[word]])
     traits = traits_of(np.random.default_rng(WORDS[word]))
@@ -147,7 +147,8 @@ def seen(word: str, seed: int) -> objects.Percept:
 @pytest.mark.usefixtures("many")
 def test_the_laws_of_a_learner_hold() -> None:
     check_learner(
-        ObjectMemory, [(seen(word, n), word) for n in range(2) for word in WORDS]
+        ObjectMemory,
+        [(view_of_thing(word, n), word) for n in range(2) for word in WORDS],
     )
 
 
@@ -155,8 +156,8 @@ def test_the_laws_of_a_learner_hold() -> None:
 def test_what_is_denied_weakens_a_word_and_lessons_are_taken_back() -> None:
     memory = ObjectMemory()
     for key, word in enumerate([*WORDS, *WORDS]):
-        memory.learn_one(seen(word, key), word, key=key)
-    asked = seen("cup", 9)
+        memory.learn_one(view_of_thing(word, key), word, key=key)
+    asked = view_of_thing("cup", 9)
     before = memory.predict_proba_one(asked)
     memory.deny_one(asked, "cup", key="no")
     denied = memory.predict_proba_one(asked)
@@ -193,12 +194,12 @@ def test_a_word_may_be_known_by_other_cues_than_a_thing_is_seen_by(
     monkeypatch.setattr("kille.perception.nearest_words._NEAREST", 1)
     memory = ObjectMemory()
     for key, word in enumerate([*WORDS, *WORDS]):
-        shown = seen(word, key)
+        shown = view_of_thing(word, key)
         shown = shown if word == "book" else without_cue(shown, "size")
         memory.learn_one(shown, word, key=key)
     memory.weigh("cup", "colour", counts, key="said")
     for word in WORDS:
-        found = memory.predict_proba_one(seen(word, 9))
+        found = memory.predict_proba_one(view_of_thing(word, 9))
         assert max(found, key=lambda it: found[it]) == word
 
 
@@ -208,11 +209,11 @@ def test_one_word_more_leaves_the_robot_as_sure_as_it_was(
     monkeypatch.setattr(objects, "MANY", 2)
     memory = ObjectMemory()
     for key, word in enumerate(["cup", "book"] * 4):
-        memory.learn_one(seen(word, key), word, key=key)
-    asked = seen("cup", 99)
+        memory.learn_one(view_of_thing(word, key), word, key=key)
+    asked = view_of_thing("cup", 99)
     before = memory.predict_proba_one(asked)["cup"]
     for key in range(4):
-        memory.learn_one(seen("shoe", key), "shoe", key=f"shoe {key}")
+        memory.learn_one(view_of_thing("shoe", key), "shoe", key=f"shoe {key}")
     assert memory.predict_proba_one(asked)["cup"] > before - 0.05
 
 
@@ -237,10 +238,10 @@ def test_the_step_to_very_many_words_and_back_leaves_nothing_behind(
     monkeypatch.setattr(objects, "MANY", 2)
     memory = ObjectMemory()
     for key, word in enumerate(("cup", "book")):
-        memory.learn_one(seen(word, key), word, key=key)
-    asked = seen("cup", 9)
+        memory.learn_one(view_of_thing(word, key), word, key=key)
+    asked = view_of_thing("cup", 9)
     before = memory.predict_proba_one(asked)
-    memory.learn_one(seen("shoe", 2), "shoe", key=2)
+    memory.learn_one(view_of_thing("shoe", 2), "shoe", key=2)
     assert memory.predict_proba_one(asked).keys() == WORDS.keys()
     memory.forget(2)
     assert memory.predict_proba_one(asked) == pytest.approx(before, abs=1e-6)
