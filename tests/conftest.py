@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import os
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
+
+from browsers import CHROMIUM, PATIENCE, Tab
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -33,6 +37,37 @@ def data() -> Path:
     if not folder.is_dir():
         pytest.skip(f"no real captures in {folder}: set KILLE_DATA to their folder")
     return folder
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Any]:
+    """Chromium, one for all tests of a process: a process can drive only one.
+
+    As long as it runs there is an event loop in this thread: a test that needs one
+    of its own takes a thread for it.
+    """
+    from playwright.sync_api import expect, sync_playwright
+
+    expect.set_options(timeout=PATIENCE)
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox"]
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def tab(chromium: Any) -> Iterator[Tab]:
+    """A tab in which nothing goes wrong that the test did not ask for."""
+    with chromium.new_context(viewport={"width": 1280, "height": 800}) as context:
+        context.set_default_timeout(PATIENCE)
+        wrong: list[str] = []
+        made = context.new_page()
+        made.on("pageerror", lambda error: wrong.append(str(error)))
+        made.on("dialog", lambda it: (wrong.append(it.message), it.dismiss()))
+        yield made
+        assert wrong == []
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

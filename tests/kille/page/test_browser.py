@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,41 +11,18 @@ from typing import Any
 
 import pytest
 
+from browsers import IN_BROWSER, PATIENCE, Tab
+
 from .pages import Program, Start, page_starter
 
 playwright = pytest.importorskip(
     "playwright.sync_api", reason="Playwright is not installed: kille[browser]"
 )
 
-CHROMIUM = shutil.which("chromium")
-
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.slow,
-    pytest.mark.skipif(
-        CHROMIUM is None, reason="there is no chromium: make oracles installs it"
-    ),
-]
+pytestmark = [*IN_BROWSER]
 
 DESK = "--sensor", "synthetic:desk?seed=7"
 EMPTY = "--sensor", "synthetic:empty?seed=7"
-PATIENCE = 60_000
-"""Milliseconds after which a test gives the page up."""
-
-playwright.expect.set_options(timeout=PATIENCE)
-
-Tab = Any
-"""A page of Playwright's."""
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(
-            executable_path=CHROMIUM, args=["--no-sandbox"]
-        )
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module")
@@ -54,19 +30,6 @@ def desk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Program]:
     """A robot before a desk on which a cup, a car and a book lie."""
     with page_starter(tmp_path_factory.mktemp("desk")) as begin:
         yield begin(*DESK)
-
-
-@pytest.fixture
-def tab(chromium: Any) -> Iterator[Tab]:
-    """A tab in which nothing goes wrong that the test did not ask for."""
-    with chromium.new_context(viewport={"width": 1280, "height": 800}) as context:
-        context.set_default_timeout(PATIENCE)
-        wrong: list[str] = []
-        made = context.new_page()
-        made.on("pageerror", lambda error: wrong.append(str(error)))
-        made.on("dialog", lambda it: (wrong.append(it.message), it.dismiss()))
-        yield made
-        assert wrong == []
 
 
 def visit(tab: Tab, program: Program, things: int = 3) -> None:
