@@ -17,7 +17,7 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
 from itertools import chain
@@ -37,6 +37,7 @@ from _measuring import (
     results,
     table_lines,
 )
+from _simulated_things import simulated_things, traits_of
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
@@ -50,8 +51,7 @@ from kille.perception.objects import ObjectMemory
 from kille.perception.paper_objects import PaperObjects
 from kille.perception.segment import overlap, region_of, segment, segment_by_contact
 from kille.perception.votes import beyond_chance, votes
-from kille.scene import Features, Frame, Look, Mask, Percept, Point, Region
-from kille.sensors.sensor import Stage
+from kille.scene import Features, Frame, Look, Mask, Percept, Point
 from kille.sensors.sources import open_sensor
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -62,50 +62,15 @@ LESSONS = 200
 ASKED = 3  # the book: 190 features
 
 
-@dataclass(frozen=True)
-class Thing:
-    """One of the ten things as seen once."""
-
-    name: str
-    frame: Frame
-    region: Region
-    scan: Features
-
-    def percept(self) -> Percept:
-        """It, without anything worked out before."""
-        measure = partial(measure_cues, self.frame, self.region)
-        scan = features_of(self.frame, self.region)
-        return Percept(self.region, (scan,), measure, self.frame)
-
-
-@cache
-def things() -> tuple[Thing, ...]:
-    stage = open_sensor("synthetic:empty?seed=3")
-    assert isinstance(stage, Stage)
-    seen = []
-    for name in stage.things():
-        stage.show(name)
-        frame = stage.frame()
-        region = segment(frame).regions[0]
-        seen.append(Thing(name, frame, region, features_of(frame, region)))
-    return tuple(seen)
-
-
 def vary_view(key: int, chance: np.random.Generator) -> View:
     """A view of one of the ten things, like no other."""
-    thing = things()[key % len(things())]
+    thing = simulated_things()[key % len(simulated_things())]
     rows = thing.scan.descriptors
     half = chance.permutation(len(rows))[: len(rows) // 2 + 1]
     noisy = rows[half] + chance.normal(0, NOISE, (len(half), rows.shape[1]))
     return View(
-        key, thing.name, np.clip(noisy, 0, 255).astype(np.uint8), traits_of(thing.name)
+        key, thing.name, np.clip(noisy, 0, 255).astype(np.uint8), traits_of(thing)
     )
-
-
-@cache
-def traits_of(name: str) -> Mapping[str, NDArray[np.float32]]:
-    thing = next(it for it in things() if it.name == name)
-    return measure_cues(thing.frame, thing.region)
 
 
 @cache
@@ -121,7 +86,7 @@ def frame() -> Frame:
     """Six things on a real table, or what there is."""
     if DATA.is_dir():
         return open_sensor(str(DATA / "ycbv_scenes" / "0002")).frame()
-    return things()[ASKED].frame
+    return simulated_things()[ASKED].frame
 
 
 def segmenting(rule: Callable[[Frame], object]) -> Callable[[int], Task]:
@@ -129,24 +94,24 @@ def segmenting(rule: Callable[[Frame], object]) -> Callable[[int], Task]:
 
 
 def extracting(_: int) -> Task:
-    thing = things()[ASKED]
+    thing = simulated_things()[ASKED]
     return lambda: features_of(thing.frame, thing.region)
 
 
 def describing(_: int) -> Task:
-    thing = things()[ASKED]
+    thing = simulated_things()[ASKED]
     return lambda: measure_cues(thing.frame, thing.region)
 
 
 def embedding(_: int) -> Task:
-    thing = things()[ASKED]
+    thing = simulated_things()[ASKED]
     cues = {EMBEDDING.name: EMBEDDING}
     return lambda: measure_cues(thing.frame, thing.region, cues)
 
 
 def voting(size: int) -> Task:
     """SIFT on the crop, the nearest descriptors, votes, and what chance would give."""
-    thing, index = things()[ASKED], Index(views(size)).settled()
+    thing, index = simulated_things()[ASKED], Index(views(size)).settled()
 
     def ask() -> object:
         rows = features_of(thing.frame, thing.region).descriptors
@@ -157,7 +122,7 @@ def voting(size: int) -> Task:
 
 
 def voting_as_in_the_paper(size: int) -> Task:
-    thing, memory = things()[ASKED], PaperObjects()
+    thing, memory = simulated_things()[ASKED], PaperObjects()
     for view in views(size):
         nowhere = np.zeros((len(view.descriptors), 3), np.float32)
         scan = Features(view.descriptors, nowhere[:, :2], nowhere)
@@ -167,7 +132,7 @@ def voting_as_in_the_paper(size: int) -> Task:
 
 def recognising(size: int) -> Task:
     """All default cues and votes: what the robot does for one scan."""
-    thing, memory = things()[ASKED], ObjectMemory(views(size))
+    thing, memory = simulated_things()[ASKED], ObjectMemory(views(size))
     memory.predict_proba_one(thing.percept())
     return lambda: memory.predict_proba_one(thing.percept())
 

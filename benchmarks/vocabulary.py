@@ -19,26 +19,21 @@ import tempfile
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cache
 from pathlib import Path
 
 import cv2
 import numpy as np
 from _measuring import Clock, arguments, clock_of, limit_told
+from _simulated_things import simulated_things, traits_of
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from kille.grounding.knowledge import Knowledge
 from kille.lab.protocols.memory_use import resident_memory
 from kille.memory import Memory, Scan, Sighting, Turn
-from kille.perception.cues import measure_cues
-from kille.perception.features import features_of
 from kille.perception.index import Background, View
 from kille.perception.objects import ObjectMemory
-from kille.perception.segment import segment
-from kille.scene import Features, Percept, Region, Traits
-from kille.sensors.sensor import Stage
-from kille.sensors.sources import open_sensor
+from kille.scene import Features, Percept, Traits
 
 WORDS = (100, 500, 1_000, 2_000, 4_000, 10_000)
 VIEWS = 10  # of each word
@@ -75,30 +70,16 @@ def noise(
     return np.float32(spread) * chance.standard_normal(len(vector), np.float32)
 
 
-@cache
-def rendered_things() -> tuple[tuple[Region, Traits, Features], ...]:
-    """The ten things of the simulated table: where they are, cues, features."""
-    stage = open_sensor("synthetic:empty?seed=3")
-    assert isinstance(stage, Stage)
-    found = []
-    for name in stage.things():
-        stage.show(name)
-        frame = stage.frame()
-        region = segment(frame).regions[0]
-        found.append((region, measure_cues(frame, region), features_of(frame, region)))
-    return tuple(found)
-
-
 def invent_thing(word: str, chance: np.random.Generator) -> Thing:
     """A thing like no other: a mixture of two others in each cue."""
     traits = {}
-    for cue in rendered_things()[0][1]:
+    seen = simulated_things()
+    for cue in traits_of(seen[0]):
         one, other = (
-            rendered_things()[chance.integers(len(rendered_things()))][1][cue]
-            for _ in range(2)
+            traits_of(seen[chance.integers(len(seen))])[cue] for _ in range(2)
         )
         traits[cue] = (one + (other - one) * np.float32(chance.random())).astype("f4")
-    rows = np.concatenate([scan.descriptors for _, _, scan in rendered_things()])
+    rows = np.concatenate([it.scan.descriptors for it in seen])
     return Thing(word, traits, rows[chance.integers(0, len(rows), FEATURES)])
 
 
@@ -106,7 +87,7 @@ def percept_of(view: View) -> Percept:
     """What is seen in a view: one scan."""
     nowhere = np.zeros((len(view.descriptors), 3), np.float32)
     scan = Features(view.descriptors, nowhere[:, :2], nowhere)
-    return Percept(rendered_things()[0][0], (scan,), lambda: view.traits, None)
+    return Percept(simulated_things()[0].region, (scan,), lambda: view.traits, None)
 
 
 @dataclass(frozen=True)
