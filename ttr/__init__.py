@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ttr.building.well_formedness import wellformed
     from ttr.computing.subtyping import consistent, subtype
     from ttr.display.render import box, html, latex
+    from ttr.display.shown import show
     from ttr.errors import TTRError
     from ttr.judging.models import Model
     from ttr.notation.reader import parse
@@ -49,8 +50,8 @@ if TYPE_CHECKING:
 PROVIDERS = {
     "ttr.types.interning.as_notation": "ttr.types.printing",
     "ttr.types.interning.as_python": "ttr.types.printing",
-    "ttr.types.notebook_display.as_html": "ttr.display.render",
-    "ttr.types.notebook_display.as_latex": "ttr.display.render",
+    "ttr.showing.as_html": "ttr.display.render",
+    "ttr.showing.as_latex": "ttr.display.render",
     "ttr.types.paths.merge_by_form": "ttr.types.merges",
     "ttr.types.syntax.as_function_type": "ttr.types.derived_types",
     "ttr.types.syntax.is_subtype": "ttr.computing.subtyping",
@@ -91,6 +92,7 @@ _HOMES = {
     "ttr.building.relabelling": "relabel",
     "ttr.computing.subtyping": "consistent subtype",
     "ttr.display.render": "box html latex",
+    "ttr.display.shown": "show",
     "ttr.errors": "TTRError",
     "ttr.judging.models": "Model",
     "ttr.notation.reader": "parse",
@@ -144,6 +146,7 @@ __all__ = [
     "rectype",
     "relabel",
     "replace",
+    "show",
     "subtype",
     "this",
     "updates",

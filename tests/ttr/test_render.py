@@ -534,18 +534,28 @@ def test_values_draw_themselves_in_a_notebook() -> None:
         assert value._repr_latex_() == f"$\\displaystyle {ttr.latex(value)}$"
 
 
-@pytest.mark.parametrize("form", [ttr.box, ttr.latex, ttr.html])
 @pytest.mark.parametrize(
     ("value", "kind"),
     [
         (Model(), "Model"),
         (KENNEL, "Theory"),
         (ttr.subtype(Ind, Type), "Answer"),
+    ],
+)
+def test_what_is_only_about_objects_has_no_box(value, kind):
+    with pytest.raises(IllFormedError, match=f"derivations are drawn, found {kind}$"):
+        ttr.box(value)
+
+
+@pytest.mark.parametrize("form", [ttr.box, ttr.latex, ttr.html])
+@pytest.mark.parametrize(
+    ("value", "kind"),
+    [
         (rectype, "function"),
         (None, "NoneType"),
     ],
 )
-def test_what_is_only_about_objects_is_not_drawn(form, value, kind):
+def test_what_is_only_pythons_is_not_drawn(form, value, kind):
     with pytest.raises(IllFormedError, match=f"derivations are drawn, found {kind}$"):
         form(value)
 

@@ -25,6 +25,7 @@ from ttr.computing.prover import Prover
 from ttr.errors import TooLargeError
 from ttr.hooks import hook
 from ttr.safety.budgets import within_budget
+from ttr.showing import Fold, NotebookValue, Part, Text, Tone, Value, below, beside
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.interning import Node
 from ttr.types.objects import EventString, FiniteSet, Object, Path
@@ -81,7 +82,7 @@ VERDICTS = ("no", "unknown", "yes")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Answer:
+class Answer(NotebookValue):
     """An answer to a question about types: `verdict` is yes, no or unknown.
 
     A reason may be given as what makes it: then it is made when it is asked for.
@@ -126,6 +127,17 @@ class Answer:
         if self._refutation is None or not self.no:
             return None
         return counterexample(self._refutation)
+
+    def _shown_as_(self) -> Part:
+        tone: Tone = "yes" if self.yes else "no" if self.no else "strong"
+        counter = self.counter
+        against = None
+        if counter is not None:
+            against = below(
+                beside(Text("counterexample:", "quiet"), Value(counter)),
+                Fold("why it is none", Value(counter.why)),
+            )
+        return below(beside(Text(self.verdict, tone), Text(self.why)), against)
 
     def __bool__(self) -> bool:
         raise TypeError("an answer is yes, no or unknown: ask for .yes or .no")

@@ -19,21 +19,25 @@ def layout_of_changes(before: Object, after: Object) -> Layout:
     >>> [(row.label.text, row.changed) for row in layout.rows]
     [('x', False), ('y', True)]
     """
-    return _mark_changes(layout_of(after), before, after)
+    return mark_changes(layout_of(after), before, after)
 
 
-def _mark_changes(layout: Layout, before: Object, after: Object) -> Layout:
+def mark_changes(layout: Layout, before: Object, after: Object) -> Layout:
+    """The layout of `after` with the fields marked that have changed since `before`."""
     match layout, before, after:
         case Matrix(rows=rows), Record(), Record() if len(after):
             marked = []
             for row in rows:
                 label = row.label.text
+                if label not in after:  # it stands for those left out
+                    marked.append(row)
+                    continue
                 if label not in before:
                     marked.append(replace(row, changed=True))
                     continue
                 was, now = before[label], after[label]
                 if isinstance(was, Record) and isinstance(now, Record) and len(now):
-                    marked.append(replace(row, has=_mark_changes(row.has, was, now)))
+                    marked.append(replace(row, has=mark_changes(row.has, was, now)))
                     continue
                 marked.append(replace(row, changed=identity(was) != identity(now)))
             return replace(layout, rows=tuple(marked))

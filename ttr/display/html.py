@@ -6,9 +6,12 @@ well, invisible, so that it is what gets copied or read aloud.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 from ttr.display.layout import (
     Bracketed,
     Chain,
+    Folded,
     Layout,
     Line,
     Matrix,
@@ -25,17 +28,22 @@ from ttr.safety.budgets import spend
 
 def layout_as_html(layout: Layout) -> str:
     """The layout with its style, to be put anywhere in a page."""
-    return _with_style(_markup(layout))
+    return _with_style(layout_markup(layout))
 
 
 def derivation_as_html(step: Step) -> str:
     """The derivation as steps that fold; those that fail or are likely are open."""
-    return _with_style(f'<ul class="ttr-why"><li>{_derivation(step)}</li></ul>')
+    return _with_style(derivation_markup(step))
+
+
+def derivation_markup(step: Step) -> str:
+    """The same without its style."""
+    return f'<ul class="ttr-why"><li>{_derivation(step)}</li></ul>'
 
 
 def part_of_page(layout: Layout) -> str:
     """The layout without its style, for a page that has the style already."""
-    return f'<div class="ttr">{_markup(layout)}</div>'
+    return f'<div class="ttr">{layout_markup(layout)}</div>'
 
 
 def page(title: str, body: str, style: str = "") -> str:
@@ -101,7 +109,8 @@ def _with_style(body: str) -> str:
 # --- values --------------------------------------------------------------------------
 
 
-def _markup(layout: Layout) -> str:
+def layout_markup(layout: Layout) -> str:
+    """The layout inside a piece of HTML that has its style."""
     spend()
     match layout:
         case Word(text, role):
@@ -109,15 +118,23 @@ def _markup(layout: Layout) -> str:
         case Sign(text):
             return _sign(text)
         case Superscript(base, exponent):
-            return f"{_markup(base)}{_unseen('^')}<sup>{html_text(exponent.text)}</sup>"
+            above = f"<sup>{html_text(exponent.text)}</sup>"
+            return f"{layout_markup(base)}{_unseen('^')}{above}"
         case Subscript(base, value):
-            return f"{_markup(base)}{_unseen('@')}<sub>{_markup(value)}</sub>"
+            return (
+                f"{layout_markup(base)}{_unseen('@')}<sub>{layout_markup(value)}</sub>"
+            )
         case Line(parts):
-            return "".join(map(_markup, parts))
+            return "".join(map(layout_markup, parts))
         case Chain(sign, parts):
-            return _sign(sign.text).join(map(_markup, parts))
+            return _sign(sign.text).join(map(layout_markup, parts))
         case Bracketed():
             return _list(layout)
+        case Folded(summary, inside):
+            return (
+                f"<details><summary>{layout_markup(summary)}</summary>"
+                f"{layout_markup(inside)}</details>"
+            )
         case Matrix():
             return _matrix(layout)
 
@@ -131,7 +148,7 @@ def _unseen(text: str) -> str:
 
 
 def _list(listed: Bracketed) -> str:
-    inside = html_text(listed.between.text).join(map(_markup, listed.parts))
+    inside = html_text(listed.between.text).join(map(layout_markup, listed.parts))
     if not listed.tall:
         return f"{html_text(listed.opening)}{inside}{html_text(listed.closing)}"
     if listed.opening in _DRAWN:
@@ -148,6 +165,22 @@ _DRAWN = {"(": "ttr-round", "[": "ttr-square"}
 """Brackets that grow with what they hold; others get a larger font."""
 
 
+def matrix_markup(rows: Sequence[tuple[str, str]]) -> str:
+    """A matrix of names and pieces of HTML."""
+    inside = [
+        f'<td><span class="ttr-label">{name}</span></td><td>:</td><td>{has}</td>'
+        for name, has in rows
+    ]
+    return _table_of(inside)
+
+
+def _table_of(rows: Iterable[str]) -> str:
+    """A table in square brackets, of rows of cells."""
+    body = "".join([f"<tr>{row}</tr>" for row in rows])
+    start = '<table class="ttr-matrix ttr-square" role="presentation">'
+    return f"{start}<tbody>{body}</tbody></table>"
+
+
 def _matrix(matrix: Matrix) -> str:
     last = len(matrix.rows) - 1
     sign = matrix.sign.text.strip()
@@ -155,7 +188,7 @@ def _matrix(matrix: Matrix) -> str:
     for number, row in enumerate(matrix.rows):
         before = _unseen(matrix.opening) if number == 0 else ""
         after = _unseen(matrix.closing if number == last else ",")
-        cells = (before + _name(row), sign, _markup(row.has) + after)
+        cells = (before + _name(row), sign, layout_markup(row.has) + after)
         inside = "".join([f"<td>{cell}</td>" for cell in cells])
         kind = ' class="ttr-changed"' if row.changed else ""
         rows.append(f"<tr{kind}>{inside}</tr>")
@@ -167,8 +200,8 @@ def _matrix(matrix: Matrix) -> str:
 def _name(row: Row) -> str:
     """What stands before the sign of the matrix."""
     if row.manifest is None:
-        return _markup(row.label)
-    return f"{_markup(row.label)} = {_markup(row.manifest)}"
+        return layout_markup(row.label)
+    return f"{layout_markup(row.label)} = {layout_markup(row.manifest)}"
 
 
 # --- derivations ---------------------------------------------------------------------
@@ -196,4 +229,4 @@ def _claim(step: Step) -> str:
     mark = f'<span class="ttr-mark{kind}">{html_text(step.mark)}</span> '
     where = f'<span class="ttr-label">{html_text(step.where)}</span>: '
     because = f' <span class="ttr-rule">({html_text(step.because)})</span>'
-    return mark + where * bool(step.where) + _markup(step.claim) + because
+    return mark + where * bool(step.where) + layout_markup(step.claim) + because

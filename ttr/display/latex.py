@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator
 from ttr.display.layout import (
     Bracketed,
     Chain,
+    Folded,
     Layout,
     Line,
     Matrix,
@@ -35,14 +36,14 @@ _ROOM = 90
 
 def layout_as_latex(layout: Layout) -> str:
     """The layout as mathematics, without the dollars around it."""
-    return _guard_fonts(_latex(layout))
+    return guard_fonts(latex_of(layout))
 
 
 _SHORT = 5_000
 """A formula of at most this length needs no guard for MathJax 2."""
 
 
-def _guard_fonts(text: str) -> str:
+def guard_fonts(text: str) -> str:
     """The formula with each font command inside an argument, if it is long.
 
     To MathJax 2 font commands are macros, and it expands a macro only if at most 5,120
@@ -53,7 +54,8 @@ def _guard_fonts(text: str) -> str:
     return re.sub(r"\\(?:mathrm|mathit|textit)\{[^{}]*\}", r"\\mathord{\g<0>}", text)
 
 
-def _latex(layout: Layout) -> str:
+def latex_of(layout: Layout) -> str:
+    """The layout as a part of a formula."""
     spend()
     match layout:
         case Word(text, role):
@@ -61,15 +63,17 @@ def _latex(layout: Layout) -> str:
         case Sign(text):
             return _sign(text)
         case Superscript(base, exponent):
-            return f"{_latex(base)}^{{{_latex(exponent)}}}"
+            return f"{latex_of(base)}^{{{latex_of(exponent)}}}"
         case Subscript(base, value):
-            return f"{{{_latex(base)}}}_{{{_latex(value)}}}"
+            return f"{{{latex_of(base)}}}_{{{latex_of(value)}}}"
         case Line(parts):
-            return "".join(map(_latex, parts))
+            return "".join(map(latex_of, parts))
         case Chain():
             return _chain(layout)
         case Bracketed():
             return _list(layout)
+        case Folded(_, inside):
+            return latex_of(inside)
         case Matrix():
             return _matrix(layout)
 
@@ -80,7 +84,12 @@ def derivation_as_latex(step: Step) -> str:
     What a step rests on stands below it, indented; the first step that fails is
     underlined.
     """
-    return _guard_fonts(_array("ll", _steps(step, 0)))
+    return guard_fonts(derivation_rows(step))
+
+
+def derivation_rows(step: Step) -> str:
+    """The array of a derivation, as a part of a formula."""
+    return array("ll", _steps(step, 0))
 
 
 def _steps(step: Step, depth: int) -> Iterator[str]:
@@ -101,7 +110,7 @@ _MARKS = {"✓": "\\surd", "✗": "\\times"}
 # --- matrices, chains and lists ------------------------------------------------------
 
 
-def _array(format_of_columns: str, rows: Iterable[str]) -> str:
+def array(format_of_columns: str, rows: Iterable[str]) -> str:
     """Rows with a little space between; without it, a [ below would be an option."""
     lines = " \\\\[2pt]\n".join(rows)
     return f"\\begin{{array}}{{{format_of_columns}}}\n{lines}\n\\end{{array}}"
@@ -110,32 +119,37 @@ def _array(format_of_columns: str, rows: Iterable[str]) -> str:
 def _matrix(matrix: Matrix) -> str:
     sign = matrix.sign.text.strip()
     rows = [f"{_name(row)} & {sign} & {_in_row(row.has)}" for row in matrix.rows]
-    return _enclose("[", _array("lcl", rows), "]")
+    return enclose("[", array("lcl", rows), "]")
 
 
 def _name(row: Row) -> str:
     """What stands before the sign of the matrix."""
     if row.manifest is None:
-        return _latex(row.label)
-    return f"{_latex(row.label)} = {_in_row(row.manifest)}"
+        return latex_of(row.label)
+    return f"{latex_of(row.label)} = {_in_row(row.manifest)}"
 
 
 def _in_row(layout: Layout) -> str:
     """A layout in a row; invisible indices keep a tall one from touching the next."""
     if not layout.tall:
-        return _latex(layout)
-    return f"{{{_latex(layout)}}}^{{\\vphantom{{(}}}}_{{\\vphantom{{(}}}}"
+        return latex_of(layout)
+    return keep_apart(latex_of(layout))
+
+
+def keep_apart(drawn: str) -> str:
+    """A tall formula with invisible indices, which keep it from touching the next."""
+    return f"{{{drawn}}}^{{\\vphantom{{(}}}}_{{\\vphantom{{(}}}}"
 
 
 def _chain(chain: Chain) -> str:
     sign = _sign(chain.sign.text)
     if chain.width <= _ROOM:
-        return sign.join(map(_latex, chain.parts))
+        return sign.join(map(latex_of, chain.parts))
     first, *others = map(_in_row, chain.parts)
     if not chain.sign.text.strip():
-        return _array("l", [first, *[f"\\kern1em {part}" for part in others]])
+        return array("l", [first, *[f"\\kern1em {part}" for part in others]])
     lead = f"{{}}{sign}{{}}"
-    return _array(
+    return array(
         "l", [f"\\phantom{{{lead}}}{first}", *[f"{lead}{part}" for part in others]]
     )
 
@@ -143,19 +157,20 @@ def _chain(chain: Chain) -> str:
 def _list(listed: Bracketed) -> str:
     between = _sign(listed.between.text)
     lines = [
-        between.join(map(_latex, line))
+        between.join(map(latex_of, line))
         for line in fill_lines(listed.parts, listed.between, _ROOM)
     ]
     if len(lines) > 1:
-        inside = _array("l", [*[line + between for line in lines[:-1]], lines[-1]])
-        return _enclose(listed.opening, inside, listed.closing)
+        inside = array("l", [*[line + between for line in lines[:-1]], lines[-1]])
+        return enclose(listed.opening, inside, listed.closing)
     if listed.tall:
-        return _enclose(listed.opening, "".join(lines), listed.closing)
+        return enclose(listed.opening, "".join(lines), listed.closing)
     opening, closing = _BRACKETS[listed.opening], _BRACKETS[listed.closing]
     return f"{opening}{''.join(lines)}{closing}"
 
 
-def _enclose(opening: str, inside: str, closing: str) -> str:
+def enclose(opening: str, inside: str, closing: str) -> str:
+    """The formula in brackets as tall as it is."""
     return f"\\left{_BRACKETS[opening]}{inside}\\right{_BRACKETS[closing]}"
 
 

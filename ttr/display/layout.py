@@ -6,11 +6,12 @@ text, LaTeX or HTML. Read from left to right, a layout is the value in notation.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, TypeAlias
 
+from ttr.display.room import cut, ellipsis, shorten, take_room
 from ttr.escapes import columns, terminal_line
 from ttr.safety.budgets import spend
 from ttr.types.objects import (
@@ -245,8 +246,26 @@ class Matrix:
         return len(self.rows) > 1 or self.rows[0].tall
 
 
+@dataclass(frozen=True)
+class Folded:
+    """What opens on a click on its summary, where there are clicks."""
+
+    summary: Word
+    inside: Layout
+
+    @property
+    def width(self) -> int:
+        """The columns it takes."""
+        return self.inside.width
+
+    @property
+    def tall(self) -> bool:
+        """Is what is inside tall?"""
+        return self.inside.tall
+
+
 Layout: TypeAlias = (
-    Word | Sign | Superscript | Subscript | Line | Chain | Bracketed | Matrix
+    Word | Sign | Superscript | Subscript | Line | Chain | Bracketed | Matrix | Folded
 )
 
 
@@ -285,16 +304,72 @@ def fill_lines(
         yield tuple(line)
 
 
+def words_in(layout: Layout) -> int:
+    """The number of words in a layout, which is about how long it takes to read it."""
+    match layout:
+        case Word() | Sign() | Superscript():
+            return 1
+        case Subscript(base, value):
+            return words_in(base) + words_in(value)
+        case Line(parts) | Chain(_, parts) | Bracketed(_, parts):
+            return sum(map(words_in, parts))
+        case Matrix(rows=rows):
+            return sum(1 + words_in(row.has) for row in rows)
+        case Folded(_, inside):
+            return words_in(inside)
+
+
+LARGE = 40
+"""A field with more words than this folds, in a matrix that has more than that."""
+
+
+def fold_large_fields(layout: Layout) -> Layout:
+    """The layout with what is large in the fields of a large matrix folded.
+
+    What has changed stays open.
+    """
+    if not isinstance(layout, Matrix) or words_in(layout) <= 2 * LARGE:
+        return layout
+    return replace(layout, rows=tuple([_fold_if_large(row) for row in layout.rows]))
+
+
+def _fold_if_large(row: Row) -> Row:
+    inside = fold_large_fields(row.has)
+    match row.has:
+        case Matrix(rows=found):
+            many = f"{len(found):,} fields"
+        case Bracketed(parts=parts):
+            many = f"{len(parts):,} items"
+        case _:
+            return row
+    if row.changed or words_in(row.has) <= LARGE or _has_changes(row.has):
+        return replace(row, has=inside)
+    return replace(row, has=Folded(Word(many, "text"), inside))
+
+
+def _has_changes(layout: Layout) -> bool:
+    """Has a field in the matrix changed?"""
+    return isinstance(layout, Matrix) and any(
+        row.changed or _has_changes(row.has) for row in layout.rows
+    )
+
+
 # --- values --------------------------------------------------------------------------
 
 
 _COMMA = Sign(", ")
 _COLON = Sign(" : ")
+_ELLIPSIS = Word("…", "text")
 
 
 def layout_of(value: Object, scope: Scope = ()) -> Layout:
-    """The layout of a type or an object; its variables are named as in print."""
+    """The layout of a type or an object; its variables are named as in print.
+
+    Where there is only so much room (`room_for`), an ellipsis stands for the rest.
+    """
     spend(4)  # the layout is kept, and drawn later
+    if not take_room():
+        return _ELLIPSIS
     match value:
         case Basic():
             return Word(notation(value, scope), "type")
@@ -310,9 +385,9 @@ def layout_of(value: Object, scope: Scope = ()) -> Layout:
             return Word("Rec", "type")
         case RecordType():
             inner = (labels_of(value), *scope)
-            fields = fields_in_order(value, scope)
-            rows = tuple([_row(k, T, inner) for k, T in fields])
-            return Matrix("[", _COLON, rows, "]")
+            fields, left = cut(fields_in_order(value, scope), len(value.fields))
+            rows = [_row(k, T, inner) for k, T in fields]
+            return Matrix("[", _COLON, (*rows, *_rows_left(left)), "]")
         case Singleton(base, obj):
             return Subscript(_tight(base, scope), _tight_object(obj, scope))
         case Merge(parts):
@@ -350,18 +425,18 @@ def _object(value: Object, scope: Scope) -> Layout:
     spend()
     match value:
         case Record() if len(value):
-            fields = sorted(value._fields.items())
+            fields, left = cut(sorted(value._fields.items()), len(value))
             labels = [Word(label, "label") for label, _ in fields]
             values = _objects([v for _, v in fields], scope)
             rows = [Row(k, None, v) for k, v in zip(labels, values, strict=True)]
-            return Matrix("{", Sign(" = "), tuple(rows), "}")
+            return Matrix("{", Sign(" = "), (*rows, *_rows_left(left)), "}")
         case FiniteSet(items) if items:
             return Bracketed("{", _objects(items, scope), "}", _COMMA)
         case EventString(items):
             return _string(items, scope)
     if type(value) is tuple:
         return Bracketed("[", _objects(value, scope), "]", _COMMA)
-    return Word(notation(value, scope), _role(value))
+    return Word(shorten(notation(value, scope)), _role(value))
 
 
 def _role(value: Object) -> Role:
@@ -382,8 +457,19 @@ def _row(label: str, field: TypeNode, scope: Scope) -> Row:
     return Row(Word(label, "label"), None, layout_of(field, scope))
 
 
-def _objects(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
-    return tuple([layout_of(as_object(v, scope), scope) for v in values])
+def _rows_left(left: int) -> list[Row]:
+    """A row for so many fields that are left out."""
+    if not left:
+        return []
+    return [Row(Word("…", "text"), None, Word(f"{left:,} more fields", "text"))]
+
+
+def _objects(values: Sequence[Object], scope: Scope) -> tuple[Layout, ...]:
+    shown, left = cut(values, len(values))
+    drawn = [layout_of(as_object(v, scope), scope) for v in shown]
+    if left:
+        drawn.append(Word(ellipsis(left), "text"))
+    return tuple(drawn)
 
 
 def _call(applied: Layout, args: tuple[Layout, ...]) -> Line:
@@ -392,9 +478,13 @@ def _call(applied: Layout, args: tuple[Layout, ...]) -> Line:
 
 def _string(items: Sequence[Object], scope: Scope) -> Bracketed:
     """<a b>; with commas if an event could be read as an argument of the one before."""
-    events = [as_object(item, scope) for item in items]
+    shown, left = cut(items, len(items))
+    events = [as_object(item, scope) for item in shown]
     between = _COMMA if any(map(begins_with_bracket, events)) else Sign(" ")
-    return Bracketed("<", tuple([_tight(it, scope) for it in events]), ">", between)
+    drawn = [_tight(it, scope) for it in events]
+    if left:
+        drawn.append(Word(ellipsis(left), "text"))
+    return Bracketed("<", tuple(drawn), ">", between)
 
 
 # --- brackets, functions and their variables -----------------------------------------
@@ -410,8 +500,12 @@ def _operand(value: Object, scope: Scope) -> Layout:
     return _in_brackets(layout) if is_loose(value) else layout
 
 
-def _operands(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
-    return tuple([_operand(value, scope) for value in values])
+def _operands(values: Sequence[Object], scope: Scope) -> tuple[Layout, ...]:
+    shown, left = cut(values, len(values))
+    drawn = [_operand(value, scope) for value in shown]
+    if left:
+        drawn.append(Word(ellipsis(left), "text"))
+    return tuple(drawn)
 
 
 def _tight(value: Object, scope: Scope) -> Layout:

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from types import BuiltinFunctionType, FunctionType, ModuleType, NoneType
-
-from ttr.display.abbreviations import abbreviator
 from ttr.display.html import derivation_as_html, layout_as_html
 from ttr.display.latex import derivation_as_latex, layout_as_latex
-from ttr.display.layout import Layout, Line, Sign, Step, Word, layout_of
+from ttr.display.parts_in_html import parts_as_html
+from ttr.display.parts_in_latex import parts_as_latex
+from ttr.display.pieces import (
+    drawable,
+    has_parts,
+    layout_function,
+    layout_of_value,
+    step_of,
+)
+from ttr.display.room import WORDS, room_for
 from ttr.display.text import derivation_as_text, layout_as_text
-from ttr.errors import IllFormedError
-from ttr.judging.judgements import Judgement, Why, mark
+from ttr.errors import IllFormedError, TTRError
+from ttr.judging.judgements import Why
 from ttr.safety.budgets import within_budget
+from ttr.showing import In, Part, Text, Value, as_html, as_latex
 from ttr.signature.signature import Signature
-from ttr.types.interning import Node
-from ttr.types.notebook_display import NotebookValue, as_html, as_latex
-from ttr.types.objects import Object, Record, freeze
 
 
 @within_budget
@@ -44,10 +47,10 @@ def box(
         raise IllFormedError(
             f"a width is a number of columns, 1 or more, found {width!r}"
         )
-    to_layout = _layout_function(theory, unfold)
+    to_layout = layout_function(theory, unfold)
     if isinstance(value, Why):
-        return derivation_as_text(_step(value, to_layout), width)
-    return layout_as_text(_layout(value, to_layout), width)
+        return derivation_as_text(step_of(value, to_layout), width)
+    return layout_as_text(layout_of_value(drawable(value), to_layout), width)
 
 
 @within_budget
@@ -57,16 +60,25 @@ def latex(
     r"""The value as LaTeX for mathematics, without the dollars around it.
 
     It needs amsmath, but no other packages and no macros; MathJax 2, MathJax 3 and
-    KaTeX take it as well. For values, `unfold` and errors see `box`.
+    KaTeX take it as well. A type, an object, a judgement or its `why` is drawn in full,
+    with `unfold` as in `box`; of a theory, a model, a rule, a game, a turn and whatever
+    else a notebook draws there is as much as it shows. Raises as `box`, and
+    `IllFormedError` for what is a picture, such as a look.
 
     >>> from ttr import Ind, Pred
     >>> print(latex(Pred("dog", Ind)("fido")))
     \mathrm{dog}(\mathrm{fido})
     """
-    to_layout = _layout_function(theory, unfold)
+    to_layout = layout_function(theory, unfold)
+    if has_parts(value):
+        with room_for(WORDS):
+            drawn = parts_as_latex(_parts(value, theory))
+        if drawn is None:
+            raise IllFormedError(f"a picture has no LaTeX, found {_kind(value)}")
+        return drawn
     if isinstance(value, Why):
-        return derivation_as_latex(_step(value, to_layout))
-    return layout_as_latex(_layout(value, to_layout))
+        return derivation_as_latex(step_of(value, to_layout))
+    return layout_as_latex(layout_of_value(drawable(value), to_layout))
 
 
 @within_budget
@@ -76,89 +88,58 @@ def html(
     """The value as a part of a web page: tables with their style, and no script.
 
     Its colours are those of the page. When it is copied, the notation is copied. For
-    values, `unfold` and errors see `box`.
+    values, `unfold` and errors see `latex`; pictures are in it.
     """
-    to_layout = _layout_function(theory, unfold)
+    to_layout = layout_function(theory, unfold)
+    if has_parts(value):
+        with room_for(WORDS):
+            return parts_as_html(_parts(value, theory))
     if isinstance(value, Why):
-        return derivation_as_html(_step(value, to_layout))
-    return layout_as_html(_layout(value, to_layout))
+        return derivation_as_html(step_of(value, to_layout))
+    return layout_as_html(layout_of_value(drawable(value), to_layout))
 
 
-_ToLayout = Callable[[Object], Layout]
+def _parts(value: object, theory: Signature | None) -> Part:
+    """What a value is shown as: itself, if it says nothing else."""
+    shown: Part = value._shown_as_() if has_parts(value) else Value(value)  # type: ignore[attr-defined]
+    return shown if theory is None else In(theory, shown)
 
 
-def _layout_function(theory: Signature | None, unfold: int | None) -> _ToLayout:
-    fold = abbreviator(theory, unfold)
-    text = theory.spelling if isinstance(theory, Signature) else ()
-    return lambda value: layout_of(fold(value), fold.spelling(text))
+def _kind(value: object) -> str:
+    return type(value).__name__
 
 
-def _layout(value: object, to_layout: _ToLayout) -> Layout:
-    if not isinstance(value, Judgement):
-        return to_layout(_drawable(value))
-    degree = (Word("p", "variable"), Sign(" = "), Word(str(value.p), "text"))
-    claim = _claim(value, to_layout)
-    return Line((*claim.parts, Sign("   "), *degree))
+# --- in a notebook -------------------------------------------------------------------
 
 
-_OF_PYTHON = (NoneType, type, FunctionType, BuiltinFunctionType, ModuleType)
-"""Kinds of Python objects that nobody means to draw."""
+@as_html.provided_by
+def notebook_html(value: object) -> str:
+    """The value as a notebook shows it: as much as there is room for; never an error.
 
-
-def _drawable(value: object) -> Object:
-    """The value as an object; raises `IllFormedError` for a theory, a model, an answer,
-    …
-
-    A value that has a `record`, such as a meaning, is drawn as this record.
+    What is large is folded; what cannot be drawn is replaced by the reason.
     """
-    kept = isinstance(value, Node | Record)
-    behind = None if kept else getattr(value, "record", None)
-    found = behind if isinstance(behind, Record) else freeze(value)
-    kind: type = type(found)
-    is_ours = kind.__module__.startswith("ttr.")
-    if isinstance(found, _OF_PYTHON) or (
-        is_ours and not isinstance(found, NotebookValue)
-    ):
-        raise IllFormedError(
-            "types, objects, judgements and derivations are drawn, "
-            f"found {kind.__name__}"
-        )
-    return found
+    try:
+        return _bounded_html(value)
+    except TTRError as error:
+        return parts_as_html(Text(error.message, "quiet"))
 
 
-def _claim(value: Judgement | Why, to_layout: _ToLayout) -> Line:
-    return Line((to_layout(value.sit), Sign(" : "), to_layout(value.type)))
-
-
-# --- derivations ---------------------------------------------------------------------
-
-
-def _step(why: Why, to_layout: _ToLayout) -> Step:
-    """A derivation; it points at what fails only if the claim certainly fails."""
-    return _follow(why, to_layout, why.failure() if why.p.lo == 0.0 else None)
-
-
-def _follow(why: Why, to_layout: _ToLayout, failing: Why | None) -> Step:
-    """The step and those below it; `failing` is the one of them that fails, if any."""
-    branch = _part_with(why, failing)
-    parts = [_follow(p, to_layout, failing if p is branch else None) for p in why.parts]
-    because = why.because
-    return Step(
-        mark(why.p),
-        why.where,
-        _claim(why, to_layout),
-        because,
-        tuple(parts),
-        fails=failing is not None,
-    )
-
-
-def _part_with(why: Why, failing: Why | None) -> Why | None:
-    """The part that contains the failing step, if there is one."""
-    if failing is None or why is failing:
+@as_latex.provided_by
+def notebook_latex(value: object) -> str | None:
+    """The same as LaTeX; None for what has none, such as a picture."""
+    try:
+        return _bounded_latex(value)
+    except TTRError:
         return None
-    return next(part for part in why.parts if part.failure() is failing)
 
 
-as_html.provided_by(html)
-as_latex.provided_by(latex)
+@within_budget
+def _bounded_html(value: object) -> str:
+    with room_for(WORDS):
+        return parts_as_html(_parts(value, None))
+
+
+@within_budget
+def _bounded_latex(value: object) -> str | None:
+    with room_for(WORDS):
+        return parts_as_latex(_parts(value, None))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ttr.display.layout import (
     Bracketed,
     Chain,
+    Folded,
     Layout,
     Line,
     Matrix,
@@ -152,6 +153,8 @@ def _draw(layout: Layout, room: int) -> _Block:
             return _chain(layout, room)
         case Bracketed():
             return _list(layout, room)
+        case Folded(_, inside):
+            return _draw(inside, room)
         case Matrix():
             return _matrix(layout, room)
 

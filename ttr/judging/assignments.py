@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from heapq import nsmallest
 from operator import itemgetter
 from typing import Any, TypeAlias
 
@@ -231,6 +232,16 @@ class Assignment:
         return [sit for _, sit in sorted(told.values(), key=itemgetter(0))]
 
     # --- new assignments -----------------------------------------------------------
+
+    def first_told(self, most: int) -> list[tuple[Object, Atom, Degree]]:
+        """The first judgements that were told, at most so many, in order."""
+        numbered = (
+            (number, sit, T)
+            for T, objects in self.told.items()
+            for number, sit in objects.values()
+        )
+        first = nsmallest(most, numbered, key=itemgetter(0))
+        return [(sit, T, self.told_degree(sit, T) or UNKNOWN) for _, sit, T in first]
 
     def with_fact(self, sit: Object, T: Atom, p: Degree) -> Assignment:
         """The assignment in which also sit : T, in place of an earlier fact.

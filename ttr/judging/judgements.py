@@ -20,8 +20,8 @@ from ttr.probability import (
     Not,
     degree,
 )
+from ttr.showing import NotebookValue
 from ttr.types.interning import identity
-from ttr.types.notebook_display import NotebookValue
 from ttr.types.objects import Object
 from ttr.types.printing import notation
 from ttr.types.syntax import Basic, PType, TypeNode

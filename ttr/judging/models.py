@@ -46,6 +46,18 @@ from ttr.safety.budgets import (
     purse_of_several,
     within_budget,
 )
+from ttr.showing import (
+    ROWS,
+    Fold,
+    NotebookValue,
+    Part,
+    Text,
+    Value,
+    below,
+    count_of,
+    name_list,
+    table,
+)
 from ttr.signature.signature import Expected, Given, Signature
 from ttr.types.interning import identity
 from ttr.types.objects import Object, Record, freeze
@@ -106,7 +118,7 @@ class _HasSignature(Protocol):
     def signature(self) -> Signature: ...
 
 
-class Model:
+class Model(NotebookValue):
     """Which objects are judged to be of which types, under a theory.
 
     An unlisted judgement is refuted, unless its type is open: the theory says so, or it
@@ -476,6 +488,22 @@ class Model:
     stated = Alias("with_given")
     reduced = Alias("reduce")
 
+    def _shown_as_(self) -> Part:
+        told = self._facts.first_told(ROWS)
+        return below(
+            Text(f"a model with {count_of(self._facts.facts, 'judgement')}", "quiet"),
+            table(
+                ("object", "type", "p"),
+                told,
+                lambda it: (Value(it[0]), Value(it[1]), Text(str(it[2]))),
+                count=max(self._facts.facts, len(told)),
+            )
+            if told
+            else None,
+            _named("with a witness function:", self._facts.functions),
+            _named("open:", self._facts.opened),
+        )
+
     def _truth_of_proposition(self, proposition: Object) -> Degree:
         """How certain it is that an Austinian proposition is true."""
         sit, T = claim(proposition)
@@ -505,6 +533,14 @@ class Model:
     def _with(self, facts: Assignment) -> Model:
         """The model of these facts: the same model where they are the same."""
         return self if facts is self._facts else Model.of(facts)
+
+
+def _named(what: str, heads: Iterable[Basic | Pred]) -> Part | None:
+    """The names of types and predicates, folded."""
+    found = list(heads)
+    if not found:
+        return None
+    return Fold(f"{what} {len(found):,}", name_list([one.name for one in found]))
 
 
 def as_model(value: object) -> Model:

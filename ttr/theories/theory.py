@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sized
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path as FilePath
@@ -13,7 +13,22 @@ from ttr.errors import IllFormedError, TTRError, suggestion
 from ttr.notation.names import all_names, vocabulary_of
 from ttr.notation.reader import read_term
 from ttr.safety.consent import OWN_FOLDER, Consent
+from ttr.showing import (
+    Fields,
+    Fold,
+    In,
+    NotebookValue,
+    Part,
+    Text,
+    Value,
+    below,
+    beside,
+    name_list,
+    table,
+)
 from ttr.signature.signature import (
+    Expected,
+    Given,
     Opening,
     Signature,
 )
@@ -24,6 +39,7 @@ from ttr.types.interning import Node
 from ttr.types.objects import Object
 from ttr.types.printing import Scope, Written, spelling_of
 from ttr.types.syntax import Basic, Pred, kind_of
+from ttr.updates.rules import rules_shown
 
 if TYPE_CHECKING:
     from ttr.theories.queries import Check
@@ -69,7 +85,7 @@ def _parse_theory(text: str, source: str = "<text>") -> Theory:
 
 
 @dataclass(frozen=True, eq=False)
-class Theory(Signature):
+class Theory(NotebookValue, Signature):
     """A signature, with the names declared in it, its rules and the checks it states.
 
     Its definitions, basic types and predicates are its items, and its attributes unless
@@ -192,8 +208,104 @@ class Theory(Signature):
         hint = suggestion(name, [*terms, *(one for k in played.values() for one in k)])
         return f"the theory has no {name}" + f": {hint}" * bool(hint)
 
+    def __dir__(self) -> list[str]:
+        terms = [*self.definitions, *self.basics, *self.predicates]
+        return sorted({*super().__dir__(), *filter(str.isidentifier, terms)})
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.definitions, *self.basics, *self.predicates]
+
+    def _shown_as_(self) -> Part:
+        sections = [
+            _section("basic types", self.basics, name_list(self.basics)),
+            _section("predicates", self.predicates, _predicates_shown(self)),
+            _section("objects", self.objects, name_list(self.objects)),
+            _section("definitions", self.definitions, _definitions_shown(self)),
+            _section("axioms", self.axioms, _lines_shown(self.axioms)),
+            _section("exclusions", self.exclusions, _lines_shown(self.exclusions)),
+            _section("given", self.givens, _givens_shown(self)),
+            _section("rules", self.rules, rules_shown([*self.rules.values()])),
+            _section("strategies", self.strategies, _strategies_shown(self)),
+            _section("games", self.openings, _games_shown(self)),
+            _section(
+                "checks", self.checks, _lines_shown([c.text for c in self.checks])
+            ),
+        ]
+        heading = beside(Text("theory", "strong"), Text(self.source, "quiet"))
+        return In(self, below(heading, *sections))
+
     def __repr__(self) -> str:
         return f"<Theory {self.source}: {', '.join(sorted(self.names))}>"
+
+
+# --- showing --------------------------------------------------------------------------
+
+_OPEN = 12
+"""A section of at most so many is shown open."""
+
+
+def _section(kind: str, found: Sized, part: Part) -> Part | None:
+    if not len(found):
+        return None
+    return Fold(f"{kind} ({len(found):,})", part, opened=len(found) <= _OPEN)
+
+
+def _predicates_shown(theory: Theory) -> Part:
+    shown = (_with_arities(one) for one in theory.predicates.values())
+    return name_list(shown)
+
+
+def _with_arities(one: Pred) -> str:
+    ways = [f"{one.name}({', '.join(map(str, arity))})" for arity in one.arities]
+    return " or ".join(ways) or one.name
+
+
+def _definitions_shown(theory: Theory) -> Part:
+    return table(
+        ("name", "stands for"),
+        theory.definitions.items(),
+        lambda it: (Text(it[0], "code"), Value(it[1], unfold=1)),
+    )
+
+
+def _lines_shown(lines: Collection[object]) -> Part:
+    return table(("",), lines, lambda line: (Text(str(line), "code"),))
+
+
+def _givens_shown(theory: Theory) -> Part:
+    def row(one: Given | Expected) -> tuple[Part, ...]:
+        low, high = one.p
+        p = Text(f"{low:g}" if low == high else f"[{low:g}, {high:g}]")
+        if isinstance(one, Expected):
+            conditions: list[Part] = [Value(T) for T in one.when]
+            return Value(one.type), below(*conditions), p
+        judged = [
+            beside(Value(sit), Text(":"), Value(T))
+            for sit, T in ((one.sit, one.type), *one.when)
+        ]
+        return judged[0], below(*judged[1:]), p
+
+    return table(("judgement", "given", "p"), theory.givens, row)
+
+
+def _strategies_shown(theory: Theory) -> Part:
+    return table(
+        ("name", "strategy"),
+        theory.strategies.items(),
+        lambda it: (Text(it[0], "strong"), Text(str(it[1]), "code")),
+    )
+
+
+def _games_shown(theory: Theory) -> Part:
+    def row(one: Opening) -> tuple[Part, ...]:
+        fields: list[tuple[str, Part]] = [
+            ("states", Value(one.type)),
+            ("start", Value(one.start)),
+            ("order", Text(str(one.algorithm), "code")),
+        ]
+        return Text(one.name, "strong"), Fields(tuple(fields))
+
+    return table(("game", ""), theory.openings.values(), row)
 
 
 # --- reading --------------------------------------------------------------------------

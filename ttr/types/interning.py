@@ -18,7 +18,7 @@ from weakref import ref
 from ttr.errors import IllFormedError, TTRError
 from ttr.hooks import hook
 from ttr.safety.budgets import BudgetSpentError, open_purse, within_budget
-from ttr.types.notebook_display import NotebookValue
+from ttr.showing import NotebookValue
 
 
 @hook

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ttr.errors import IllFormedError, TTRError
 from ttr.safety.budgets import spend, within_budget
+from ttr.showing import NotebookValue
 from ttr.types.interning import (
     Node,
     as_notation,
@@ -23,7 +24,6 @@ from ttr.types.interning import (
     identity,
     node,
 )
-from ttr.types.notebook_display import NotebookValue
 
 Object: TypeAlias = Any
 """Any Python value; containers are frozen by `freeze`."""
@@ -361,6 +361,12 @@ class Record(NotebookValue):
 
     def __len__(self) -> int:
         return len(self._fields)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._fields})
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self._fields]
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Record):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
 
 from ttr.errors import TTRError, suggestion
 from ttr.safety.budgets import spend
@@ -113,6 +114,29 @@ def _value_at(r: Object, label: str, path: list[str]) -> Object:
     )
 
 
+class Difference(NamedTuple):
+    """What differs at a path: the objects before and after.
+
+    Where nothing was or is, that object is `NOTHING`. Of a list that only grew or
+    shrank there is a difference for each item, which is `listed`.
+    """
+
+    path: str
+    before: Object
+    after: Object
+    listed: bool = False
+
+    def __str__(self) -> str:
+        was, now = ("nothing" if it is NOTHING else notation(it) for it in self[1:3])
+        if not self.listed:
+            return f"{self.path}: {was} → {now}"
+        return f"{self.path}: " + (f"+ {now}" if self.before is NOTHING else f"− {was}")
+
+
+NOTHING = object()
+"""What stands in a difference for the object where there is none."""
+
+
 def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
     """The differences, path by path, as lines `path: old → new`.
 
@@ -122,34 +146,41 @@ def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
     >>> list(differences(record(x="a", y=["b"]), record(x="c", y=["b", "d"])))
     ['x: a → c', 'y: + d']
     """
+    return map(str, find_differences(before, after, path))
+
+
+def find_differences(
+    before: Object, after: Object, path: str = ""
+) -> Iterator[Difference]:
+    """The differences, path by path, as values."""
     spend()
     if isinstance(before, tuple) and isinstance(after, tuple):
         yield from _list_differences(before, after, path)
         return
     if not isinstance(before, Record) or not isinstance(after, Record):
         if identity(before) != identity(after):
-            yield f"{path}: {notation(before)} → {notation(after)}"
+            yield Difference(path, before, after)
         return
     for label in sorted({*before, *after}):
         inner = f"{path}.{label}" if path else label
         if label not in after:
-            yield f"{inner}: {notation(before[label])} → nothing"
+            yield Difference(inner, before[label], NOTHING)
         elif label not in before:
-            yield f"{inner}: nothing → {notation(after[label])}"
+            yield Difference(inner, NOTHING, after[label])
         else:
-            yield from differences(before[label], after[label], inner)
+            yield from find_differences(before[label], after[label], inner)
 
 
 def _list_differences(
     before: tuple[Object, ...], after: tuple[Object, ...], path: str
-) -> Iterator[str]:
+) -> Iterator[Difference]:
     """The differences between two lists: what was added or removed, if that is all."""
     came, went = _extra_elements(after, before), _extra_elements(before, after)
     if came is None and went is None:
-        yield f"{path}: {notation(before)} → {notation(after)}"
+        yield Difference(path, before, after)
         return
-    yield from (f"{path}: + {notation(a)}" for a in came or ())
-    yield from (f"{path}: − {notation(a)}" for a in went or ())
+    yield from (Difference(path, NOTHING, a, listed=True) for a in came or ())
+    yield from (Difference(path, a, NOTHING, listed=True) for a in went or ())
 
 
 def _extra_elements(

@@ -17,12 +17,25 @@ from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import within_budget
+from ttr.showing import (
+    Fields,
+    Fold,
+    In,
+    NotebookValue,
+    Part,
+    Text,
+    Value,
+    below,
+    beside,
+    count_of,
+    table,
+)
 from ttr.types.objects import Object, Record, freeze
 from ttr.types.printing import notation
 from ttr.types.syntax import RecordType, TypeNode, as_type, kind_of
 from ttr.updates.nbest import NBest
-from ttr.updates.rules import Rule
-from ttr.updates.running import Run, Step, continue_run, endless
+from ttr.updates.rules import FEW, Rule, rules_shown
+from ttr.updates.running import Run, Step, continue_run, endless, trace_shown
 from ttr.updates.states import check_state
 from ttr.updates.update_strategies import (
     Algorithm,
@@ -43,7 +56,7 @@ MOVES = 100
 
 
 @dataclass(frozen=True, eq=False)
-class Turn:
+class Turn(NotebookValue):
     """A turn: what happened, what the game said in answer, and the run.
 
     `event` is what was given, `heard` the object that was played, None if nothing
@@ -73,6 +86,14 @@ class Turn:
         """The rules of this turn."""
         return self.run.trace
 
+    def _shown_as_(self) -> Part:
+        return below(
+            beside(Text(">", "strong"), event_shown(self.heard)),
+            trace_shown(self.trace),
+            *[beside(Text("<", "strong"), Value(move)) for move in self.said],
+            Fold("the state after it", Value(self.state, before=self.before.state)),
+        )
+
     def __str__(self) -> str:
         happened = "nothing" if self.heard is None else format_event(self.heard)
         lines = [f"> {happened}", *map(str, self.trace)]
@@ -82,7 +103,7 @@ class Turn:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Game:
+class Game(NotebookValue):
     """A dialogue theory that can be played: a type of states, a start, an algorithm.
 
     `agenda` is the path of the list of types of the moves to be made next, if the game
@@ -146,6 +167,26 @@ class Game:
 
     def __repr__(self) -> str:
         return f"<Game {self.name}: {self.algorithm}>"
+
+    def _shown_as_(self) -> Part:
+        rows: list[tuple[str, Part]] = [
+            ("states", Value(self.type)),
+            ("start", Value(self.start)),
+        ]
+        if self.agenda is not None:
+            rows.append(("acts on", Text(self.agenda, "code")))
+        rows += [("hears", Value(T)) for T in self.hears]
+        about = below(
+            beside(Text(self.name, "strong"), Text("a game", "quiet")),
+            Fields(tuple(rows)),
+            Fold("the order of its rules", Text(str(self.algorithm), "code")),
+            Fold(
+                count_of(len(self.rules), "rule"),
+                rules_shown(self.rules),
+                len(self.rules) <= FEW,
+            ),
+        )
+        return about if self.theory is None else In(self.theory, about)
 
     @property
     def rules(self) -> tuple[Rule, ...]:
@@ -327,6 +368,17 @@ def _repeating_names(names: Sequence[str]) -> Sequence[str]:
         if names[-size:] == names[-2 * size : -size]:
             return names[-size:]
     return names[-3:]
+
+
+def event_shown(event: object) -> Part:
+    """An event, or its alternatives with their probabilities."""
+    if event is None:
+        return Text("nothing", "quiet")
+    if not isinstance(event, NBest):
+        return Value(event)
+    return table(
+        ("perhaps", "p"), list(event), lambda it: (Value(it[0]), Text(f"{it[1]:g}"))
+    )
 
 
 def format_event(event: object) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from linecache import checkcache, getlines
 from typing import TypeAlias
@@ -12,6 +12,17 @@ from ttr.errors import Span, TTRError, UpdateError
 from ttr.judging.evaluator import reduce_applications
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree, degree
+from ttr.showing import (
+    Fields,
+    Fold,
+    NotebookValue,
+    Part,
+    Text,
+    Value,
+    below,
+    beside,
+    table,
+)
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.objects import BOUND, Object, Path
 from ttr.types.paths import free_paths, replace_paths
@@ -26,7 +37,7 @@ EXTRAS = ("model", "p", "nbest")
 
 
 @dataclass(frozen=True, repr=False)
-class Rule:
+class Rule(NotebookValue):
     """An update rule: if the state is of `when`, `effect` gives the next state.
 
     A rule with `on` takes an event of that type, as probable as `p` says; a rule
@@ -57,6 +68,56 @@ class Rule:
 
     def __repr__(self) -> str:
         return f"<Rule {self.name}>"
+
+    def _shown_as_(self) -> Part:
+        return below(
+            beside(
+                Text(self.name, "strong"),
+                Text(f"of {self.kind}", "quiet") if self.kind else None,
+                Text(self.doc) if self.doc else None,
+            ),
+            rule_shown(self),
+        )
+
+
+def rule_shown(rule: Rule) -> Part:
+    """A rule as in papers, without its name: what it takes above what it does."""
+    rows: list[tuple[str, Part]] = [(f"pre {rule.names[0]}", Value(rule.when))]
+    if rule.on is not None:
+        p = None if rule.p == CERTAIN else Text(f"p in {rule.p}", "quiet")
+        event = Value(rule.on, free=rule.names[:1])
+        rows.append((f"event {rule.names[1]}", beside(event, p) if p else event))
+    if rule.where:
+        rows.append(("where", Value(rule.where, free=rule.names)))
+    rows.append(("effect", _effect_shown(rule)))
+    if rule.gives is not None:
+        rows.append(("gives", Value(rule.gives)))
+    return Fields(tuple(rows))
+
+
+def _effect_shown(rule: Rule) -> Part:
+    if isinstance(rule.effect, Body):
+        return Value(rule.effect.value, free=(*rule.names, *(rule.where or ())))
+    parameters = ", ".join([*rule.names, *sorted(rule.takes)])
+    name = getattr(rule.effect, "__name__", rule.name)
+    return beside(Text(f"{name}({parameters})", "code"), Text("in Python", "quiet"))
+
+
+FEW = 6
+"""So many rules are shown open."""
+
+
+def rules_shown(rules: Sequence[Rule]) -> Part:
+    """Rules with what they are for; each opens to what it takes and does."""
+    return table(
+        ("rule", "class", "what it is for"),
+        rules,
+        lambda rule: (
+            Fold(rule.name, rule_shown(rule)),
+            Text(rule.kind),
+            Text(rule.doc.split("\n")[0]),
+        ),
+    )
 
 
 @dataclass(frozen=True)

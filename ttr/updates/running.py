@@ -19,9 +19,21 @@ from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree
 from ttr.safety.budgets import within_budget
+from ttr.showing import (
+    Fold,
+    NotebookValue,
+    Part,
+    Text,
+    Value,
+    as_html,
+    below,
+    beside,
+    count_of,
+    table,
+)
 from ttr.types.objects import FiniteSet, Object, Record, freeze
 from ttr.types.printing import notation
-from ttr.types.records import differences
+from ttr.types.records import NOTHING, Difference, differences, find_differences
 from ttr.types.syntax import RecordType, TypeNode, kind_of
 from ttr.updates.effect_application import apply_effect
 from ttr.updates.matching import find_bindings
@@ -47,7 +59,7 @@ ROUNDS = 1000
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class Step(NotebookValue):
     """One rule that was applied: to what, what it bound, and what it changed.
 
     `event` is the event that the rule took, with probability `p`, and `given` the
@@ -88,6 +100,78 @@ class Step:
             lines.append(f"  {change}" + "   (created)" * made)
         return "\n".join(lines)
 
+    def _shown_as_(self) -> Part:
+        event = None if self.rule.on is None else self.event
+        taken = beside(Text("on", "quiet"), Value(event), _probability(self.p))
+        doc = Text(self.rule.doc.split("\n")[0]) if self.rule.doc else None
+        return below(
+            beside(Text(self.rule.name, "strong"), doc),
+            None if event is None else taken,
+            bindings_shown(self.bindings),
+            differences_shown(self.before, self.after, self.created),
+            Fold("the state after it", Value(self.after, before=self.before)),
+        )
+
+
+def bindings_shown(bindings: Mapping[str, Object]) -> Part | None:
+    """What a rule bound."""
+    bound = [
+        beside(Text("with", "quiet"), Text(f"{name} ="), Value(value))
+        for name, value in bindings.items()
+    ]
+    return below(*bound) if bound else None
+
+
+def differences_shown(
+    before: Record, after: Record, created: Sequence[str] = ()
+) -> Part:
+    """What differs between two states, path by path, as a table."""
+    found = list(find_differences(before, after))
+    if not found:
+        return Text("nothing changed", "quiet")
+
+    def row(it: Difference) -> tuple[Part, ...]:
+        made = any(_is_within(it.path, one) for one in created)
+        now = _shown_or_nothing(it.after, it.listed, "+")
+        if made:
+            now = beside(now, Text("created", "quiet"))
+        was = _shown_or_nothing(it.before, it.listed, "−")
+        return Text(it.path, "code"), was, now
+
+    return table(("path", "before", "after"), found, row)
+
+
+def _shown_or_nothing(value: Object, listed: bool, sign: str) -> Part:
+    """An object of a difference, with a sign if it came into or left a list."""
+    if value is NOTHING:
+        return Text("" if listed else "nothing", "quiet")
+    return beside(Text(sign), Value(value)) if listed else Value(value)
+
+
+def _probability(p: Degree) -> Part | None:
+    return Text(f"p = {p}", "quiet") if p.lo < 1.0 else None
+
+
+def trace_shown(steps: Sequence[Step]) -> Part:
+    """The rules that were applied, as a table."""
+    if not steps:
+        return Text("no rule applied", "quiet")
+
+    def row(numbered: tuple[int, Step]) -> tuple[Part, ...]:
+        number, step = numbered
+        return (
+            Text(str(number), "quiet"),
+            beside(Text(step.rule.name, "strong"), _probability(step.p)),
+            below(
+                bindings_shown(step.bindings),
+                differences_shown(step.before, step.after, step.created),
+            ),
+        )
+
+    return table(
+        ("", "rule", "what it did"), enumerate(steps, 1), row, count=len(steps)
+    )
+
 
 def _is_within(path: str, outer: str) -> bool:
     return path == outer or path.startswith(f"{outer}.")
@@ -99,6 +183,19 @@ class Run(NamedTuple):
     state: Record
     model: Model
     trace: tuple[Step, ...]
+
+    def _shown_as_(self) -> Part:
+        before = self.trace[0].before if self.trace else None
+        return below(
+            Value(self.state, before=before),
+            Fold(count_of(len(self.trace), "rule"), trace_shown(self.trace)),
+        )
+
+    def _repr_html_(self) -> str:  # a named tuple has no base class
+        return as_html(self)
+
+    def _repr_latex_(self) -> str | None:
+        return NotebookValue._repr_latex_(self)  # type: ignore[arg-type]
 
 
 def run(

@@ -22,6 +22,7 @@ from ttr.semantics.perceptual.classifiers import Classifier, Method
 from ttr.semantics.perceptual.interpretations import claim_of
 from ttr.semantics.perceptual.meaning_form import check_record
 from ttr.semantics.perceptual.vectors import RealVector, is_vector
+from ttr.showing import NotebookValue, Part, Value
 from ttr.types.interning import identity
 from ttr.types.objects import BOUND, Object, Path, Record, UnresolvedError, record
 from ttr.types.paths import subterms
@@ -61,7 +62,7 @@ def meaning(
 
 
 @dataclass(frozen=True)
-class Meaning:
+class Meaning(NotebookValue):
     """A perceptual meaning: a view of the record {params, bg, clf, interp}.
 
     Meanings are equal when their records are. Raises `TTRError` for any other record.
@@ -75,11 +76,8 @@ class Meaning:
     def __str__(self) -> str:
         return str(self.record)
 
-    def _repr_html_(self) -> str:
-        return self.record._repr_html_()
-
-    def _repr_latex_(self) -> str:
-        return self.record._repr_latex_()
+    def _shown_as_(self) -> Part:
+        return Value(self.record)
 
     # --- what it is made of ---
 
