@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from kille.aliases import FORMER_MODULES
 from ttr.aliases import find_former_modules
+from ttr.hooks import set_providers
 
 if TYPE_CHECKING:
     from kille.agent.agent import Agent
@@ -23,6 +24,11 @@ __all__ = ["Agent", "Memory", "games"]
 _LATER = {"Agent": "kille.agent.agent", "Memory": "kille.memory"}
 
 find_former_modules(FORMER_MODULES)
+
+PROVIDERS = {"kille.scene.shown_look": "kille.perception.shown_looks"}
+"""Which module provides what is declared below it (`ttr.hooks`)."""
+
+set_providers(PROVIDERS)
 
 
 def __getattr__(name: str) -> Any:

@@ -15,6 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ttr.hooks import hook
+from ttr.showing import NotebookValue, Part
+
 Colour = NDArray[np.uint8]
 Depth = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -119,13 +122,22 @@ class Percept:
         return self.measure()
 
 
+@hook
+def shown_look(look: Look) -> Part:
+    """A look as a picture and a table (`kille.perception.shown_looks`)."""
+    raise NotImplementedError
+
+
 @dataclass(frozen=True, eq=False)
-class Look:
+class Look(NotebookValue):
     """One look at the scene: the first frame, and the things in view, nearest first."""
 
     frame: Frame
     percepts: tuple[Percept, ...]
     up: tuple[float, float, float]
+
+    def _shown_as_(self) -> Part:
+        return shown_look(self)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,13 @@ from kille.agent.attention import (
     is_same_thing,
 )
 from kille.agent.dialogue_log import DialogueLog
-from kille.agent.exchanges import Event, EventClock, Exchange, RobotSentence
+from kille.agent.exchanges import (
+    Event,
+    EventClock,
+    Exchange,
+    RobotSentence,
+    exchange_shown,
+)
 from kille.agent.explanations import criterion_of_lesson, kind_of_lesson, sign_of
 from kille.agent.reason_pictures import reason_picture
 from kille.agent.silence import Silence, missing_things
@@ -42,7 +48,7 @@ from kille.dialogue.robust_reading.speech_hearing import (
 )
 from kille.dialogue.robust_reading.text_hearing import complete_answer, hear_in_parts
 from kille.dialogue.robust_reading.whole_sentences import needs_parts
-from kille.dialogue.state import blank_model
+from kille.dialogue.state import blank_model, words
 from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.dialogue.wording import did_not_understand
 from kille.grounding.knowledge import Knowledge, Learners
@@ -51,6 +57,7 @@ from kille.grounding.word_meanings import WordMeanings
 from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
 from kille.perception.prominence import prominences
+from kille.perception.shown_looks import Picture, annotated_picture, view_shown
 from kille.scene import Colour, Percept
 from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.stage_commands import perform
@@ -59,6 +66,18 @@ from ttr.errors import UpdateError
 from ttr.judging import Judgement
 from ttr.probability import CERTAIN
 from ttr.semantics.perceptual import Meaning, Speaker
+from ttr.showing import (
+    SOME,
+    Fold,
+    NotebookValue,
+    Part,
+    Text,
+    below,
+    beside,
+    count_of,
+    name_list,
+    table,
+)
 from ttr.types import Singleton
 from ttr.updates import Game, Run, Step
 
@@ -73,7 +92,7 @@ TurnResult = tuple[Exchange, Run]
 """A turn, and the state and model that it leads to."""
 
 
-class Agent:
+class Agent(NotebookValue):
     """A robot that looks through a sensor and keeps what it learns in a memory.
 
     It is its own context manager. `hear` takes what the tutor says, `do` changes the
@@ -352,6 +371,39 @@ class Agent:
         if not thinks(s, beliefs := as_told(s, beliefs)):
             return ""
         return f"{beliefs[0].sign.form}{'' if is_sure(s, beliefs) else '?'}"
+
+    def picture(self) -> Picture:
+        """What is in view now, with each thing outlined, numbered and named.
+
+        It is a value: a notebook shows it, `picture().save("view.png")` writes it. The
+        robot looks for it, but takes no turn. SensorError as the sensor raises it.
+
+        >>> with Agent(sensor="synthetic:empty?seed=7") as robot:
+        ...     _ = robot.do("show cup")
+        ...     robot.picture()
+        <Picture of 640 x 480 pixels: things in view: 1 of them>
+        """
+        self.do("glimpse")
+        assert self.view is not None
+        return annotated_picture(self.view.look, self.names_in_view())
+
+    def _shown_as_(self) -> Part:
+        view = self.view
+        return below(
+            beside(
+                Text("a robot", "strong"),
+                Text(f"that looks through {self.gaze.sensor.name}", "quiet"),
+            ),
+            Text("It has not looked yet.", "quiet")
+            if view is None
+            else view_shown(view.look, self.names_in_view(), view.focus),
+            exchange_shown(self._latest) if self._latest is not None else None,
+            _words_shown([*words(self.state)]),
+        )
+
+    def __repr__(self) -> str:
+        known = count_of(len([*words(self.state)]), "word")
+        return f"<Agent that looks through {self.gaze.sensor.name} and knows {known}>"
 
     def reason_picture(self) -> Colour | None:
         """The reason that it gave last, as a picture (H, W, 3) RGB.
@@ -676,6 +728,24 @@ class Agent:
         ]
         event = record(view=seen, kept=kept, sights=sights, **about)
         return self._play(now._replace(model=model), event)
+
+
+def _words_shown(known: Sequence[Record]) -> Part:
+    """The words that a robot knows, by their kind."""
+    if not known:
+        return Text("It knows no words yet.", "quiet")
+    kinds: dict[str, list[str]] = {}
+    for it in known:
+        kinds.setdefault(str(it.kind), []).append(str(it.form))
+    return Fold(
+        f"it knows {count_of(len(known), 'word')}",
+        table(
+            ("", ""),
+            kinds.items(),
+            lambda it: (Text(it[0], "quiet"), name_list(it[1], "plain")),
+        ),
+        opened=len(known) <= SOME,
+    )
 
 
 def _open_memory(memory: Memory | Path | str | None) -> Memory:

@@ -12,10 +12,12 @@ import numpy as np
 from kille.perception.look import SCANS, Sighting, look
 from kille.perception.pointing import region_at
 from kille.perception.segment import nearness, overlap, region_of
+from kille.perception.shown_looks import view_shown
 from kille.scene import Box, Frame, Look, Mask, Percept, Region
 from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.sources import open_sensor
 from kille.sensors.stage_commands import perform
+from ttr.showing import NotebookValue, Part
 
 _NUMBER = re.compile(r"[0-9]{1,6}")
 _SAME = 0.5  # overlap of a thing with itself in another look
@@ -23,7 +25,7 @@ _LEAST = 64  # pixels of a box: less is a click by a hand that shakes
 
 
 @dataclass(frozen=True, eq=False)
-class NumberedLook:
+class NumberedLook(NotebookValue):
     """A look whose things are numbered from 1, and the one in focus.
 
     At first the nearest has the lowest number. A thing keeps its number from look to
@@ -39,6 +41,9 @@ class NumberedLook:
     focus: int | None
     kept: tuple[int, ...] = ()
     pointed: bool = False
+
+    def _shown_as_(self) -> Part:
+        return view_shown(self.look, focus=self.focus)
 
 
 @dataclass(frozen=True, eq=False)

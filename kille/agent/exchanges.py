@@ -7,7 +7,18 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from ttr.judging import Judgement
+from ttr.showing import (
+    Fold,
+    NotebookValue,
+    Part,
+    Text,
+    Value,
+    below,
+    count_of,
+    table,
+)
 from ttr.updates import Step
+from ttr.updates.running import trace_shown
 
 
 @dataclass(frozen=True)
@@ -22,7 +33,7 @@ class RobotSentence:
 
 
 @dataclass(frozen=True)
-class Exchange:
+class Exchange(NotebookValue):
     """What one turn did: what was heard, the rules that ran, what was said, and when.
 
     `heard` is the last move of the tutor's in it; None where the robot only looked, or
@@ -50,10 +61,34 @@ class Exchange:
             self.time,
         )
 
+    def _shown_as_(self) -> Part:
+        return below(
+            exchange_shown(self),
+            Fold(count_of(len(self.steps), "rule"), trace_shown(self.steps)),
+            Fold("the state after it", _state_shown(self)) if self.steps else None,
+        )
+
     @property
     def answer(self) -> str:
         """What was said, one sentence a line; empty for silence."""
         return "\n".join(said.text for said in self.said)
+
+
+def exchange_shown(exchange: Exchange) -> Part:
+    """What was heard, and what was said to it, each with the move that it was."""
+    told = [("U>", exchange.text or "(a look)", exchange.heard)]
+    told += [("S>", it.text, it.judgement) for it in exchange.said]
+
+    def row(line: tuple[str, str, Judgement | None]) -> tuple[Part, ...]:
+        who, words, move = line
+        what = Text("") if move is None else Fold("the move", Value(move))
+        return Text(who, "quiet"), Text(words, "strong"), what
+
+    return table(("", "", ""), told, row)
+
+
+def _state_shown(exchange: Exchange) -> Part:
+    return Value(exchange.steps[-1].after, before=exchange.steps[0].before)
 
 
 class EventClock:

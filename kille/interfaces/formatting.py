@@ -9,6 +9,7 @@ from kille.agent.attention import NumberedLook
 from kille.agent.exchanges import Exchange
 from kille.dialogue.meanings import CLAIMS, predicate_at
 from kille.interfaces.terminal import cut_line, hanging_type
+from kille.perception.shown_looks import place_in_words
 from ttr import Rec, Record, RecordType, meet, record, rectype
 from ttr.judging import Judgement
 from ttr.types import PType, Singleton, TypeNode
@@ -252,15 +253,5 @@ def things_in_view(view: NumberedLook) -> str:
     lines = [f"{count} in view:"]
     for number, percept in enumerate(percepts, start=1):
         mark = "  ← this" if number == view.focus else ""
-        lines.append(f"  #{number}  {_where(percept.region.place)}{mark}")
+        lines.append(f"  #{number}  {place_in_words(percept.region.place)}{mark}")
     return "\n".join(lines)
-
-
-def _where(place: tuple[float, float, float] | None) -> str:
-    if place is None:
-        return "place unknown"
-    right, _, away = place
-    side = "right" if right >= 0 else "left"
-    if abs(right) < 0.02:
-        return f"{away:.2f} m away, straight ahead"
-    return f"{away:.2f} m away, {abs(right) * 100:.0f} cm to the {side}"

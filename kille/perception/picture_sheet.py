@@ -49,10 +49,23 @@ def overview(look: Look, names: Sequence[str] = ()) -> Colour:
 
 def write_picture(path: Path, picture: Colour) -> None:
     """Write the picture as PNG. OSError if that cannot be done."""
-    done, encoded = cv2.imencode(".png", cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
+    try:
+        encoded = encode_picture(picture, ".png")
+    except ValueError as error:
+        raise OSError(f"{path}: {error}") from error
+    path.write_bytes(encoded)
+
+
+def encode_picture(picture: Colour, ending: str, settings: Sequence[int] = ()) -> bytes:
+    """The picture as a file of this kind, `.png` or `.jpg`. ValueError if it is none.
+
+    `settings` are those of `cv2.imencode`.
+    """
+    bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR)
+    done, encoded = cv2.imencode(ending, bgr, settings)
     if not done:
-        raise OSError(f"{path}: the picture could not be encoded")
-    path.write_bytes(encoded.tobytes())
+        raise ValueError("the picture could not be encoded")
+    return encoded.tobytes()
 
 
 def _row(title: str, look: Look, number: int) -> Colour:

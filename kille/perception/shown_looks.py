@@ -1,0 +1,110 @@
+"""Pictures and looks as values that a notebook shows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from kille.perception.picture_sheet import encode_picture, overview, write_picture
+from kille.scene import Colour, Look, Point, shown_look
+from ttr.showing import Figure, NotebookValue, Part, Text, below, table
+
+_WIDEST = 960
+"""The pixels across a picture at most, in a notebook."""
+
+_QUALITY = 85
+"""Of the JPEG in HTML, in percent; `_repr_png_` loses nothing."""
+
+_SHOWN_WIDTH = 480
+"""How wide a picture stands in a notebook where there is room: pixels of the page."""
+
+
+@dataclass(frozen=True, eq=False)
+class Picture(NotebookValue):
+    """A picture (H, W, 3) RGB, and what it shows in words.
+
+    A notebook shows it; `save` writes it.
+    """
+
+    pixels: Colour
+    about: str
+
+    def save(self, path: Path | str) -> None:
+        """Write it as PNG; raises OSError if that cannot be done."""
+        write_picture(Path(path), self.pixels)
+
+    def _repr_png_(self) -> bytes:
+        return encode_picture(self.pixels, ".png")
+
+    def _shown_as_(self) -> Part:
+        return figure_of(self.pixels, self.about)
+
+    def __repr__(self) -> str:
+        height, width = self.pixels.shape[:2]
+        return f"<Picture of {width} x {height} pixels: {self.about}>"
+
+
+def figure_of(pixels: Colour, about: str, width: int = _SHOWN_WIDTH) -> Figure:
+    """A picture (H, W, 3) RGB as a part of what a notebook shows, of bounded size."""
+    height, wide = pixels.shape[:2]
+    if wide > _WIDEST:
+        size = _WIDEST, max(1, round(height * _WIDEST / wide))
+        smaller = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA)
+        pixels = smaller.astype(np.uint8)
+    data = encode_picture(pixels, ".jpg", (cv2.IMWRITE_JPEG_QUALITY, _QUALITY))
+    return Figure(data, "image/jpeg", about, min(width, wide))
+
+
+def annotated_picture(look: Look, names: Sequence[str] = ()) -> Picture:
+    """A look with every thing in view outlined, numbered and, where known, named."""
+    count = len(look.percepts)
+    named = [f"{n} {name}".strip() for n, name in enumerate(names, start=1)]
+    things = ", ".join(named) if any(names) else f"{count} of them"
+    about = f"things in view: {things}" if count else "nothing is in view"
+    return Picture(overview(look, names), about)
+
+
+def view_shown(look: Look, names: Sequence[str] = (), focus: int | None = None) -> Part:
+    """A look as its picture above a table of the things in it; one may be "this"."""
+    picture = annotated_picture(look, names)
+    if not look.percepts:
+        return below(picture._shown_as_(), Text("Nothing is in view.", "quiet"))
+    called = [*names, *[""] * (len(look.percepts) - len(names))]
+
+    def row(number: int) -> tuple[Part, ...]:
+        percept = look.percepts[number - 1]
+        return (
+            Text(f"#{number}", "strong"),
+            Text(called[number - 1] or "–"),
+            Text(place_in_words(percept.region.place)),
+            Text("this" if number == focus else "", "quiet"),
+        )
+
+    return below(
+        picture._shown_as_(),
+        table(("", "called", "where", ""), range(1, len(look.percepts) + 1), row),
+    )
+
+
+def place_in_words(place: Point | tuple[float, float, float] | None) -> str:
+    """Where something is, seen from the camera, in metres.
+
+    >>> place_in_words((-0.1, 0.0, 0.62))
+    '0.62 m away, 10 cm to the left'
+    """
+    if place is None:
+        return "place unknown"
+    right, _, away = place
+    side = "right" if right >= 0 else "left"
+    if abs(right) < 0.02:
+        return f"{away:.2f} m away, straight ahead"
+    return f"{away:.2f} m away, {abs(right) * 100:.0f} cm to the {side}"
+
+
+@shown_look.provided_by
+def _shown_look(look: Look) -> Part:
+    return view_shown(look)
