@@ -40,8 +40,22 @@ _SUBTYPE = re.compile("<=|⊑")
 
 _GIVEN = re.compile(r"\|\|")
 
+BEFORE_NAMES = ("game", "rule", "strategy")
+"""Keywords only before a name: other things may be called `game`, too."""
+
 _NAMED = re.compile(rf"\s+[{LETTER_OR_DIGIT}]")
-"""What has to follow the words in `_BEFORE_NAMES`."""
+"""What has to follow these words."""
+
+
+def keyword_at(text: str, at: int) -> re.Match[str] | None:
+    """The keyword by which a statement begins at a place; None if there is none."""
+    word = PATH.match(text, at)
+    if word is None or word[0] not in KEYWORDS:
+        return None
+    if word[0] in BEFORE_NAMES and not _NAMED.match(text, word.end()):
+        return None
+    return word
+
 
 _Chance = trees.Probability | trees.Expectation
 
@@ -66,8 +80,8 @@ class _Parser(TermParser):
     def _statement(self) -> Statement:
         """x := T, or T <: T ‹‹only› if query, …›, or what begins with a keyword."""
         start = self._at
-        word = PATH.match(self._text, start)
-        if word and self._is_keyword(word):
+        word = keyword_at(self._text, start)
+        if word:
             self._advance(word.end())
             return _STATEMENTS[word[0]](self, start)
         if self._has_name_before(":="):
@@ -85,11 +99,6 @@ class _Parser(TermParser):
             when = self._comma_separated(self._query)
             return self._node(trees.ConditionalAxiomClaim, start, lower, upper, when)
         return self._node(trees.AxiomClaim, start, lower, upper)
-
-    def _is_keyword(self, word: re.Match[str]) -> bool:
-        if word[0] in _BEFORE_NAMES:
-            return _NAMED.match(self._text, word.end()) is not None
-        return word[0] in _STATEMENTS
 
     def _import(self, start: int) -> Statement:
         """import "file"."""
@@ -312,6 +321,3 @@ _STATEMENTS: dict[str, Callable[[_Parser, int], Statement]] = {
     keyword: getattr(_Parser, f"_{keyword}") for keyword in KEYWORDS
 }
 """The keywords, and the method, of the same name, that parses what follows each."""
-
-_BEFORE_NAMES = ("game", "rule", "strategy")
-"""Keywords only before a name: other things may be called `game`, too."""

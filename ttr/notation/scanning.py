@@ -147,12 +147,12 @@ def with_backslashes(text: str) -> str:
     return "".join(signs)
 
 
-_STARTS = re.compile(
-    rf"""[ \t]* (?: (?:{"|".join(KEYWORDS)}) [ \t]+ [^\s:=,.)\]}}]
-                  | \w+ [ \t]* :=
-                  | \w+ (?:\([^()]*\))? [ \t]* <: )""",
-    re.VERBOSE,
+STARTS = re.compile(
+    rf"[ \t]*(?:(?:{'|'.join(KEYWORDS)})[ \t]+[^\s:=,.)\]}}]"
+    r"|\w+[ \t]*:="
+    r"|\w+(?:\([^()]*\))?[ \t]*<:)"
 )
+"""A line that always starts a statement, whatever brackets are open before it."""
 
 
 def find_statements(text: str) -> Iterator[tuple[int, int]]:
@@ -173,7 +173,7 @@ def find_statements(text: str) -> Iterator[tuple[int, int]]:
         if written:
             indent = len(line) - len(line.lstrip())
             margin = indent if margin is None else margin
-            if start >= 0 and (_STARTS.match(line) or (not depth and indent <= margin)):
+            if start >= 0 and (STARTS.match(line) or (not depth and indent <= margin)):
                 yield start, end
                 start = -1
             if start < 0:

@@ -27,7 +27,7 @@ r"""The start of a function. Labels, objects and types may be called `fun`, too.
 
 Every λ that begins a function has been replaced by \ (`with_backslashes`)."""
 
-_LEVEL = re.compile(r"(?:Type|RecType)\^[0-9]{1,3}(?![0-9])")
+LEVEL = re.compile(r"(?:Type|RecType)\^[0-9]{1,3}(?![0-9])")
 """Type_1 means the same, but is a name like others, and may be a label."""
 
 _DOT = re.compile(rf"\.(?![{LETTER}])")
@@ -169,7 +169,7 @@ class TermParser(Tokens):
         """A name or a path, Type^1, or set{…}."""
         if path[0] == "set" and self._accept("set{"):
             return self._elements(start, "an object or }")
-        level = _LEVEL.match(self._text, start)
+        level = LEVEL.match(self._text, start)
         if level:
             self._advance(level.end())
             return self._node(trees.Name, start, (level[0],), None)

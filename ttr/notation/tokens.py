@@ -31,7 +31,7 @@ PATH = re.compile(rf"(?:\^*\.)?{NAME.pattern}(?:\.{NAME.pattern})*")
 NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?")
 
 QUOTED = re.compile(
-    r""" "[^"\\\n]*(?:\\.[^"\\\n]*)*" | '[^'\\\n]*(?:\\.[^'\\\n]*)*' """, re.VERBOSE
+    r'"[^"\\\n]*(?:\\.[^"\\\n]*)*"' + "|" + r"'[^'\\\n]*(?:\\.[^'\\\n]*)*'"
 )
 
 _SPACE = re.compile(r"(?:\s|#[^\n]*+)*+")

@@ -34,7 +34,7 @@ _SEVERAL: Mapping[str, Callable[..., Algorithm]] = {
 }
 """Words before rules and strategies in brackets."""
 
-_COMBINING = (*_SEVERAL, "maybe", "repeat", "by_class")
+COMBINING = (*_SEVERAL, "maybe", "repeat", "by_class")
 """All words that combine rules and strategies."""
 
 _PARTS = 10_000
@@ -233,9 +233,9 @@ class _StrategyReader:
         self.reader.refuse(
             term.head,
             f"no way to combine rules is called {excerpt(word)}",
-            suggestion(word, _COMBINING) or _way_out(),
+            suggestion(word, COMBINING) or _way_out(),
         )
 
 
 def _way_out() -> str:
-    return f"rules are combined by {', '.join(_COMBINING[:-1])} and {_COMBINING[-1]}"
+    return f"rules are combined by {', '.join(COMBINING[:-1])} and {COMBINING[-1]}"

@@ -17,7 +17,7 @@ from ttr.updates import NBest, Run, nbest
 _Read = Callable[[Line, str, int], object]
 """Reads a part of a line, which begins at an index of its text, as an event."""
 
-_VERBS = ("game", "start", "event", "perhaps")
+VERBS = ("game", "start", "event", "perhaps")
 """The words that may stand after `@`."""
 
 
@@ -79,7 +79,7 @@ def _event_of_statement(line: Line, read: _Read) -> object:
             return _alternative_events(line, begin, read)
         case "start":
             raise line.wrong("a story says where it starts before anything else")
-    hint = suggestion(verb, _VERBS) or f"there are {', '.join(_VERBS)}"
+    hint = suggestion(verb, VERBS) or f"there are {', '.join(VERBS)}"
     raise line.wrong(f"there is no `@ {verb}`: {hint}")
 
 

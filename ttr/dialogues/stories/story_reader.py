@@ -21,7 +21,10 @@ from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import STORIES
 
-_MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
+MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
+
+COMMENT = re.compile(r"\s#(?:\s|$)")
+"""The start of a comment behind the text of a line."""
 
 _OF_THE_FILE = "game"
 """The word of the `@` line that holds for the stories after it, too."""
@@ -91,10 +94,10 @@ def _lines(path: Path, text: str) -> Iterator[Line]:
         line = written.strip()
         if not line or line.startswith("#"):
             continue
-        mark = next((mark for mark in _MARKS if line.startswith(mark)), None)
+        mark = next((mark for mark in MARKS if line.startswith(mark)), None)
         if mark is None:
             raise StoryError(
-                f"{path}:{number}: a line begins with {', '.join(_MARKS)} or #, "
+                f"{path}:{number}: a line begins with {', '.join(MARKS)} or #, "
                 f"but found {line[:40]!r}"
             )
         after = written.index(mark) + len(mark)
@@ -108,7 +111,7 @@ def _content(text: str) -> str:
 
     A backslash stands before a `#` that stands alone and begins no comment.
     """
-    plain = re.split(r"\s#(?:\s|$)", f" {text}", maxsplit=1)[0].strip()
+    plain = COMMENT.split(f" {text}", maxsplit=1)[0].strip()
     return re.sub(r"(?<!\S)\\(\\*#)(?!\S)", r"\1", plain)
 
 
