@@ -36,9 +36,15 @@ def say_json(value: Any) -> None:
     say(json_text(value, indent=2))
 
 
+def remark(text: str) -> None:
+    """Prints to the error stream what is no part of the result."""
+    sys.stderr.write(f"ttr: {terminal_text(text)}\n")
+    sys.stderr.flush()
+
+
 def complain(text: str) -> int:
     """Prints to the error stream what was wrong, and gives the exit code."""
-    sys.stderr.write(f"ttr: {terminal_text(text)}\n")
+    remark(text)
     return WRONG_USE
 
 

@@ -14,7 +14,7 @@ from ttr.judging.models import Model
 from ttr.notation.reader import read_term
 from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError, check_called
 from ttr.safety.python_files import run_named
-from ttr.theories.loading import UnreadableError
+from ttr.theories.loading import ReadText, UnreadableError, read_theory_text
 from ttr.theories.theory import Theory, theory_of_file
 from ttr.types.objects import Object
 from ttr.types.syntax import Basic, Rec, TypeNode, Universe
@@ -62,20 +62,26 @@ class Setting:
         return model.reduce(value)
 
 
-def setting(reference: str, folder: Path, consent: Consent | None = None) -> Setting:
+def setting(
+    reference: str,
+    folder: Path,
+    consent: Consent | None = None,
+    read: ReadText = read_theory_text,
+) -> Setting:
     """The setting that a reference names; its file is relative to the folder.
 
     A reference is the path of a theory and the name of a game in it, or a Python file
     or module, a colon and a name. Without `consent`, the caller names it, and so lets
-    it run; for a reference from a file, pass the user's consent. Raises `StoryError`
-    where there is no such game, and `NotAllowedError` where there is no consent.
+    it run; for a reference from a file, pass the user's consent. `read` reads the text
+    of a theory. Raises `StoryError` where there is no such game, and `NotAllowedError`
+    where there is no consent.
     """
     if consent is not None:
         check_named(reference, folder, consent)
     file, rest = _file_and_rest(reference)
     if file.endswith(".ttr"):
         name = rest.strip().removeprefix(":")
-        found = _of_theory(file, name, folder, consent or OWN_FOLDER)
+        found = _of_theory(file, name, folder, consent or OWN_FOLDER, read)
     else:
         found = _of_python(*_module_and_name(reference), folder, consent)
     named = consent or OWN_FOLDER
@@ -126,10 +132,12 @@ def _file_and_rest(reference: str) -> tuple[str, str]:
     return (found[1], found[2]) if found else ("", reference)
 
 
-def _of_theory(file: str, name: str, folder: Path, consent: Consent) -> Setting:
+def _of_theory(
+    file: str, name: str, folder: Path, consent: Consent, read: ReadText
+) -> Setting:
     _check_exists(file, folder)
     try:
-        theory = theory_of_file(folder / file, consent)
+        theory = theory_of_file(folder / file, consent, read)
         games = theory.games
     except UnreadableError as error:
         raise StoryError(error.message) from error

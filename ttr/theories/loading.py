@@ -7,7 +7,7 @@ should have declared are passed over, so that each mistake is reported once.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -37,6 +37,15 @@ class UnreadableError(TTRError):
     """The file does not exist, or is no text."""
 
 
+ReadText = Callable[[Path], str]
+"""Reads the text of a theory file; raises `OSError` or `UnicodeDecodeError`."""
+
+
+def read_theory_text(path: Path) -> str:
+    """The text of a theory file; raises `OSError` or `UnicodeDecodeError`."""
+    return read_text(path, THEORY)
+
+
 def draft_of_text(
     text: str, source: str = "<text>", consent: Consent | None = None
 ) -> Draft:
@@ -51,19 +60,31 @@ def draft_of_text(
     )
 
 
-def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
+def draft_of_file(
+    path: Path, consent: Consent = OWN_FOLDER, read: ReadText = read_theory_text
+) -> Draft:
     """What a file declares of a theory.
 
     It, and what it imports, may import from its folder, or from where the user's
-    consent allows. Raises `UnreadableError`, the mistake in it, or `MistakesError`.
+    consent allows. `read` reads the text of each file. Raises `UnreadableError`, the
+    mistake in it, or `MistakesError`.
     """
-    return _draft_if_sound(
-        _Files(consent.with_folders(path.parent), {}).read_file(path, ())
-    )
+    return _draft_if_sound(read_draft(path, consent, read))
+
+
+def read_draft(
+    path: Path, consent: Consent = OWN_FOLDER, read: ReadText = read_theory_text
+) -> Reading:
+    """What can be read of a file in spite of the mistakes in it, and these mistakes.
+
+    Raises `UnreadableError`.
+    """
+    allowed = consent.with_folders(path.parent)
+    return _Files(allowed, {}, read).read_file(path, ())
 
 
 @dataclass(frozen=True)
-class _Reading:
+class Reading:
     """What has been read of a theory, and the mistakes in it.
 
     `spoilt` are the names that statements with mistakes should have declared.
@@ -74,7 +95,7 @@ class _Reading:
     mistakes: tuple[TTRError, ...] = ()
 
 
-def _draft_if_sound(reading: _Reading) -> Draft:
+def _draft_if_sound(reading: Reading) -> Draft:
     if not reading.mistakes:
         return reading.draft
     if len(reading.mistakes) == 1:
@@ -87,10 +108,11 @@ class _Files:
     """Reads files, each of them once, however often it is imported."""
 
     consent: Consent
-    known: dict[Path, _Reading]
+    known: dict[Path, Reading]
+    read: ReadText = read_theory_text
     purse: SharedPurse = field(default_factory=purse_of_several)
 
-    def read_import(self, path: Path, named: str, chain: tuple[Path, ...]) -> _Reading:
+    def read_import(self, path: Path, named: str, chain: tuple[Path, ...]) -> Reading:
         """What a file declares that another one imports as `named`.
 
         Only theory files are read, and only where consent allows: otherwise an import
@@ -100,9 +122,9 @@ class _Files:
         self.consent.check(path, named)
         return self.read_file(path, chain)
 
-    def read_file(self, path: Path, chain: tuple[Path, ...]) -> _Reading:
+    def read_file(self, path: Path, chain: tuple[Path, ...]) -> Reading:
         """What a file declares; `chain` lists the files whose imports led to it."""
-        key, text = _path_and_text(path)
+        key, text = self._path_and_text(path)
         if key in chain:
             names = " → ".join(step.name for step in (*chain[chain.index(key) :], key))
             raise NotationError(f"the imports go in a circle: {names}")
@@ -115,12 +137,12 @@ class _Files:
 
     def read_source(
         self, source: Source, folder: Path, chain: tuple[Path, ...]
-    ) -> _Reading:
+    ) -> Reading:
         """What a text declares; its imports are relative to `folder`."""
         try:
             check_characters(source)
         except NotationError as error:
-            return _Reading(Draft(source.name), mistakes=(error,))
+            return Reading(Draft(source.name), mistakes=(error,))
         places = list(find_statements(source.text))
         self.purse.allow(len(places))
         later: dict[str, int] = {}
@@ -136,17 +158,16 @@ class _Files:
             file.read_statement(start, end)
             if file.is_refused:
                 break
-        return _Reading(draft, frozenset(file.spoilt), tuple(file.mistakes))
+        return Reading(draft, frozenset(file.spoilt), tuple(file.mistakes))
 
-
-def _path_and_text(path: Path) -> tuple[Path, str]:
-    """A file's path without links, and its text; raises `UnreadableError`."""
-    try:
-        return path.resolve(), read_text(path, THEORY)
-    except (OSError, UnicodeDecodeError) as error:
-        raise UnreadableError(why_unread(path, error)) from None
-    except (ValueError, RuntimeError):
-        raise UnreadableError(f"{str(path)!r} is no path of a file") from None
+    def _path_and_text(self, path: Path) -> tuple[Path, str]:
+        """A file's path without links, and its text; raises `UnreadableError`."""
+        try:
+            return path.resolve(), self.read(path)
+        except (OSError, UnicodeDecodeError) as error:
+            raise UnreadableError(why_unread(path, error)) from None
+        except (ValueError, RuntimeError):
+            raise UnreadableError(f"{str(path)!r} is no path of a file") from None
 
 
 _DECLARES = re.compile(

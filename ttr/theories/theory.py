@@ -33,7 +33,12 @@ from ttr.signature.signature import (
     Signature,
 )
 from ttr.theories.game_statements import opened
-from ttr.theories.loading import draft_of_file, draft_of_text
+from ttr.theories.loading import (
+    ReadText,
+    draft_of_file,
+    draft_of_text,
+    read_theory_text,
+)
 from ttr.theories.theory_draft import Draft
 from ttr.types.interning import Node
 from ttr.types.objects import Object
@@ -335,14 +340,16 @@ def theory_of_text(
     return theory_of_draft(draft_of_text(text, source, consent))
 
 
-def theory_of_file(path: FilePath, consent: Consent = OWN_FOLDER) -> Theory:
+def theory_of_file(
+    path: FilePath, consent: Consent = OWN_FOLDER, read: ReadText = read_theory_text
+) -> Theory:
     """The theory in a file; raises `UnreadableError`, the mistake in it, or
     `MistakesError`.
 
     It, and what it imports, may import from its folder, or from where the user's
-    consent allows.
+    consent allows. `read` reads the text of each file.
     """
-    return theory_of_draft(draft_of_file(path, consent))
+    return theory_of_draft(draft_of_file(path, consent, read))
 
 
 def theory_of_draft(draft: Draft) -> Theory:

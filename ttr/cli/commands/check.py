@@ -1,11 +1,13 @@
-"""`ttr check`: does what theory files claim hold?"""
+"""`ttr check`: does what theory files claim hold, and do stories go as written?"""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
-from dataclasses import dataclass
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from time import sleep
 from typing import TYPE_CHECKING, Any
 
 from ttr.cli.command_line import WRONG_USE
@@ -16,15 +18,19 @@ from ttr.cli.output import (
     Commands,
     complain,
     json_place,
+    remark,
     say,
     say_json,
     step_count,
 )
-from ttr.errors import TooLargeError, TTRError
 from ttr.safety.budgets import STEPS, budget
+from ttr.safety.consent import Consent
 
 if TYPE_CHECKING:
-    from ttr.theories.check_reports import Report
+    from ttr.editing.findings import Checked
+
+_PAUSE = 0.25
+"""How many seconds pass between two looks at the files that are watched."""
 
 
 def add(commands: Commands) -> None:
@@ -32,11 +38,32 @@ def add(commands: Commands) -> None:
     check = commands.add_parser(
         "check",
         help="does what the files claim hold?",
-        description="Asks the checks of theory files and looks at their rules; exits "
-        "with 1 if one fails or is wrong.",
+        description="Asks the checks of theory files and looks at their rules, and "
+        "plays stories with the games of theories; exits with 1 if one fails or is "
+        "wrong.",
     )
-    check.add_argument("files", nargs="+", metavar="FILE", help="a theory file (.ttr)")
-    check.add_argument("--json", action="store_true", help="report for machines")
+    check.add_argument(
+        "files", nargs="+", metavar="FILE", help="a theory (.ttr) or stories (.dlg)"
+    )
+    check.add_argument(
+        "--format",
+        choices=[*_PRINTERS],
+        default="text",
+        help="for people (text), or for programs: FILE:LINE:COLUMN: error: … (gcc), or "
+        "json",
+    )
+    check.add_argument(
+        "--json",
+        action="store_const",
+        const="json",
+        dest="format",
+        help="report for machines: --format json",
+    )
+    check.add_argument(
+        "--watch",
+        action="store_true",
+        help="check again when a file, or one that it imports, changes",
+    )
     add_allow(check)
     check.add_argument(
         "--steps",
@@ -48,73 +75,122 @@ def add(commands: Commands) -> None:
     check.set_defaults(run=_check)
 
 
-@dataclass(frozen=True)
-class _Outcome:
-    """The result of one file: its mistakes, or the report on it."""
+def _check(options: argparse.Namespace) -> int:
+    files = [
+        _Watched(file, Consent.of(options.allow), options.steps)
+        for file in options.files
+    ]
+    show = _PRINTERS[options.format]
+    if options.watch:
+        _watch(files, show)
+    if options.format == "text":  # each as soon as it is known
+        for one in files:
+            one.check()
+            show([one.checked])
+    else:
+        for one in files:
+            one.check()
+        show([one.checked for one in files])
+    return max(_code(one.checked) for one in files)
+
+
+def _code(checked: Checked) -> int:
+    if checked.is_beyond_limits:
+        return WRONG_USE
+    return FINE if checked.holds else FAILED
+
+
+# --- watching ------------------------------------------------------------------------
+
+_Stamp = tuple[int, int, int] | None
+
+
+def _stamp(path: Path) -> _Stamp:
+    """What changes when a file does; None where there is none."""
+    try:
+        found = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return found.st_mtime_ns, found.st_size, found.st_ino
+
+
+@dataclass
+class _Watched:
+    """A file, what came of checking it, and the stamps of all that was read for it."""
 
     file: str
-    report: Report | None = None
-    mistakes: tuple[TTRError, ...] = ()
-    unreadable: str = ""
+    consent: Consent
+    steps: int
+    stamps: dict[Path, _Stamp] = field(default_factory=dict)
+
+    def check(self) -> None:
+        """Checks the file."""
+        from ttr.editing.findings import check_file
+
+        self.stamps = {}
+        with budget(steps=self.steps):
+            self.checked = check_file(self.file, self.consent, self._note)
+
+    def _note(self, path: Path) -> None:
+        """Notes the state of a file before it is read."""
+        self.stamps.setdefault(path, _stamp(path))
 
     @property
-    def code(self) -> int:
-        if self.unreadable or any(isinstance(e, TooLargeError) for e in self.mistakes):
-            return WRONG_USE
-        return FINE if self.report is not None and self.report.holds else FAILED
+    def has_changed(self) -> bool:
+        """Has anything changed that was read?"""
+        return any(_stamp(path) != stamp for path, stamp in self.stamps.items())
 
 
-def _check(options: argparse.Namespace) -> int:
-    outcomes = []
-    for file in options.files:
-        with budget(steps=options.steps):
-            outcome = _outcome(file, options.allow)
-        outcomes.append(outcome)
-        if not options.json:
-            _print_outcome(outcome)
-    if options.json:
-        say_json([_json_facts(one) for one in outcomes])
-    return max(one.code for one in outcomes)
+def _watch(files: list[_Watched], show: Callable[[list[Checked]], None]) -> None:
+    """Checks files whenever one changes, until Ctrl-C."""
+    changed = files
+    while True:
+        remark(f"checking {', '.join(one.file for one in changed)}")
+        for one in changed:
+            one.check()
+        show([one.checked for one in files])
+        count = len({path for one in files for path in one.stamps})
+        remark(f"watching {count} file{'s' * (count != 1)} (Ctrl-C ends)")
+        while not (changed := [one for one in files if one.has_changed]):
+            sleep(_PAUSE)
 
 
-def _outcome(file: str, allow: Sequence[Path]) -> _Outcome:
-    from ttr.errors import MistakesError
-    from ttr.theories.checking import check
-    from ttr.theories.loading import UnreadableError
-    from ttr.theories.theory import load
-
-    try:
-        report = check(load(file, allow=allow))
-    except UnreadableError as error:
-        if error.span is None:
-            return _Outcome(file, unreadable=error.message)
-        return _Outcome(file, mistakes=(error,))
-    except MistakesError as error:
-        return _Outcome(file, mistakes=error.errors)
-    except TTRError as error:
-        return _Outcome(file, mistakes=(error,))
-    return _Outcome(file, report)
+# --- printing ------------------------------------------------------------------------
 
 
-def _print_outcome(outcome: _Outcome) -> None:
-    if outcome.unreadable:
-        complain(outcome.unreadable)
-        return
-    if outcome.report is None:
-        count = len(outcome.mistakes)
-        told = [f"error: {mistake}" for mistake in outcome.mistakes]
-        summary = f"{count} mistake{'s' * (count != 1)}, nothing checked"
-    else:
-        told, summary = list(outcome.report.messages), outcome.report.summary
-    say("\n\n".join([*told, f"{outcome.file}: {summary}"]))
+def _print_text(checked: list[Checked]) -> None:
+    for one in checked:
+        if one.unreadable:
+            complain(one.unreadable)
+        else:
+            say("\n\n".join([*one.messages, one.summary]))
 
 
-def _json_facts(outcome: _Outcome) -> dict[str, Any]:
-    report = outcome.report
-    return {
-        "file": outcome.file,
+def _print_for_editors(checked: list[Checked]) -> None:
+    for one in checked:
+        if one.unreadable:
+            complain(one.unreadable)
+        for finding in () if one.unreadable else one.findings:
+            say(str(finding))
+
+
+def _print_json(checked: list[Checked]) -> None:
+    say_json([_json_facts(one) for one in checked])
+
+
+_PRINTERS: Mapping[str, Callable[[list[Checked]], None]] = {
+    "text": _print_text,
+    "gcc": _print_for_editors,
+    "json": _print_json,
+}
+
+
+def _json_facts(checked: Checked) -> dict[str, Any]:
+    report = checked.report
+    told: dict[str, Any] = {
+        "file": checked.file,
         "asked": report.asked if report else 0,
-        "holds": outcome.code == FINE,
+        "holds": checked.holds,
         "failures": [
             {
                 **json_place(failure.check.span),
@@ -139,7 +215,12 @@ def _json_facts(outcome: _Outcome) -> dict[str, Any]:
         ],
         "mistakes": [
             {**json_place(error.span), "message": error.message, "help": error.hint}
-            for error in outcome.mistakes
+            for error in checked.mistakes
         ]
-        + [{"message": outcome.unreadable}] * bool(outcome.unreadable),
+        + [{"message": checked.unreadable}] * bool(checked.unreadable),
     }
+    if checked.outcomes:
+        from ttr.dialogues.stories import facts
+
+        told["stories"] = [facts(one) for one in checked.outcomes]
+    return told

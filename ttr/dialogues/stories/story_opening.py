@@ -17,14 +17,17 @@ from ttr.dialogues.stories.line_events import value_of_text
 from ttr.dialogues.stories.story_reader import Line, Story
 from ttr.errors import TTRError, suggestion
 from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError
+from ttr.theories.loading import ReadText, read_theory_text
 from ttr.types.objects import Record
 
 
-def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
+def setting_of(
+    story: Story, consent: Consent = OWN_FOLDER, read: ReadText = read_theory_text
+) -> Setting:
     """The setting that a story names; raises `StoryError` and `NotAllowedError`.
 
     Python that it names runs if it lies in the story's folder or below, or where there
-    is consent.
+    is consent. `read` reads the text of a theory that it names.
     """
     check_consent(story, consent)
     if story.game is None:
@@ -35,7 +38,8 @@ def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
         )
         raise first.wrong(f"the story names no game: {near}")
     try:
-        return setting(*_reference_of(story.game), _consent_beside(story.game, consent))
+        allowed = _consent_beside(story.game, consent)
+        return setting(*_reference_of(story.game), allowed, read)
     except StoryError as error:
         raise story.game.wrong(error.message) from error
 

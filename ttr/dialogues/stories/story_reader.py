@@ -83,6 +83,11 @@ def read_stories(path: Path) -> tuple[Story, ...]:
         text = read_text(path, STORIES)
     except (OSError, UnicodeDecodeError) as error:
         raise StoryError(why_unread(path, error)) from None
+    return stories_of_text(text, path)
+
+
+def stories_of_text(text: str, path: Path) -> tuple[Story, ...]:
+    """The stories in the text of a file; raises `StoryError`."""
     stories = tuple(_stories(path.stem, _lines(path, text)))
     if not stories:
         raise StoryError(f"{path} has no story: write lines such as `U> Hello.`")
