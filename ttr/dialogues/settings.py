@@ -118,6 +118,16 @@ def python_in(reference: str) -> str:
     return _module_and_name(reference)[0]
 
 
+def theory_in(reference: str) -> str:
+    """The theory file that a reference names; empty for a game in Python.
+
+    >>> theory_in("games/door.ttr door"), theory_in("games.py:door")
+    ('games/door.ttr', '')
+    """
+    file = _file_and_rest(reference)[0]
+    return file if file.endswith(".ttr") else ""
+
+
 def _module_and_name(reference: str) -> tuple[str, str]:
     """The Python file or module that a reference names, and the name of its game."""
     python, _, name = reference.rpartition(":")

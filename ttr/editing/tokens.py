@@ -128,7 +128,7 @@ AFTER_TERMS = {
 }
 """The keywords that follow a term, by the word that begins the statement."""
 
-_FOLLOWING = {
+FOLLOWING = {
     "check": frozenset(("not", "unknown", "error")),
     "only": frozenset(("if",)),
     "up": frozenset(("to",)),
@@ -314,7 +314,7 @@ class _Statement:
             return is_name and next_but_one == ":" and not self._ends_term(before)
         if _DOTTED.match(self.text, here.end):
             return False
-        if before.kind is Kind.KEYWORD and word in _FOLLOWING.get(last, ()):
+        if before.kind is Kind.KEYWORD and word in FOLLOWING.get(last, ()):
             return True
         depth = len(self.around)
         if self.keyword == "game" and depth == 1 and last == ",":
