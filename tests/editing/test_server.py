@@ -70,7 +70,7 @@ def test_unsaved_imports_count_and_are_told_where_they_are_imported(
         assert await client.diagnostics(park) == []
         client.type(kennel, KENNEL.replace("dog", "cat"))
         (found,) = await client.diagnostics(park, bool)
-        assert found.message == "there is no predicate dog"
+        assert found.message.startswith("there is no predicate dog\nhelp: ")
         client.type(kennel, KENNEL + "Y := [y : Idn]\n")
         (found,) = await client.diagnostics(park, lambda found: "Idn" in str(found))
         assert place(found) == (0, 7, 19)
@@ -148,7 +148,7 @@ def test_stories_are_checked_too(
     games = Path(__file__).resolve().parent.parent / "games"
 
     async def work(client: Client) -> None:
-        client.open(folder / "door.ttr", (games / "door.ttr").read_text())
+        (folder / "door.ttr").write_text((games / "door.ttr").read_text())
         text = "@ game door.ttr door\n--- one\nU> Greet\nS> GreetBack\nS> Open\n"
         story = client.open(folder / "a.dlg", text)
         (found,) = await client.diagnostics(story, lambda it: "Ask" in str(it))
@@ -157,27 +157,46 @@ def test_stories_are_checked_too(
         (found,) = await client.diagnostics(story)
         at = lsp.HoverParams(**client.at(story, 2, 4))
         hover = await client.text_document_hover_async(at)
-        assert "Greet :=" in str(hover)
+        assert "Greet     := [e : greet(guest, host)]" in str(hover)
 
     with_client(work)
+
+
+def pigeons(holes: int) -> str:
+    """A theory whose checks take long: no hole for one pigeon more than there are."""
+    at = [[f"P{p}H{h}" for h in range(holes)] for p in range(holes + 1)]
+    parts = [f"({' | '.join(row)})" for row in at]
+    parts += [
+        f"~({one[h]} /\\ {other[h]})"
+        for h in range(holes)
+        for i, one in enumerate(at)
+        for other in at[:i]
+    ]
+    names = ", ".join(name for row in at for name in row)
+    checks = f"check {' & '.join(parts)} <= B\n" * 12
+    return f"basic {names}, B\nSlow := [x : B]\n{checks}"
+
+
+def children_of(process: int) -> set[str]:
+    return set(Path(f"/proc/{process}/task/{process}/children").read_text().split())
 
 
 def test_newest_text_wins_over_a_check_that_takes_long(
     folder: Path, with_client: Callable[[Work], None]
 ) -> None:
-    labels = ", ".join(f"x{n} : A \\/ ~A" for n in range(14))
-    slow = f"basic A\nT := [{labels}]\n" + f"check T = [{labels}, y : A]\n" * 200
-
     async def work(client: Client) -> None:
         uri = client.open(folder / "slow.ttr", "basic A\n")
         assert await client.diagnostics(uri) == []
-        client.type(uri, slow)
-        at = lsp.DocumentSymbolParams(lsp.TextDocumentIdentifier(uri))
-        symbols = await client.text_document_document_symbol_async(at)
-        assert [it.name for it in symbols or []] == ["A", "T"]
+        worker = children_of(client.process)
+        client.type(uri, pigeons(9))
+        hovered = None
+        while hovered is None:  # until its names are known, and its checks at work
+            at = lsp.HoverParams(**client.at(uri, 1, 0))
+            hovered = await client.text_document_hover_async(at)
         client.type(uri, "basic A\nX := [x : B]\n")
         (found,) = await client.diagnostics(uri)
         assert found.message.startswith("nothing is called B here")
+        assert children_of(client.process).isdisjoint(worker)
 
     with_client(work)
 
@@ -219,6 +238,6 @@ def test_the_server_ends_when_its_client_dies(folder: Path) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )
-    out, err = server.communicate(b"Content-Length: 20\r\n\r\n{half", timeout=PATIENCE)
-    assert (server.returncode, out) == (0, b"")
-    assert b"Traceback" not in err
+    out, _ = server.communicate(b"Content-Length: 20\r\n\r\n{half", timeout=PATIENCE)
+    assert server.returncode == 0
+    assert b"Error in server" in out

@@ -48,6 +48,12 @@ class Client(LanguageClient):
         await asyncio.wait_for(server.wait(), PATIENCE)
         await asyncio.wait_for(self.stop(), PATIENCE)
 
+    @property
+    def process(self) -> int:
+        """The number of the server's process."""
+        assert self._server is not None
+        return self._server.pid
+
     # --- what the user does ---
 
     def open(self, path: Path, text: str | None = None) -> str:
