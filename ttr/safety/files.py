@@ -36,11 +36,12 @@ def _reason(error: OSError) -> str:
     return why[:1].lower() + why[1:]
 
 
-def write_whole(path: Path, text: str) -> None:
-    """Writes a text file: first a draft beside it, which then takes its place.
+def write_whole(path: Path, content: str | bytes) -> None:
+    """Writes a file: first a draft beside it, which then takes its place.
 
-    A link is kept, and its target written; a device is written to directly. Raises
-    `TTRError` where the file cannot be written; then the old file is still there.
+    A text is written as UTF-8. A link is kept, and its target written; a device is
+    written to directly. Raises `TTRError` where the file cannot be written; then the
+    old file is still there.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -48,7 +49,7 @@ def write_whole(path: Path, text: str) -> None:
     ...     print(*(file.name for file in Path(folder).iterdir()))
     a.txt
     """
-    data = text.encode("utf-8", "replace")
+    data = content if isinstance(content, bytes) else content.encode("utf-8", "replace")
     try:
         target = Path(os.path.realpath(path))
         if target.is_symlink():  # only links that lead round in a circle are left

@@ -4,7 +4,7 @@ Every module has `add(commands)`, which declares the command's arguments. It imp
 what it needs only when the command runs, so that `ttr --help` is fast.
 """
 
-from ttr.cli.commands import check, fracas, lsp, play, repl, replay, show, test
+from ttr.cli.commands import check, editor, fracas, lsp, play, repl, replay, show, test
 
 #: In the order of the help text.
-COMMANDS = (check, play, replay, test, show, repl, lsp, fracas)
+COMMANDS = (check, play, replay, test, show, repl, lsp, editor, fracas)
