@@ -14,6 +14,7 @@ from typing import Self
 
 from kille.agent.actions import MoveExecutor
 from kille.agent.attention import (
+    THAT,
     Attention,
     AttentiveSensor,
     NumberedLook,
@@ -82,6 +83,8 @@ from ttr.types import Singleton
 from ttr.updates import Game, Run, Step
 
 _POINTING = re.compile(r"#([0-9]{1,6})\b")
+
+_THIS_AND_THAT = 2
 
 TUTOR = "tutor"
 
@@ -220,8 +223,9 @@ class Agent(NotebookValue):
     def hear(self, text: str) -> str:
         """Take in what the tutor says; the robot's answer, a sentence a line.
 
-        `#2` in the text points at the thing with that number. An empty text leaves the
-        floor to the robot. A text that is not understood leaves the state as it was.
+        `#2` in the text points at the thing with that number; of two, the second is
+        "that" beside "this". An empty text leaves the floor to the robot. A text that
+        is not understood leaves the state as it was.
         """
         text = _legible(text)
         return self._happen(
@@ -481,6 +485,8 @@ class Agent(NotebookValue):
                 raise
             raise cause from cause.__cause__
         self._now_at = after
+        if exchange.text:
+            self.gaze.settle()
         if exchange.text or exchange.steps:
             self._latest = exchange
             self.exchanges.append(exchange)
@@ -494,6 +500,9 @@ class Agent(NotebookValue):
         if not sentences:
             for number in numbers:
                 self.gaze.point(number)
+            if len(set(numbers)) == len(numbers) == _THIS_AND_THAT:
+                self.gaze.point(numbers[0])
+                self.gaze.point(f"{THAT} {numbers[1]}")
             if not words.strip():
                 if not numbers or not self.state.shared.qud:
                     return self._look_around()
@@ -711,12 +720,13 @@ class Agent(NotebookValue):
         ]
         places = [percept.region.place for percept in view.look.percepts]
         focus = [] if view.focus is None else [thing_name(view.focus)]
+        second = [] if view.second is None else [thing_name(view.second)]
         seen = record(
             look=handle,
             things=things,
             placed=[x for x, place in zip(things, places, strict=True) if place],
             focus=focus,
-            pointed=focus if view.pointed else [],
+            pointed=[*focus, *second] if view.pointed else [],
         )
         model = now.model.given(handle, self.types["Look"])
         for x in things:

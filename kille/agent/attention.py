@@ -19,6 +19,9 @@ from kille.sensors.sources import open_sensor
 from kille.sensors.stage_commands import perform
 from ttr.showing import NotebookValue, Part
 
+THAT = "that"
+"""Before a target: it is a second thing, beside the one that was pointed at."""
+
 _NUMBER = re.compile(r"[0-9]{1,6}")
 _SAME = 0.5  # overlap of a thing with itself in another look
 _LEAST = 64  # pixels of a box: less is a click by a hand that shakes
@@ -34,13 +37,15 @@ class NumberedLook(NotebookValue):
     of what the tutor points at, or else of the nearest thing. It stays while the same
     things are in view, even if noise makes another one nearer now and then; it is None
     when nothing is in view. `kept` are the numbers of the things that had them before,
-    and `pointed` says whether the tutor has pointed at the focus since the last look.
+    and `pointed` says whether the tutor has pointed at the focus since the last look;
+    `second` is then what they have pointed at after it, as "that".
     """
 
     look: Look
     focus: int | None
     kept: tuple[int, ...] = ()
     pointed: bool = False
+    second: int | None = None
 
     def _shown_as_(self) -> Part:
         return view_shown(self.look, focus=self.focus)
@@ -50,12 +55,14 @@ class NumberedLook(NotebookValue):
 class Attention:
     """What the tutor points at, if at anything, and the latest view of the scene.
 
-    `anew` says whether they have pointed since that view.
+    `anew` says whether they have pointed since that view. `second` is what they have
+    pointed at as "that", beside the first; it holds for what they say next.
     """
 
     pointed: Sighting | None = None
     view: NumberedLook | None = None
     anew: bool = False
+    second: Sighting | None = None
 
 
 @runtime_checkable
@@ -81,28 +88,55 @@ class AttentiveSensor:
 
     def look(self) -> NumberedLook:
         """Look at the scene as it is now. SensorError as the sensor raises it."""
-        pointed = self.attention.pointed
+        pointed, before = self.attention.pointed, self.attention.view
         seen = _look(self.sensor, self._scans, pointed)
-        before = self.attention.view
         order = _in_order(seen.percepts, before)
         focus = _focus(order, before) if pointed is None else _first(order, seen)
+        second = _number_of(self.attention.second, order)
+        second = None if second == focus else second
         view = NumberedLook(
             replace(seen, percepts=tuple(order)),
             focus,
             _kept_numbers(order, before),
             self.attention.anew and focus is not None,
+            second,
         )
-        self.attention = Attention(pointed, view)
+        both = None if second is None else self.attention.second
+        self.attention = Attention(pointed, view, both is not None, both)
         return view
 
     def point(self, target: str) -> None:
         """Point at a thing by its number, a pixel, a box or its outline's name.
 
         Pixels are `320 240`, boxes `90 60 210 200`: left, top, right and bottom.
-        Numbers are those of the latest view. SensorError if there is nothing like it.
+        Numbers are those of the latest view. After `that` it is a second thing, beside
+        the one that was pointed at before: `that 2`. SensorError if there is nothing
+        like it.
         """
-        pointed = self._target(target)
-        self.attention = replace(self.attention, pointed=pointed, anew=True)
+        word, _, rest = target.strip().partition(" ")
+        if word != THAT or not rest or self.attention.pointed is None:
+            pointed = self._target(rest if word == THAT and rest else target)
+            self.attention = Attention(pointed, self.attention.view, anew=True)
+            return
+        things = (self.attention.view or self.look()).look.percepts
+        second, first = self._target(rest), self.attention.pointed
+        number = _number_of(second, things)
+        if number is None:
+            raise SensorError(
+                f"`point {target[:40]}`: a second thing is one of those in view: point "
+                "at it by its number"
+            )
+        if number == _number_of(first, things):
+            raise SensorError(
+                f"#{number} is pointed at as “this” already: point at another thing"
+            )
+        self.attention = replace(self.attention, anew=True, second=second)
+
+    def settle(self) -> None:
+        """What was said has been taken in: a second thing is pointed at no more."""
+        at = self.attention
+        if at.view is not None and at.view.second is not None:
+            self.attention = Attention(at.pointed, at.view)
 
     def _target(self, target: str) -> Sighting:
         """What is pointed at, in the frame in which it is."""
@@ -194,6 +228,18 @@ def _focus(order: Sequence[Percept], before: NumberedLook | None) -> int | None:
 def _first(order: Sequence[Percept], seen: Look) -> int | None:
     """The number of what is pointed at, which a look puts first."""
     return order.index(seen.percepts[0]) + 1 if order else None
+
+
+def _number_of(sighting: Sighting | None, things: Sequence[Percept]) -> int | None:
+    """The number of the thing that was sighted, if it is still there."""
+    if sighting is None:
+        return None
+    found = (
+        number
+        for number, it in enumerate(things, start=1)
+        if overlap(it.region, sighting[1]) >= _SAME
+    )
+    return next(found, None)
 
 
 def is_same_thing(one: Percept, other: Percept) -> bool:

@@ -59,6 +59,7 @@ Lines that begin with @ change what there is to see:
   @ remove cup
   @ point 2                     "this" is thing #2 from now on; also in a sentence:
                                 #2 This is a book.
+  @ point that 3                "that" is thing #3, in what you say next
   @ look                        what is in view
   @ picture [FILE.png]          a picture of it, with the numbers and names
   @ why [FILE.png]              the reason that it gave last, as a picture

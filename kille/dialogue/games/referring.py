@@ -94,7 +94,7 @@ def ask_referent(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
 def trust_pointing(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """A lesson is about the one thing that is shown, whatever it is said to be like."""
     content = content_of(s)
-    shown = s.view.pointed or s.view.things
+    shown = s.view.pointed[:1] or s.view.things
     if len(shown) != 1 or "target" not in phrases(content) or "rel" in content:
         return None
     phrase = phrase_at(content, "target")

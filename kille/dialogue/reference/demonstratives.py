@@ -1,7 +1,8 @@
 """What "this" and "that" may be, as witness functions of the state.
 
 "This" is proximal and "that" distal, to the speaker and to the focus of the talk. What
-is pointed at or was just talked about may be either. Where nothing is, both may be
+is pointed at or was just talked about may be either; of two things that are pointed at,
+"this" is the first and "that" the second. Where nothing is, both may be
 anything in view: then a question about "this" is about the focus, and one about "that"
 about what is farther away. After a lesson about "this", "that" is another thing.
 """
@@ -53,6 +54,8 @@ class _Demonstratives:
         if asked := self._others_asked_about(THIS):
             return asked
         s, shown = self.s, shown_things(self.s)
+        if second := [x for x in s.view.pointed[1:] if x in s.view.things]:
+            return second
         this = [x for x in s.shared.shown if x in shown and not s.view.pointed]
         this = [x for x in this if x in _latest_taught(s)]
         others = tuple(x for x in s.view.things if x not in this)
@@ -87,7 +90,7 @@ def shown_things(s: Record) -> Sequence[str]:
 
     Where neither singles out one thing, it may be any of those in view.
     """
-    for one in (s.view.pointed, s.shared.topic):
+    for one in (s.view.pointed[:1], s.shared.topic):
         if len(one) == 1 and one[0] in s.view.things:
             return tuple(one)
     return tuple(s.view.things)

@@ -107,3 +107,36 @@ def test_a_box_without_pixels_is_nothing_to_point_at(box: str) -> None:
     gaze = gaze_at((MIDDLE,))
     with pytest.raises(SensorError, match="too small to point at"):
         gaze.point(box)
+
+
+def test_a_second_thing_is_pointed_at_until_what_was_said_is_taken_in() -> None:
+    gaze = gaze_at((NEAR, MIDDLE, FAR))
+    gaze.look()
+    gaze.point("2")
+    gaze.point("that 3")
+    looks = [gaze.look(), gaze.look()]
+    assert [(it.focus, it.pointed, it.second) for it in looks] == [(2, True, 3)] * 2
+    gaze.settle()
+    after = gaze.look()
+    assert (after.focus, after.pointed, after.second) == (2, False, None)
+
+
+def test_pointing_at_one_thing_drops_the_second() -> None:
+    gaze = gaze_at((NEAR, MIDDLE, FAR))
+    gaze.look()
+    for target in ("2", "that 3", "1"):
+        gaze.point(target)
+    view = gaze.look()
+    assert (view.focus, view.second) == (1, None)
+
+
+def test_a_second_thing_is_another_one() -> None:
+    gaze = gaze_at((NEAR, MIDDLE, FAR))
+    gaze.look()
+    gaze.point("2")
+    with pytest.raises(SensorError, match="#2 is pointed at as “this” already"):
+        gaze.point("that 2")
+    with pytest.raises(SensorError, match="no thing #9"):
+        gaze.point("that 9")
+    view = gaze.look()
+    assert (view.focus, view.second) == (2, None)
