@@ -6,7 +6,8 @@ calls it: the event that answers has it, too.
 | `do` | with | does |
 | --- | --- | --- |
 | `say` | `text` | the tutor says it |
-| `point` | `thing`, or `box`: left, top, right, bottom | "this" is that |
+| `point` | `thing`, or `box`: left, top, right, bottom; `as`: `that` for a second thing \
+| "this" is that |
 | `look` | | the robot looks |
 | `show`, `remove` | `thing` | changes the scene |
 | `place` | `thing`, `right`, `away`, `turn` | puts it there: metres, degrees |
@@ -20,6 +21,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from kille.agent.agent import Agent
+from kille.agent.attention import THAT
 from kille.sensors.sensor import SensorError, Stage
 from ttr.safety.limits import UTTERANCE, InputLimitError
 
@@ -94,6 +96,9 @@ def _read_request(message: dict[str, Any], ref: str) -> BrowserRequest:
             return _point_request(ref, " ".join(map(str, box)), {"box": box})
         case "point":
             number = int(_number(message, "thing", 1, _THINGS))
+            if message.get("as") == THAT:
+                pointed = {"thing": number, "as": THAT}
+                return _point_request(ref, f"{THAT} {number}", pointed)
             return _point_request(ref, str(number), {"thing": number})
         case "look":
             return BrowserRequest(ref, "", lambda robot: robot.look())

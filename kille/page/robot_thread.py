@@ -9,7 +9,8 @@ it is on disk.
 | `turn` | the turn, as `turn_report` has it; `ms`, how long it took; `ref`; `turns`, \
 the numbers of its exchanges, to look inside |
 | `view` | what is in view after it, as `view_report` has it |
-| `pointed` | what the tutor points at now: `thing` or `box`; `ref` |
+| `pointed` | what the tutor points at now: `thing` or `box`; `as`: `that` for a second \
+thing, beside the one before; `ref` |
 | `failed` | why nothing came of it: `text`, `ref` |
 | `camera` | what is wrong with the camera: `text`, empty when it is well again |
 | `restarted` | a new dialogue has begun |

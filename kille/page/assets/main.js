@@ -57,7 +57,7 @@ const connection = new Connection({
     region.cancel();
     if (event.id > old) things.mean(meant);
   },
-  pointed: (event) => things.point(event.thing ?? null),
+  pointed: (event) => things.point(event),
   camera: ({ text }) => {
     byId("trouble").textContent = text;
     byId("trouble").hidden = !text;
@@ -137,14 +137,14 @@ function layTable(names) {
   );
 }
 
-/** A thing is clicked: it answers which one was meant, or it is "this". */
+/** A thing is clicked: it answers which one was meant, or it is "this" or "that". */
 function choose(number) {
   const answer = talk.answerFor(number);
   if (answer) {
     say(answer);
     return;
   }
-  connection.ask({ do: "point", thing: number });
+  connection.ask({ do: "point", thing: number, ...(things.isSecond(number) && { as: "that" }) });
 }
 
 function say(text) {

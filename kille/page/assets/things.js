@@ -12,14 +12,13 @@ export class Things {
     this.view = { size: [640, 480], focus: null, things: [] };
     this.outlines = new Map();
     this.buttons = new Map();
-    this.pointed = null;
+    this.pointed = { this: null, that: null, isNew: false };
     new ResizeObserver(() => this.layOut()).observe(byId("stage"));
   }
 
   show(view) {
     const focused = document.activeElement?.dataset?.thing;
     this.view = view;
-    this.pointed = null;
     const [width, height] = view.size ?? [640, 480];
     byId("outlines").setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.outlines = new Map(view.things.map((it) => [it.number, this.outline(it)]));
@@ -28,8 +27,7 @@ export class Things {
     byId("things").replaceChildren(...this.buttons.values());
     byId("empty").hidden = view.things.length > 0 || !view.size;
     byId("rivals").hidden = true;
-    this.point(view.focus);
-    this.layOut();
+    this.mark({ this: view.focus, that: null, isNew: false });
     if (focused) this.buttons.get(Number(focused))?.focus();
   }
 
@@ -51,7 +49,7 @@ export class Things {
         class: "thing",
         type: "button",
         "data-thing": thing.number,
-        "aria-label": t("thing", { number: thing.number, word: label }),
+        "data-label": t("thing", { number: thing.number, word: label }),
         "aria-describedby": "rivals",
         onclick: () => this.choose(thing.number),
         onpointerenter: () => this.light(thing.number, true),
@@ -61,18 +59,42 @@ export class Things {
       },
       el("span", { class: "thing__number" }, String(thing.number)),
       el("span", { class: `thing__word${thing.name ? "" : " thing__word--none"}` }, thing.name || "?"),
+      el("span", { class: "thing__role", "aria-hidden": "true" }),
       bar(thing.name && best ? best.degree : 0),
     );
     return made;
   }
 
-  /** Show what "this" is now. */
-  point(number) {
-    this.pointed = number;
-    for (const [its, outline] of this.outlines)
-      outline.classList.toggle("outline--this", its === number);
-    for (const [its, button] of this.buttons)
-      button.setAttribute("aria-pressed", String(its === number));
+  /** Whether a thing that is clicked now is "that": another one than "this", which was
+   *  clicked since the last turn. To click it once more makes it "this". */
+  isSecond(number) {
+    const { this: first, that, isNew } = this.pointed;
+    return isNew && first !== null && that === null && first !== number;
+  }
+
+  /** The tutor has pointed at a thing, or at a region of their own. */
+  point({ thing = null, as }) {
+    const second = as === "that";
+    this.mark({ this: second ? this.pointed.this : thing, that: second ? thing : null, isNew: true });
+  }
+
+  /** Show what "this" and "that" are now. */
+  mark(pointed) {
+    this.pointed = pointed;
+    const roleOf = (number) => ["this", "that"].find((it) => pointed[it] === number);
+    for (const [its, outline] of this.outlines) {
+      outline.classList.toggle("outline--this", roleOf(its) === "this");
+      outline.classList.toggle("outline--that", roleOf(its) === "that");
+    }
+    for (const [its, button] of this.buttons) {
+      const role = roleOf(its);
+      const said = role && pointed.isNew ? t(role) : "";
+      button.setAttribute("aria-pressed", String(Boolean(role)));
+      button.setAttribute("aria-label", `${button.dataset.label}${said && ` (${said})`}`);
+      button.dataset.role = role ?? "";
+      button.querySelector(".thing__role").textContent = said;
+    }
+    this.layOut();
   }
 
   /** Let the thing pulse that the robot means. */

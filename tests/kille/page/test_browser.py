@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -90,6 +91,21 @@ def test_a_lesson_by_clicks(desk: Program, tab: Tab) -> None:
     say(tab, "This is sugar.", "kind of thing?")
     press(tab, "Yes.", "OK")
     playwright.expect(tab.locator("#answers")).to_be_hidden()
+
+
+def test_a_second_click_is_that(desk: Program, tab: Tab) -> None:
+    visit(tab, desk)
+    thing(tab, 3).click()
+    playwright.expect(thing(tab, 3)).to_have_accessible_name(re.compile(r"\(this\)"))
+    thing(tab, 1).click()
+    playwright.expect(thing(tab, 1)).to_have_accessible_name(re.compile(r"\(that\)"))
+    playwright.expect(thing(tab, 3)).to_have_accessible_name(re.compile(r"\(this\)"))
+    say(tab, "This is to the left of that.", "this relation is called")
+    tab.keyboard.press("Tab")
+    for key in "1", "2", "2":  # at last it is "this", and there is no "that"
+        tab.keyboard.press(key)
+    playwright.expect(thing(tab, 2)).to_have_accessible_name(re.compile(r"\(this\)"))
+    playwright.expect(thing(tab, 1)).to_have_attribute("aria-pressed", "false")
 
 
 # On a busy machine the box has once come to nothing; why is not known.

@@ -88,6 +88,20 @@ def test_a_question_which_one_has_an_answer_for_each_thing(page: Page) -> None:
         browser.say("No.")
 
 
+def test_a_second_thing_is_that(page: Page) -> None:
+    with page.connect() as browser:
+        browser.ask(do="show", thing="cup")
+        browser.ask(do="place", thing="book", right=0.2, away=0.1, ref="two")
+        assert len(browser.until("view", ref="two")["things"]) == 2
+        browser.ask(do="point", thing=2)
+        browser.ask(do="point", thing=1, **{"as": "that"}, ref="that")
+        assert browser.until("pointed", ref="that")["as"] == "that"
+        assert browser.say("That is a mug.")["thing"] == 1
+        browser.ask(do="point", thing=2)
+        browser.ask(do="point", thing=2, **{"as": "that"}, ref="same")
+        assert "already" in browser.until("failed", ref="same")["text"]
+
+
 def test_what_was_missed_is_told_to_who_comes_back(page: Page) -> None:
     with page.connect() as browser:
         run = browser.next()["run"]
