@@ -10,6 +10,7 @@ the page is sent the events after the last one that they have, and the newest pi
 | `live_picture` | the robot's sensor, whose frames are shown |
 | `robot_thread` | the robot, and whose turn it is |
 | `turn_reports` | turns and views as JSON |
+| `table` | the table from above, arranged by hand; recordings, wound by hand |
 | `inside` | what a turn did to the information state, when somebody asks |
 | `browser_requests` | what a browser may ask for, checked |
 | `guard` | who may reach the page: hosts, origins, tokens; and safe headers |

@@ -6,11 +6,13 @@ calls it: the event that answers has it, too.
 | `do` | with | does |
 | --- | --- | --- |
 | `say` | `text` | the tutor says it |
-| `point` | `thing`, or `box`: left, top, right, bottom; `as`: `that` for a second thing \
-| "this" is that |
+| `point` | `thing`, or `box`: left, top, right, bottom; `as`: `that` for a second | \
+"this" is that |
 | `look` | | the robot looks |
 | `show`, `remove` | `thing` | changes the scene |
 | `place` | `thing`, `right`, `away`, `turn` | puts it there: metres, degrees |
+| `add` | `thing` | puts it where there is room |
+| `seek` | `at` | goes to that second of the recording |
 | `restart` | | a new dialogue with the same memory |
 """
 
@@ -22,6 +24,7 @@ from typing import Any, NamedTuple
 
 from kille.agent.agent import Agent
 from kille.agent.attention import THAT
+from kille.page.table import add_thing
 from kille.sensors.sensor import SensorError, Stage
 from ttr.safety.limits import UTTERANCE, InputLimitError
 
@@ -32,6 +35,7 @@ _REF = 64
 _PIXELS = 100_000
 _METRES, _DEGREES = 10.0, 3600.0
 _THINGS = 10_000
+_SECONDS = 1e6
 
 
 class RequestError(ValueError):
@@ -105,7 +109,13 @@ def _read_request(message: dict[str, Any], ref: str) -> BrowserRequest:
         case "restart":
             return BrowserRequest(ref, "", _restart, restarts=True)
         case "show" | "remove" as verb:
-            return _change(ref, str(verb), _name(message), "")
+            return _change(ref, str(verb), _name(message))
+        case "add":
+            return _change(ref, "add", _name(message))
+        case "seek":
+            at = _number(message, "at", 0, _SECONDS)
+            seek = f"seek {at:.3f}"
+            return BrowserRequest(ref, seek, lambda it: it.do(seek), arranges=True)
         case "place":
             right = _number(message, "right", -_METRES, _METRES)
             away = _number(message, "away", -_METRES, _METRES)
@@ -126,7 +136,7 @@ def _restart(robot: Agent) -> str:
     return robot.look()
 
 
-def _change(ref: str, verb: str, name: str, spot: str) -> BrowserRequest:
+def _change(ref: str, verb: str, name: str, spot: str = "") -> BrowserRequest:
     """A change of the scene; only what the sensor has by name can be shown.
 
     A sensor also takes the path of a mesh for a name, and no browser may name files.
@@ -138,6 +148,8 @@ def _change(ref: str, verb: str, name: str, spot: str) -> BrowserRequest:
             raise SensorError(f"{sensor.name} cannot be rearranged")
         if name not in sensor.things():
             raise SensorError(f"there is no {name[:40]!r} to be shown")
+        if verb == "add":
+            return add_thing(robot, name)
         return robot.do(f"{verb} {name}{spot}")
 
     return BrowserRequest(ref, f"{verb} {name}", change, arranges=True)

@@ -17,7 +17,16 @@ from typing import NamedTuple
 import cv2
 
 from kille.scene import Colour, Frame
-from kille.sensors.sensor import At, Beside, Sensor, SensorError, Stage
+from kille.sensors.sensor import (
+    At,
+    Beside,
+    PlannedStage,
+    Seekable,
+    Sensor,
+    SensorError,
+    Stage,
+    TablePlan,
+)
 
 RATE = 30.0
 """Frames a second, at most."""
@@ -80,8 +89,7 @@ class LivePicture:
     def share(self, sensor: Sensor) -> Sensor:
         """The sensor for the robot; what it reads is shown."""
         with self._changed:
-            kind = SharedStage if isinstance(sensor, Stage) else SharedSensor
-            self._sensor = kind(sensor, self)
+            self._sensor = _shared_kind(sensor)(sensor, self)
             if not self._thread.is_alive():
                 self._thread.start()
             return self._sensor
@@ -242,6 +250,49 @@ class SharedStage(SharedSensor):
         """Take the object away."""
         with self._reading:
             self._sensor.remove(name)
+
+
+class SharedPlannedStage(SharedStage):
+    """Such a stage that knows where everything stands."""
+
+    _sensor: PlannedStage
+
+    def plan(self) -> TablePlan:
+        """The table as it is now."""
+        return self._sensor.plan()
+
+
+class SharedRecording(SharedSensor):
+    """Such a recording in which one can go to any moment."""
+
+    _sensor: Seekable  # type: ignore[assignment]
+
+    @property
+    def length(self) -> float:
+        """Seconds from the first frame to the last."""
+        return self._sensor.length
+
+    @property
+    def position(self) -> float:
+        """Where the next frame is, in seconds since the first."""
+        return self._sensor.position
+
+    def seek(self, seconds: float) -> None:
+        """Go to the first frame at or after so many seconds since the first."""
+        with self._reading:
+            self._sensor.seek(seconds)
+
+
+def _shared_kind(sensor: Sensor) -> type[SharedSensor]:
+    """What such a sensor is as a shared one: it can do the same."""
+    match sensor:
+        case PlannedStage():
+            return SharedPlannedStage
+        case Stage():
+            return SharedStage
+        case Seekable():
+            return SharedRecording
+    return SharedSensor
 
 
 def encode_jpeg(colour: Colour) -> bytes:

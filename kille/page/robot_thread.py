@@ -9,8 +9,10 @@ it is on disk.
 | `turn` | the turn, as `turn_report` has it; `ms`, how long it took; `ref`; `turns`, \
 the numbers of its exchanges, to look inside |
 | `view` | what is in view after it, as `view_report` has it |
-| `pointed` | what the tutor points at now: `thing` or `box`; `as`: `that` for a second \
-thing, beside the one before; `ref` |
+| `table` | how the scene can be arranged by hand, as `table_report` has it, whenever \
+that has changed |
+| `pointed` | what the tutor points at now: `thing` or `box`; `as`: `that` for a \
+second thing, beside the one before; `ref` |
 | `failed` | why nothing came of it: `text`, `ref` |
 | `camera` | what is wrong with the camera: `text`, empty when it is well again |
 | `restarted` | a new dialogue has begun |
@@ -28,6 +30,7 @@ from kille.memory import MemoryFileError
 from kille.page.browser_requests import BrowserRequest
 from kille.page.feed import Feed
 from kille.page.inside import PLAIN, Insight, Json, inside_report
+from kille.page.table import table_report
 from kille.page.turn_reports import turn_report, view_report
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
@@ -64,6 +67,7 @@ class RobotThread:
             self._thread.shutdown()
             raise
         self._trouble = ""
+        self._table: Json = {}
 
     def ask(self, request: BrowserRequest) -> None:
         """Have a request done when it is its turn. BusyError if too many wait."""
@@ -113,6 +117,7 @@ class RobotThread:
             if not request.arranges and request.pointed is None:
                 self._tell_trouble(str(error))
             self._fail(request, str(error))
+            self._tell_of_table(request, again=request.arranges)
             return
         self._tell_trouble("")
         took = round((perf_counter() - began) * 1000)
@@ -125,6 +130,14 @@ class RobotThread:
         taken = [turns, len(robot.exchanges)]
         self._publish("turn", request, ms=took, turns=taken, **report)
         self._publish("view", request, **view_report(robot))
+        self._tell_of_table(request)
+
+    def _tell_of_table(self, request: BrowserRequest, again: bool = False) -> None:
+        """Tell how the scene is arranged, if that is new, or not as somebody wanted."""
+        table = table_report(self.robot.gaze.sensor)
+        if again or table != self._table:
+            self._table = table
+            self._publish("table", request, **table)
 
     def _publish(self, kind: str, request: BrowserRequest, **about: object) -> None:
         self._feed.publish({"type": kind, "ref": request.ref, **about})

@@ -20,7 +20,8 @@ from kille.page.guard import Access, Guard
 from kille.page.inside import PLAIN, Insight
 from kille.page.live_picture import LivePicture
 from kille.page.robot_thread import RobotThread
-from kille.sensors.sensor import Sensor, Stage
+from kille.page.table import table_report
+from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
 
 _FAREWELL = 2
@@ -108,7 +109,7 @@ def _greeting(robot: Agent) -> Event:
         "memory": str(robot.memory.place),
         "language": plain(robot.language),
         "words": len(robot.state.private.nouns),
-        "stage": list(sensor.things()) if isinstance(sensor, Stage) else [],
+        "table": table_report(sensor),
     }
 
 

@@ -68,3 +68,55 @@ class Stage(Protocol):
     def remove(self, name: str) -> None:
         """Take the object away."""
         ...
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A thing on the table: its name, its spot, and what it covers from above.
+
+    The corners of the outline are metres right and away of its spot, before its turn.
+    """
+
+    name: str
+    spot: At
+    outline: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class TablePlan:
+    """The table from above: its left, near, right and far edge in metres, and what
+    stands on it."""
+
+    table: tuple[float, float, float, float]
+    placed: tuple[Placed, ...]
+
+
+@runtime_checkable
+class PlannedStage(Stage, Protocol):
+    """A stage that knows where everything stands."""
+
+    def plan(self) -> TablePlan:
+        """The table as it is now."""
+        ...
+
+
+@runtime_checkable
+class Seekable(Protocol):
+    """A recording in which one can go to any moment."""
+
+    @property
+    def length(self) -> float:
+        """Seconds from the first frame to the last."""
+        ...
+
+    @property
+    def position(self) -> float:
+        """Where the next frame is, in seconds since the first."""
+        ...
+
+    def seek(self, seconds: float) -> None:
+        """Go to the first frame at or after so many seconds since the first.
+
+        SensorError beyond the last.
+        """
+        ...

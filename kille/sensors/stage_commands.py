@@ -5,7 +5,14 @@ from __future__ import annotations
 import math
 import re
 
-from kille.sensors.sensor import At, Beside, Sensor, SensorError, Stage
+from kille.sensors.sensor import (
+    At,
+    Beside,
+    Seekable,
+    Sensor,
+    SensorError,
+    Stage,
+)
 
 RELATIONS = {
     "to the left of": "left of",
@@ -34,16 +41,20 @@ def perform(sensor: Sensor, command: str) -> None:
     """Change the sensor's scene as the command says.
 
     Commands: `show NAME`, `remove NAME`, `place NAME at RIGHT AWAY [turned DEGREES]` in
-    metres from the table's middle, `place NAME RELATION LANDMARK`.
+    metres from the table's middle, `place NAME RELATION LANDMARK`; in a recording
+    `seek SECONDS`, counted from its first frame.
     Raises SensorError when the sensor is no stage, and for a command that is not
     understood; the scene is then as it was.
     """
+    verb, _, rest = " ".join(command.split()).partition(" ")
+    if verb.lower() == "seek":
+        _seek(sensor, rest)
+        return
     if not isinstance(sensor, Stage):
         raise SensorError(
             f"{sensor.name} cannot be rearranged: use `synthetic` or a folder of "
             "sorted pictures"
         )
-    verb, _, rest = " ".join(command.split()).partition(" ")
     if verb.lower() not in ("show", "place", "remove"):
         raise SensorError(f"unknown command `{command.strip()}`: write {_HELP}")
     if not rest:
@@ -56,6 +67,20 @@ def perform(sensor: Sensor, command: str) -> None:
         case _:
             name, spot = _placement(rest)
             sensor.place(name, spot)
+
+
+def _seek(sensor: Sensor, seconds: str) -> None:
+    if not isinstance(sensor, Seekable):
+        raise SensorError(f"{sensor.name} is no recording in which one can `seek`")
+    try:
+        moment = float(seconds)
+    except ValueError:
+        moment = math.nan
+    if not 0 <= moment <= sensor.length:
+        raise SensorError(
+            f"`seek {seconds[:40]}`: write seconds from 0 to {sensor.length:.2f}"
+        )
+    sensor.seek(moment)
 
 
 def _placement(text: str) -> tuple[str, At | Beside]:

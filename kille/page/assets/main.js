@@ -5,6 +5,7 @@ import { byId, el } from "./dom.js";
 import { Lab } from "./lab.js";
 import { LivePicture } from "./picture.js";
 import { Region } from "./region.js";
+import { Table } from "./table.js";
 import { Talk } from "./talk.js";
 import { setLanguage, t } from "./texts.js";
 import { Things } from "./things.js";
@@ -13,6 +14,7 @@ const picture = new LivePicture();
 const things = new Things(choose);
 const lab = new Lab((number, on) => things.light(number, on));
 const talk = new Talk(say, (number, on) => things.light(number, on), (event) => lab.choose(event));
+const table = new Table((message) => connection.ask(message));
 const region = new Region(things, choose, (box) => connection.ask({ do: "point", box }));
 const field = byId("text");
 const said = []; // by the tutor, for the arrow keys
@@ -57,6 +59,7 @@ const connection = new Connection({
     region.cancel();
     if (event.id > old) things.mean(meant);
   },
+  table: (event) => table.show(event),
   pointed: (event) => things.point(event),
   camera: ({ text }) => {
     byId("trouble").textContent = text;
@@ -72,7 +75,7 @@ function hello(event, before) {
       el("div", {}, el("dt", {}, t(name)), el("dd", { title: String(value), id: `fact-${name}` }, String(value))),
     ),
   );
-  layTable(event.stage);
+  table.show(event.table);
   old = event.last;
   if (event.after === 0) {
     talk.clear();
@@ -110,7 +113,7 @@ function label(spoken) {
   field.placeholder = t("placeholder");
   byId("say").querySelector("label").textContent = t("say");
   byId("say").querySelector("button").textContent = t("send");
-  byId("table").querySelector("summary").textContent = t("table");
+  table.label();
   byId("tools").replaceChildren(
     tool("look", () => connection.ask({ do: "look" })),
     tool("region", () => region.beginByKeys()),
@@ -121,20 +124,6 @@ function label(spoken) {
 
 function tool(name, onclick) {
   return el("button", { class: "button", type: "button", onclick }, t(name));
-}
-
-/** A button for each thing that can be put on the table, where that can be done. */
-function layTable(names) {
-  byId("table").hidden = names.length === 0;
-  byId("table").querySelector(".table__things").replaceChildren(
-    ...names.map((thing) =>
-      el(
-        "button",
-        { class: "button", type: "button", "aria-label": t("show", { thing }), onclick: () => connection.ask({ do: "show", thing }) },
-        thing,
-      ),
-    ),
-  );
 }
 
 /** A thing is clicked: it answers which one was meant, or it is "this" or "that". */

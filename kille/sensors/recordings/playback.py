@@ -140,6 +140,16 @@ class Recording:
         next_one = self._given % count if self._options.loop else self._given
         return self._reel.moments[next_one:]
 
+    @property
+    def length(self) -> float:
+        """Seconds from the first frame to the last."""
+        return self._reel.times[-1]
+
+    @property
+    def position(self) -> float:
+        """Where the next frame is, in seconds since the first."""
+        return self._reel.times[self._given % len(self._reel.times)]
+
     def seek(self, seconds: float) -> None:
         """Go to the first frame at or after so many seconds since the first.
 

@@ -10,9 +10,9 @@ from types import MappingProxyType
 import numpy as np
 
 from kille.scene import Frame, Point
-from kille.sensors.sensor import At, Beside, SensorError
+from kille.sensors.sensor import At, Beside, Placed, SensorError, TablePlan
 from kille.sensors.stage_commands import RELATIONS
-from kille.sensors.synthetic import catalogue, obj_files
+from kille.sensors.synthetic import catalogue, obj_files, room
 from kille.sensors.synthetic.address import SceneAddress, parse_address
 from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import degrade_colour, degrade_depth
@@ -137,6 +137,19 @@ class Synthetic:
         self._change(
             {other: body for other, body in self._bodies.items() if other != thing}
         )
+
+    def plan(self) -> TablePlan:
+        """The table from above, in the true poses."""
+        placed = (
+            Placed(
+                name,
+                At(body.pose.right, body.pose.away, body.pose.turn),
+                tuple((float(x), float(y)) for x, y in body.model.footprint),
+            )
+            for name, body in self._bodies.items()
+        )
+        edges = (room.TABLE_LEFT, room.TABLE_NEAR, room.TABLE_RIGHT, room.TABLE_END)
+        return TablePlan(edges, tuple(placed))
 
     def true_place(self, name: str) -> Point:
         """The middle of the box around an object on the table, in camera axes."""

@@ -48,7 +48,7 @@ def test_a_lesson_is_heard_answered_and_seen(taught: Page) -> None:
         hello = browser.next()
         assert hello["type"] == "hello"
         assert hello["sensor"] == "synthetic:empty?seed=7"
-        assert "cup" in hello["stage"]
+        assert "cup" in hello["table"]["things"]
         browser.ask(do="point", thing=1, ref="p")
         assert browser.until("pointed")["thing"] == 1
         browser.ask(do="say", text="This  is a cup.", ref="s")
@@ -100,6 +100,41 @@ def test_a_second_thing_is_that(page: Page) -> None:
         browser.ask(do="point", thing=2)
         browser.ask(do="point", thing=2, **{"as": "that"}, ref="same")
         assert "already" in browser.until("failed", ref="same")["text"]
+
+
+def test_the_table_is_arranged_by_hand(page: Page) -> None:
+    with page.connect() as browser:
+        browser.ask(do="show", thing="cup")
+        browser.ask(do="add", thing="book", ref="add")
+        (cup, book) = browser.until("table", ref="add")["plan"]["placed"]
+        assert (cup["name"], book["name"]) == ("cup", "book")
+        assert len(book["outline"]) >= 3
+        browser.ask(do="place", thing="book", right=0.2, away=0.1, turn=90, ref="moved")
+        moved = browser.until("table", ref="moved")["plan"]["placed"][1]
+        assert [moved[it] for it in ("right", "away", "turn")] == [0.2, 0.1, 90.0]
+        browser.ask(do="place", thing="book", right=9, away=0.1, ref="off")
+        assert "would not stand" in browser.until("failed", ref="off")["text"]
+        again = browser.until("table", ref="off")["plan"]["placed"][1]
+        assert again == moved
+        browser.ask(do="remove", thing="book", ref="gone")
+        assert len(browser.until("view", ref="gone")["things"]) == 1
+        assert len(browser.until("table", ref="gone")["plan"]["placed"]) == 1
+
+
+def test_a_recording_is_wound(tmp_path: Path) -> None:
+    assert main(["record", str(tmp_path / "lesson"), "--frames", "30"]) == 0
+    with (
+        page_of(open_sensor(str(tmp_path / "lesson"))) as page,
+        page.connect(after=0) as browser,
+    ):
+        hello = browser.next()
+        length = hello["table"]["recording"]["length"]
+        assert length > 0.5
+        browser.ask(do="seek", at=length / 2, ref="wound")
+        at = browser.until("table", ref="wound")["recording"]["at"]
+        assert length / 2 <= at <= length
+        browser.ask(do="seek", at=length + 1, ref="beyond")
+        assert "from 0 to" in browser.until("failed", ref="beyond")["text"]
 
 
 def test_what_was_missed_is_told_to_who_comes_back(page: Page) -> None:
