@@ -45,20 +45,12 @@ class StoryLog:
     ) -> None:
         """Write what the robot looks through, by which strategy, with which memory."""
         self._began = began
-        settings = [
-            f"@ sensor {_absolute(sensor)}",
-            *(f"@ strategy {' '.join(them)}" for them in [tuple(strategy)] if them),
-            *(f"@ memory {it}" for it in [memory] if it),
-            f"@ time {began.isoformat(timespec='milliseconds')}",
-        ]
-        self._write([f"--- {began:%Y-%m-%d %H:%M:%S}", *settings])
+        self._write(head_lines(sensor, began, strategy, memory))
 
     def __call__(self, event: Event) -> None:
         """Write an event and what the robot said to it."""
         assert self._began is not None, "an event before the beginning"
-        seconds = (event.time - self._began).total_seconds()
-        line = " ".join(event.line.splitlines())
-        self._write([f"@ time {seconds:.3f}", *turn_lines(line, event.said)])
+        self._write(event_lines(event, self._began))
 
     def _write(self, lines: Iterable[str]) -> None:
         self._file.write("".join(f"{line}\n" for line in lines))
@@ -78,6 +70,26 @@ class StoryLog:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+def head_lines(
+    sensor: str, began: datetime, strategy: Iterable[str] = (), memory: str = ""
+) -> list[str]:
+    """The lines with which a story begins: its title, and who takes part."""
+    return [
+        f"--- {began:%Y-%m-%d %H:%M:%S}",
+        f"@ sensor {_absolute(sensor)}",
+        *(f"@ strategy {' '.join(them)}" for them in [tuple(strategy)] if them),
+        *(f"@ memory {it}" for it in [memory] if it),
+        f"@ time {began.isoformat(timespec='milliseconds')}",
+    ]
+
+
+def event_lines(event: Event, began: datetime) -> list[str]:
+    """An event of a dialogue that began then, and what the robot said to it."""
+    seconds = (event.time - began).total_seconds()
+    line = " ".join(event.line.splitlines())
+    return [f"@ time {seconds:.3f}", *turn_lines(line, event.said)]
 
 
 def _absolute(sensor: str) -> str:

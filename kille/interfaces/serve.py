@@ -12,6 +12,7 @@ from threading import Thread
 from typing import TYPE_CHECKING
 
 from kille.agent.agent import Agent
+from kille.agent.exchanges import Event
 from kille.interfaces.formatting import derivation, in_short, introduction
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError, default_path
@@ -54,8 +55,15 @@ def serve(
         return complain(MISSING)
     place = memory_path(memory)
 
-    def robot(of: Sensor) -> Agent:
-        return make(of, place, language=language, mode=mode, wording=wording)
+    def robot(of: Sensor, record: Callable[[Event], None]) -> Agent:
+        return make(
+            of,
+            place,
+            language=language,
+            mode=mode,
+            wording=wording,
+            record_event=record,
+        )
 
     try:
         settings = _settings(host, port)

@@ -12,6 +12,10 @@ the page is sent the events after the last one that they have, and the newest pi
 | `turn_reports` | turns and views as JSON |
 | `table` | the table from above, arranged by hand; recordings, wound by hand |
 | `inside` | what a turn did to the information state, when somebody asks |
+| `unfired` | the rules that did not fire in a turn, and why |
+| `history` | pictures and events of earlier turns |
+| `exports` | a turn or the dialogue as a file |
+| `reads` | the addresses at which it is looked into |
 | `browser_requests` | what a browser may ask for, checked |
 | `guard` | who may reach the page: hosts, origins, tokens; and safe headers |
 | `certificates` | the certificate of this host, for TLS |

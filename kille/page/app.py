@@ -12,15 +12,14 @@ from __future__ import annotations
 import asyncio
 import json
 import struct
-from collections.abc import Callable, Mapping
-from concurrent.futures import Future
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from importlib.resources import files
 from typing import Any
 
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
@@ -34,16 +33,12 @@ from kille.page.feed import Event, Feed
 from kille.page.inside import MATRIX_STYLE
 from kille.page.live_picture import LivePicture, Watcher
 from kille.page.robot_thread import BusyError
-from ttr import TTRError
 
 BROWSERS = 16
 """How many may look at the page at a time."""
 
 UNDER_WAY = 2
 """Pictures that were sent and not yet drawn."""
-
-_TOGETHER = 8
-"""Exchanges of one turn, at most."""
 
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -58,12 +53,12 @@ def page_app(
     picture: LivePicture,
     ask: Callable[[BrowserRequest], None],
     greeting: Callable[[], Event],
-    inside: Callable[[int, int], Future[Event | None]] | None = None,
+    reads: Iterable[BaseRoute] = (),
 ) -> Starlette:
     """The page of a robot: what it tells, what it sees, and how it is asked.
 
     `ask` has a request done, or raises BusyError; `greeting` is what a browser is told
-    first; `inside` looks inside turns.
+    first; `reads` are the addresses at which it is looked into.
     """
     connected: set[WebSocket] = set()
 
@@ -80,9 +75,7 @@ def page_app(
 
     routes: list[BaseRoute] = [WebSocketRoute("/live", live)]
     routes += [_file_route(*it) for it in _page_files()]
-    if inside is not None:
-        routes.append(_inside_route(inside))
-    return Starlette(routes=routes)
+    return Starlette(routes=[*routes, *reads])
 
 
 def _page_files() -> list[tuple[str, bytes]]:
@@ -103,22 +96,6 @@ def _file_route(name: str, content: bytes) -> Route:
         return Response(content, headers={"Content-Type": kind})
 
     return Route("/" if name == "index.html" else f"/{name}", answer)
-
-
-def _inside_route(inside: Callable[[int, int], Future[Event | None]]) -> Route:
-    """What a turn did: the exchanges from one number to before another."""
-
-    async def answer(request: Request) -> Response:
-        first, last = request.path_params["first"], request.path_params["last"]
-        if not 0 <= first < last <= first + _TOGETHER:
-            return Response(status_code=404)
-        try:
-            found = await asyncio.wrap_future(inside(first, last))
-        except TTRError as error:
-            found = {"lines": [["", str(error)]], "state": []}
-        return Response(status_code=404) if found is None else JSONResponse(found)
-
-    return Route("/inside/{first:int}/{last:int}", answer)
 
 
 def _text_of(received: Mapping[str, Any]) -> str:

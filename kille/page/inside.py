@@ -15,11 +15,16 @@ from ttr.display.html import STYLE, part_of_page
 from ttr.safety.budgets import within_budget
 from ttr.types.interning import identity
 from ttr.types.objects import Object
+from ttr.types.printing import notation
+from ttr.updates import Step
 
 Json = dict[str, Any]
 
 MATRIX_STYLE = STYLE
 """The style of the matrices, as a file of its own: the page has no style inline."""
+
+LONGEST = 600
+"""Characters of a condition or of what is bound, at most."""
 
 PARTS = ("shared", "view", "private")
 
@@ -39,7 +44,8 @@ PLAIN = Insight()
 def inside_report(turns: Sequence[Exchange], insight: Insight) -> Json:
     """The derivation of a turn, and the state after it with what has changed marked.
 
-    `state` has a matrix for each field of the state's parts, as HTML.
+    `steps` are the rules that fired, in order: their events and conditions, and what
+    they have bound. `state` has a matrix for each field of the state's parts, as HTML.
     """
     steps = [step for turn in turns for step in turn.steps]
     lines = [line for turn in turns for line in insight.derive(turn)]
@@ -51,7 +57,21 @@ def inside_report(turns: Sequence[Exchange], insight: Insight) -> Json:
         )
         if isinstance(before, Record) and isinstance(after, Record):
             state = [_part(name, before[name], after[name]) for name in PARTS]
-    return {"lines": lines, "state": state}
+    return {"lines": lines, "steps": [*map(_step, steps)], "state": state}
+
+
+def _step(step: Step) -> Json:
+    """What a rule that fired was waiting for, and what it has bound."""
+    rule = step.rule
+    return {
+        "on": "" if rule.on is None else _cut(str(rule.on)),
+        "when": _cut(str(rule.when)),
+        "bindings": [[it, _cut(notation(at))] for it, at in step.bindings.items()],
+    }
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST else text[:LONGEST] + " …"
 
 
 def _part(name: str, before: Record, after: Record) -> Json:

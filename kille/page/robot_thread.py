@@ -24,16 +24,23 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from threading import Lock
 from time import perf_counter
+from typing import TypeVar
 
 from kille.agent.agent import Agent
+from kille.agent.exchanges import Event
 from kille.memory import MemoryFileError
 from kille.page.browser_requests import BrowserRequest
 from kille.page.feed import Feed
-from kille.page.inside import PLAIN, Insight, Json, inside_report
+from kille.page.history import History
+from kille.page.inside import PLAIN, Insight, Json
 from kille.page.table import table_report
 from kille.page.turn_reports import turn_report, view_report
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
+
+T = TypeVar("T")
+
+RecordEvent = Callable[[Event], None]
 
 WAITING = 8
 """How many requests may wait for their turn; more are refused."""
@@ -51,21 +58,23 @@ class RobotThread:
 
     def __init__(
         self,
-        make: Callable[[], Agent],
+        make: Callable[[RecordEvent], Agent],
         feed: Feed,
         tell: Callable[[str], object] = lambda _: None,
         report: Callable[[Exception], object] = lambda _: None,
         insight: Insight = PLAIN,
     ) -> None:
-        self._insight = insight
+        self.insight, self.history = insight, History()
         self._feed, self._tell, self._report = feed, tell, report
+        self._turns = 0  # exchanges before the request that is done now
         self._counting, self._waiting, self._closed = Lock(), 0, False
         self._thread = ThreadPoolExecutor(1, "kille-robot")
         try:
-            self.robot = self._thread.submit(make).result()
+            self.robot = self._thread.submit(make, self._keep_event).result()
         except BaseException:
             self._thread.shutdown()
             raise
+        self.began = self.robot.time
         self._trouble = ""
         self._table: Json = {}
 
@@ -77,16 +86,15 @@ class RobotThread:
             self._waiting += 1
         self._thread.submit(self._do, request)
 
-    def look_inside(self, first: int, last: int) -> Future[Json | None]:
-        """What the turns from the first to before the last did; None if there are none.
+    def read(self, work: Callable[[Agent], T]) -> Future[T]:
+        """What is worked out of the robot, and changes nothing in it.
 
-        It is worked out when it is its turn: the types of a robot are one thread's.
+        It is done when it is its turn: the types of a robot are one thread's.
         """
-        return self._thread.submit(self._inside, first, last)
+        return self._thread.submit(lambda: work(self.robot))
 
-    def _inside(self, first: int, last: int) -> Json | None:
-        turns = self.robot.exchanges[first:last]
-        return inside_report(turns, self._insight) if turns else None
+    def _keep_event(self, event: Event) -> None:
+        self.history.keep_event(event, self._turns)
 
     def close(self) -> None:
         """End the turn that is taken now, drop those that wait, and let go of all."""
@@ -111,6 +119,7 @@ class RobotThread:
         if request.shown:
             self._publish("heard", request, says=request.shown)
         turns, began = len(robot.exchanges), perf_counter()
+        self._turns = turns
         try:
             request.act(robot)
         except (SensorError, MemoryFileError, TTRError) as error:
@@ -128,6 +137,8 @@ class RobotThread:
             self._publish("restarted", request)
         report = turn_report(robot, robot.exchanges[turns:])
         taken = [turns, len(robot.exchanges)]
+        if robot.view is not None and taken[0] < taken[1]:
+            self.history.keep_picture(turns, robot.view.look.frame.colour)
         self._publish("turn", request, ms=took, turns=taken, **report)
         self._publish("view", request, **view_report(robot))
         self._tell_of_table(request)

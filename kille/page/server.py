@@ -19,7 +19,8 @@ from kille.page.feed import Event, Feed
 from kille.page.guard import Access, Guard
 from kille.page.inside import PLAIN, Insight
 from kille.page.live_picture import LivePicture
-from kille.page.robot_thread import RobotThread
+from kille.page.reads import read_routes
+from kille.page.robot_thread import RecordEvent, RobotThread
 from kille.page.table import table_report
 from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
@@ -55,7 +56,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 def serve_page(
     sensor: str,
-    make: Callable[[Sensor], Agent],
+    make: Callable[[Sensor, RecordEvent], Agent],
     settings: PageSettings,
     terminal: Terminal,
     insight: Insight = PLAIN,
@@ -78,7 +79,7 @@ def serve_page(
         with ExitStack() as failing:
             failing.callback(opened.close)
             robot = RobotThread(
-                lambda: make(picture.share(opened)),
+                lambda record: make(picture.share(opened), record),
                 feed,
                 terminal.trouble,
                 terminal.unforeseen,
@@ -93,7 +94,7 @@ def serve_page(
             picture,
             robot.ask,
             lambda: _greeting(robot.robot),
-            robot.look_inside,
+            read_routes(robot),
         )
         server = uvicorn_server(Guard(app, settings.access), settings.certificate)
         with _signals_end(server):

@@ -2,17 +2,25 @@
 
 import { byId, el } from "./dom.js";
 import { t } from "./texts.js";
+import { unfired } from "./unfired.js";
+
+const KEPT = 200; // turns that can be looked at, with their pictures
 
 export class Lab {
-  /** `light(number, on)` shows a thing in the picture. */
-  constructor(light) {
+  /** `light(number, on)` shows a thing in the picture; `replay` what was in view. */
+  constructor(light, replay) {
+    this.replay = replay;
     this.turns = [];
+    this.dropped = 0;
+    this.views = new Map();
     this.shown = -1;
     this.folded = new Map();
     this.toggle = byId("lab-toggle");
     this.timeline = byId("timeline");
     for (const it of ["pointerover", "pointerout"])
       byId("lab-body").addEventListener(it, (event) => this.point(event, light));
+    this.now = el("button", { class: "button", type: "button", hidden: true, onclick: () => this.show(this.turns.length - 1) });
+    document.addEventListener("keydown", (event) => event.key === "Escape" && this.replay.on && this.now.click());
     this.toggle.addEventListener("click", () => this.open(byId("lab").hidden));
     this.timeline.addEventListener("input", () => this.show(Number(this.timeline.value) - 1));
   }
@@ -28,6 +36,8 @@ export class Lab {
     this.toggle.textContent = t("lab");
     byId("lab").setAttribute("aria-label", t("lab"));
     this.timeline.setAttribute("aria-label", t("timeline"));
+    byId("lab-tools").replaceChildren(this.now, this.saving());
+    this.now.textContent = t("now");
     this.title();
   }
 
@@ -35,12 +45,15 @@ export class Lab {
     byId("lab").hidden = !on;
     this.toggle.setAttribute("aria-pressed", String(on));
     document.documentElement.classList.toggle("with-lab", on);
-    if (on) this.show(this.turns.length - 1);
+    this.show(this.turns.length - 1);
   }
 
   clear() {
     this.turns = [];
+    this.dropped = 0;
+    this.views.clear();
     this.shown = -1;
+    this.replay.end();
     byId("lab-body").replaceChildren();
     this.title();
   }
@@ -50,9 +63,24 @@ export class Lab {
     if (!event.turns || event.turns[0] === event.turns[1]) return;
     const follows = this.shown === this.turns.length - 1;
     this.turns.push(event);
+    if (this.turns.length > KEPT) this.drop();
     this.timeline.max = this.turns.length;
     if (byId("lab").hidden) this.shown = this.turns.length - 1;
     else if (follows) this.show(this.turns.length - 1);
+  }
+
+  /** What was in view after the turn that was just taken. */
+  addView(event) {
+    const turn = this.turns.at(-1);
+    if (turn && turn.ref === event.ref) this.views.set(turn, event);
+  }
+
+  /** Forget the earliest turn. */
+  drop() {
+    this.views.delete(this.turns.shift());
+    this.dropped += 1;
+    if (this.shown > 0) this.shown -= 1;
+    this.timeline.value = this.shown + 1;
   }
 
   /** Show the turn of which the talk shows this event. */
@@ -63,45 +91,78 @@ export class Lab {
 
   title() {
     const turn = this.turns[this.shown];
-    const number = this.shown + 1;
+    const number = this.dropped + this.shown + 1;
     const heard = turn ? turn.heard || t("looked") : "";
-    byId("lab-title").textContent = turn ? t("turn", { number, heard }) : t("noTurn");
+    const title = turn ? t("turn", { number, heard }) : t("noTurn");
+    byId("lab-title").textContent = title;
+    this.timeline.setAttribute("aria-valuetext", title);
+    return title;
+  }
+
+  /** Where the turn that is shown, and the dialogue, can be had as files. */
+  saving() {
+    const files = (under) =>
+      ["dlg", "log", "tex"].map((kind) =>
+        el("a", { class: "chip", href: `/export${under}/${kind}`, download: true, "aria-label": `${t(under ? "saveTurn" : "saveAll")}: ${t(kind)}` }, t(kind)),
+      );
+    const turn = this.turns[this.shown];
+    const row = (name, under) => el("p", { class: "save__row" }, el("span", {}, t(name)), ...files(under));
+    return el(
+      "details",
+      { class: "save", open: byId("lab-tools").querySelector(".save")?.open },
+      el("summary", {}, t("save")),
+      turn ? row("saveTurn", `/${turn.turns.join("/")}`) : null,
+      row("saveAll", ""),
+    );
+  }
+
+  /** Show in the picture what was in view in a turn, or what is in view now. */
+  showView(turn, title) {
+    const view = this.views.get(turn);
+    if (view && turn !== this.turns.at(-1) && !byId("lab").hidden) this.replay.show(turn, view, title);
+    else this.replay.end();
+    this.now.hidden = !this.replay.on;
   }
 
   async show(index) {
     const turn = this.turns[index];
     this.shown = index;
     this.timeline.value = index + 1;
-    this.title();
-    if (!turn) return;
+    this.showView(turn, this.title());
+    byId("lab-tools").replaceChildren(this.now, this.saving());
+    if (!turn || byId("lab").hidden) return;
     const answer = await fetch(`/inside/${turn.turns.join("/")}`);
     if (!answer.ok || this.shown !== index) return;
-    const { lines, state } = await answer.json();
+    const { lines, steps, state } = await answer.json();
     if (this.shown !== index) return;
-    byId("lab-body").replaceChildren(this.account(lines), ...state.map((part) => this.part(part)));
+    byId("lab-body").replaceChildren(this.account(lines, steps), unfired(turn), ...state.map((part) => this.part(part)));
   }
 
   /** The derivation: what was heard, each rule with its changes, what was judged and said. */
-  account(lines) {
+  account(lines, steps) {
     const made = el("section", { class: "part" }, el("h3", {}, t("derivation")));
     let changes = null;
+    const fired = steps.values();
     for (const [kind, text] of lines) {
       if (kind === "rule") {
         changes = el("ul", { class: "step__changes" });
-        made.append(this.step(text, changes));
+        made.append(this.step(text, fired.next().value, changes));
       } else if (kind === "" && changes) changes.append(el("li", {}, brief(text)));
       else made.append(el("p", { class: "line" }, el("span", { class: "line__kind" }, kind), brief(text)));
     }
     return made;
   }
 
-  /** A rule that fired: its name, what it is for, and on demand what it changed. */
-  step(text, changes) {
+  /** A rule that fired: its name, what it is for, and on demand the event and the state
+   *  that it was for, what it has bound, and what it changed. */
+  step(text, { on, when, bindings }, changes) {
+    const row = (name, value) => (value ? [el("dt", {}, name), el("dd", {}, brief(value))] : []);
     const [name, ...does] = text.split(": ");
     return el(
       "details",
       { class: "step" },
       el("summary", {}, el("b", {}, name), ` ${does.join(": ")}`),
+      el("dl", { class: "step__why" }, ...row(t("on"), on), ...row(t("when"), when), ...bindings.flatMap(([name, value]) => row(`${name} =`, value))),
       changes,
     );
   }

@@ -4,6 +4,7 @@ import { Connection } from "./connection.js";
 import { byId, el } from "./dom.js";
 import { Lab } from "./lab.js";
 import { LivePicture } from "./picture.js";
+import { Replay } from "./replay.js";
 import { Region } from "./region.js";
 import { Table } from "./table.js";
 import { Talk } from "./talk.js";
@@ -12,7 +13,8 @@ import { Things } from "./things.js";
 
 const picture = new LivePicture();
 const things = new Things(choose);
-const lab = new Lab((number, on) => things.light(number, on));
+const replay = new Replay(picture, things);
+const lab = new Lab((number, on) => things.light(number, on), replay);
 const talk = new Talk(say, (number, on) => things.light(number, on), (event) => lab.choose(event));
 const table = new Table((message) => connection.ask(message));
 const region = new Region(things, choose, (box) => connection.ask({ do: "point", box }));
@@ -55,12 +57,14 @@ const connection = new Connection({
     talk.failed(event);
   },
   view: (event) => {
+    lab.addView(event);
+    if (!replay.live(event)) return;
     things.show(event);
     region.cancel();
     if (event.id > old) things.mean(meant);
   },
   table: (event) => table.show(event),
-  pointed: (event) => things.point(event),
+  pointed: (event) => replay.live(event) && things.point(event),
   camera: ({ text }) => {
     byId("trouble").textContent = text;
     byId("trouble").hidden = !text;
@@ -165,7 +169,7 @@ field.addEventListener("keydown", (event) => {
 document.addEventListener("keydown", (event) => {
   const typing = event.target.closest("input, textarea, select");
   if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
-  if (/^[1-9]$/.test(event.key)) {
+  if (/^[1-9]$/.test(event.key) && !replay.on) {
     const button = things.buttons.get(Number(event.key));
     button?.focus();
     button?.click();

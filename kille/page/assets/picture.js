@@ -7,21 +7,42 @@ export class LivePicture {
     this.canvas = byId("picture");
     this.context = this.canvas.getContext("2d", { alpha: false });
     this.count = 0;
+    this.held = "";
+  }
+
+  /** Show a picture of earlier, and none of those that come. */
+  async hold(address) {
+    this.held = address;
+    const answer = await fetch(address);
+    if (!answer.ok || this.held !== address) return;
+    const bitmap = await createImageBitmap(await answer.blob());
+    if (this.held === address) this.paint(bitmap);
+    bitmap.close();
+  }
+
+  /** Show what comes again. */
+  release() {
+    this.held = "";
   }
 
   async draw(jpeg, done) {
     try {
+      if (this.held) return;
       const bitmap = await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" }));
-      if (this.canvas.width !== bitmap.width || this.canvas.height !== bitmap.height) {
-        this.canvas.width = bitmap.width;
-        this.canvas.height = bitmap.height;
-        byId("stage").style.aspectRatio = `${bitmap.width} / ${bitmap.height}`;
-      }
-      this.context.drawImage(bitmap, 0, 0);
+      if (!this.held) this.paint(bitmap);
       bitmap.close();
       this.canvas.dataset.pictures = ++this.count;
     } finally {
       done();
     }
+  }
+
+  paint(bitmap) {
+    if (this.canvas.width !== bitmap.width || this.canvas.height !== bitmap.height) {
+      this.canvas.width = bitmap.width;
+      this.canvas.height = bitmap.height;
+      byId("stage").style.aspectRatio = `${bitmap.width} / ${bitmap.height}`;
+    }
+    this.context.drawImage(bitmap, 0, 0);
   }
 }

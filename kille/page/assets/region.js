@@ -39,7 +39,7 @@ export class Region {
   }
 
   begin(event) {
-    if (event.button !== 0 || event.target.closest(".thing")) return;
+    if (event.button !== 0 || this.stage.classList.contains("stage--replay") || event.target.closest(".thing")) return;
     this.start = { at: this.pixel(event), x: event.clientX, y: event.clientY, on: event.target.dataset.thing };
     this.stage.setPointerCapture(event.pointerId);
     this.dragged = false;

@@ -26,6 +26,11 @@ const EN = {
   full: "Too many browsers look at this page.",
   lab: "Look inside", inside: "Look inside this turn", timeline: "Turn", changed: "changed",
   turn: "Turn {number}: {heard}", noTurn: "No turn has been taken yet", looked: "it looked",
+  now: "Back to now", replayed: "As it was: {turn}", on: "on", when: "when", gone: "That turn is not kept any more.",
+  unfired: "Rules that did not fire, and why", insteadOf: "Fired: {rules}. Not fired:", others: "{count} more wait for other events.",
+  foundNothing: "the condition holds, but what the rule is for is not the case", cameLater: "it would have fired, but another came first",
+  rulesCount: "({count})",
+  save: "Save as a file", saveTurn: "This turn", saveAll: "The dialogue", dlg: "story (.dlg)", log: "log", tex: "state (LaTeX)",
   derivation: "Derivation", shared: "Shared", view: "In view", private: "Private", empties: "Empty: {names}",
   begin: "Click on a thing and say what it is: “This is a cup.” Or ask: “What is this?” “Help.” says what else.",
 };
@@ -56,6 +61,11 @@ const SV = {
   full: "För många webbläsare tittar på den här sidan.",
   lab: "Titta inuti", inside: "Titta inuti den här turen", timeline: "Tur", changed: "ändrat",
   turn: "Tur {number}: {heard}", noTurn: "Ingen tur har tagits än", looked: "den tittade",
+  now: "Tillbaka till nu", replayed: "Som det var: {turn}", on: "vid", when: "när", gone: "Den turen finns inte kvar.",
+  unfired: "Regler som inte användes, och varför", insteadOf: "Användes: {rules}. Användes inte:", others: "{count} till väntar på andra händelser.",
+  foundNothing: "villkoret gäller, men det som regeln är till för är inte fallet", cameLater: "den hade använts, men en annan kom före",
+  rulesCount: "({count})",
+  save: "Spara som fil", saveTurn: "Den här turen", saveAll: "Dialogen", dlg: "berättelse (.dlg)", log: "logg", tex: "tillstånd (LaTeX)",
   derivation: "Härledning", shared: "Gemensamt", view: "I bild", private: "Privat", empties: "Tomma: {names}",
   begin: "Klicka på en sak och säg vad den är: ”Det här är en kopp.” Eller fråga: ”Vad är det här?” ”Hjälp.” säger vad mer.",
 };

@@ -24,6 +24,7 @@ from kille.page.feed import Feed
 from kille.page.guard import Access, Guard
 from kille.page.inside import Insight
 from kille.page.live_picture import LivePicture
+from kille.page.reads import read_routes
 from kille.page.robot_thread import RobotThread
 from kille.page.server import _greeting, listen, uvicorn_server
 from kille.sensors.sensor import Sensor
@@ -117,7 +118,7 @@ def page_of(
     feed, troubles = Feed(), []
     picture = LivePicture(lambda text: feed.publish({"type": "camera", "text": text}))
     robot = RobotThread(
-        lambda: Agent(picture.share(sensor), memory),
+        lambda record: Agent(picture.share(sensor), memory, record_event=record),
         feed,
         troubles.append,
         insight=Insight(derivation, in_short),
@@ -128,7 +129,7 @@ def page_of(
         picture,
         robot.ask,
         lambda: _greeting(robot.robot),
-        robot.look_inside,
+        read_routes(robot),
     )
     server = uvicorn_server(Guard(app, access or Access("127.0.0.1")))
     thread = Thread(target=server.run, kwargs={"sockets": [listener]})

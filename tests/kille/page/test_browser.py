@@ -177,6 +177,22 @@ def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
     playwright.expect(tab.locator(".step").first).to_contain_text("see")
     say(tab, "Thank you.", "welcome")
     playwright.expect(title).to_contain_text("Turn 1: it looked")
+    # The picture is that of the turn, too, until somebody goes back to now.
+    replayed = playwright.expect(tab.locator("#replay"))
+    replayed.to_contain_text("As it was: Turn 1")
+    playwright.expect(thing(tab, 1)).to_have_count(1)
+    assert tab.locator("#things").evaluate("it => it.inert")
+    tab.get_by_role("button", name="Back to now").click()
+    replayed.to_be_hidden()
+    playwright.expect(title).to_contain_text("Thank you.")
+    tab.get_by_text("Rules that did not fire, and why").click()
+    why = tab.locator(".unfired .step").filter(has_text="another came first")
+    why.or_(tab.locator(".unfired .step")).first.locator("summary").click()
+    playwright.expect(tab.locator(".unfired__event li b").first).not_to_be_empty()
+    tab.get_by_text("Save as a file").click()
+    with tab.expect_download() as saved:
+        tab.get_by_role("link", name="This turn: story (.dlg)").click()
+    assert "U> Thank you." in saved.value.path().read_text()
 
 
 def test_a_lesson_by_keys_alone(start: Start, tab: Tab) -> None:

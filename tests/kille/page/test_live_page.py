@@ -7,6 +7,8 @@ import struct
 from collections.abc import Iterator
 from pathlib import Path
 from threading import Event
+from urllib.error import HTTPError
+from urllib.request import urlopen
 
 import cv2
 import numpy as np
@@ -16,6 +18,7 @@ from websockets.exceptions import ConnectionClosed
 from kille.interfaces.cli import main
 from kille.page.app import BROWSERS, UNDER_WAY
 from kille.page.browser_requests import MESSAGE, parse_request
+from kille.page.history import History
 from kille.page.robot_thread import WAITING, BusyError
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
@@ -135,6 +138,59 @@ def test_a_recording_is_wound(tmp_path: Path) -> None:
         assert length / 2 <= at <= length
         browser.ask(do="seek", at=length + 1, ref="beyond")
         assert "from 0 to" in browser.until("failed", ref="beyond")["text"]
+
+
+def get(page: Page, address: str) -> bytes:
+    """What the page has at an address; empty if there is nothing."""
+    try:
+        with urlopen(f"http://{page.host}{address}", timeout=PATIENCE) as answer:
+            return bytes(answer.read())
+    except HTTPError as error:
+        error.close()
+        return b"" if error.code == 404 else str(error).encode()
+
+
+def test_a_turn_can_be_looked_into_and_saved(taught: Page) -> None:
+    with taught.connect() as browser:
+        first, last = browser.say("What is this?")["turns"]
+    span = f"{first}/{last}"
+    inside = json.loads(get(taught, f"/inside/{span}"))
+    rules = [text for kind, text in inside["lines"] if kind == "rule"]
+    assert len(rules) == len(inside["steps"]) > 2
+    assert any("shared" in it["when"] for it in inside["steps"])
+    (event, *_) = unfired = json.loads(get(taught, f"/unfired/{span}"))["events"]
+    assert event["others"] > 0
+    fired = {name for it in unfired for name in it["fired"]}
+    reasons = {it["why"]: it["rules"] for seen in unfired for it in seen["reasons"]}
+    assert {"found nothing"} < reasons.keys()
+    assert any(": ask_place(tutor, robot)" in why for why in reasons)
+    assert fired <= {it.name for it in taught.robot.robot.game.rules}
+    picture = cv2.imdecode(np.frombuffer(get(taught, f"/picture/{first}.jpg"), "u1"), 1)
+    assert picture is not None
+    assert picture.shape == (480, 640, 3)
+    story = get(taught, f"/export/{span}/dlg").decode()
+    assert "\nU> What is this?\nS> " in story
+    assert story in get(taught, "/export/dlg").decode() or "@ show cup" not in story
+    assert "@ show cup" in get(taught, "/export/dlg").decode()
+    assert "rule  hear" in get(taught, f"/export/{span}/log").decode()
+    assert "\\mathrm{shared}" in get(taught, f"/export/{span}/tex").decode()
+    for missing in (
+        "/inside/5/5",
+        "/unfired/0/99",
+        "/picture/9999.jpg",
+        f"/export/{span}/exe",
+        "/inside/9998/9999",
+    ):
+        assert get(taught, missing) == b""
+
+
+def test_only_the_latest_pictures_are_kept() -> None:
+    history = History(pictures=2)
+    frames = [np.full((4, 4, 3), n, np.uint8) for n in (10, 20, 20)]
+    for turn, colour in enumerate(frames):
+        history.keep_picture(turn, colour)
+    assert history.picture(0) is None
+    assert history.picture(1) == history.picture(2)
 
 
 def test_what_was_missed_is_told_to_who_comes_back(page: Page) -> None:
@@ -294,7 +350,7 @@ def test_more_requests_than_can_wait_are_refused(page: Page) -> None:
     stopped = parse_request({"do": "look"})._replace(
         act=lambda _: str(going.wait(60)), ref="wait"
     )
-    page.robot.look_inside(0, 0).result(PATIENCE)  # nothing waits any more
+    page.robot.read(lambda _: None).result(PATIENCE)  # nothing waits any more
 
     def ask_too_often() -> None:
         for _ in range(WAITING + 1):

@@ -1,0 +1,121 @@
+"""What a browser may look at besides the events: GET requests, which change nothing.
+
+| address | has |
+| --- | --- |
+| `/inside/F/L` | what the exchanges from F to before L did |
+| `/unfired/F/L` | the rules that did not fire in them, and why |
+| `/picture/F.jpg` | what was in view in the turn that began with F |
+| `/export/F/L/dlg` `log` `tex` | the turn as a file |
+| `/export/dlg` `log` `tex` | the dialogue as a file |
+
+All but pictures is worked out in the robot's thread, when it is its turn.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from typing import Any
+
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+
+from kille.agent.agent import Agent
+from kille.page.exports import FORMATS, file_name, log_text, state_as_latex, story_text
+from kille.page.inside import inside_report
+from kille.page.robot_thread import RobotThread
+from kille.page.unfired import unfired_report
+from ttr import TTRError
+
+_TOGETHER = 8
+"""Exchanges of one turn, at most."""
+
+_MISSING = Response(status_code=404)
+
+
+def read_routes(robot: RobotThread) -> list[Route]:
+    """The addresses at which a robot is looked into."""
+    reads = _Reads(robot)
+    return [
+        Route("/inside/{first:int}/{last:int}", reads.inside),
+        Route("/unfired/{first:int}/{last:int}", reads.unfired),
+        Route("/picture/{first:int}.jpg", reads.picture),
+        Route("/export/{first:int}/{last:int}/{kind}", reads.export),
+        Route("/export/{kind}", reads.export),
+    ]
+
+
+class _Reads:
+    """The answers to these requests."""
+
+    def __init__(self, robot: RobotThread) -> None:
+        self._robot = robot
+
+    async def _read(self, work: Callable[[Agent], Any]) -> Any:
+        """What is worked out in the robot's thread."""
+        return await asyncio.wrap_future(self._robot.read(work))
+
+    async def inside(self, request: Request) -> Response:
+        if (span := _span(request)) is None:
+            return _MISSING
+        turns, insight = slice(*span), self._robot.insight
+        try:
+            found = await self._read(
+                lambda it: inside_report(it.exchanges[turns], insight)
+            )
+        except TTRError as error:
+            found = {"lines": [["", str(error)]], "state": []}
+        return JSONResponse(found) if found["lines"] or found["state"] else _MISSING
+
+    async def unfired(self, request: Request) -> Response:
+        if (span := _span(request)) is None:
+            return _MISSING
+        try:
+            found = await self._read(
+                lambda it: unfired_report(it.game, it.exchanges[slice(*span)])
+            )
+        except TTRError as error:
+            return JSONResponse({"error": str(error), "events": []})
+        return JSONResponse({"error": "", "events": found})
+
+    async def picture(self, request: Request) -> Response:
+        jpeg = self._robot.history.picture(request.path_params["first"])
+        if jpeg is None:
+            return _MISSING
+        return Response(jpeg, media_type="image/jpeg")
+
+    async def export(self, request: Request) -> Response:
+        kind, whole = request.path_params["kind"], "first" not in request.path_params
+        span = None if whole else _span(request)
+        if kind not in FORMATS or (span is None and not whole):
+            return _MISSING
+        try:
+            name, text = await self._read(lambda it: self._export(it, kind, span))
+        except TTRError as error:
+            return Response(f"{error}\n", 422, media_type="text/plain")
+        headers = {"Content-Disposition": f'attachment; filename="{name}"'}
+        return Response(text, headers=headers, media_type="text/plain; charset=utf-8")
+
+    def _export(
+        self, robot: Agent, kind: str, span: tuple[int, int] | None
+    ) -> tuple[str, str]:
+        """The name of a file and its text."""
+        insight, history = self._robot.insight, self._robot.history
+        first, last = span or (0, len(robot.exchanges) + 1)
+        turns = robot.exchanges[first:last]
+        name = file_name(robot, kind, None if span is None else first + 1)
+        if kind == "dlg":
+            events = history.events(first, last)
+            return name, story_text(robot, events, self._robot.began)
+        if kind == "log":
+            return name, log_text(turns, insight)
+        steps = [step for turn in turns for step in turn.steps]
+        state = steps[-1].after if steps else robot.state
+        return name, state_as_latex(state, insight)
+
+
+def _span(request: Request) -> tuple[int, int] | None:
+    """The exchanges that are asked for; None if they are not those of a turn."""
+    first, last = request.path_params["first"], request.path_params["last"]
+    return (first, last) if 0 <= first < last <= first + _TOGETHER else None
