@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from kille.agent.agent import Agent
-from kille.dialogue.language import understand
-from kille.dialogue.reading_weights import SURE
 from kille.dialogue.state import words
 from kille.interfaces.terminal import complain, console
-from kille.speech.expectations import LANGUAGES, expected_speech, speech
-from kille.speech.recognition import Hypothesis, Recogniser
+from kille.speech.expectations import LANGUAGES
+from kille.speech.listening import Listener
+from kille.speech.recognition import Hypothesis
 from kille.speech.sound import SoundError
 from kille.speech.synthesis import Stop, never
 from kille.speech.utterances import (
@@ -61,16 +60,10 @@ class SpeechInput:
             raise SoundError(
                 f"only English can be heard: type, and leave out --hear {source}"
             )
-        self._source, self._language = source, language
+        self._source = source
         is_file = source not in (DEVICE, ALWAYS, PIPE)
         self._waiting = from_file(Path(source)) if is_file else None
-        try:
-            self._recogniser = Recogniser(speech(language))
-        except ModuleNotFoundError as error:
-            raise SoundError(
-                "pocketsphinx is not installed: pip install 'pocketsphinx>=5'"
-            ) from error
-        self._expected: tuple[object, ...] | None = None
+        self._listener = Listener(language)
 
     @contextmanager
     def watch_for_voice(self) -> Iterator[Stop]:
@@ -121,49 +114,5 @@ class SpeechInput:
 
     def _recognise(self, robot: Agent, sound: bytes) -> SpeechHypotheses:
         """Recognise a sound by the words that the robot knows at present."""
-        known = tuple(words(robot.state))
-        if known != self._expected:
-            self._recogniser.expect(expected_speech(known, self._language))
-            self._expected = known
-        found = self._recogniser.hear(sound)
-        return SpeechHypotheses(
-            tuple(Hypothesis(punctuate(it.text, self._language), it.p) for it in found)
-        )
-
-
-def punctuate(text: str, language: str = "en") -> str:
-    """Write heard text with a capital letter, and a question with its mark.
-
-    >>> punctuate("this is a cup"), punctuate("what is this")
-    ('This is a cup.', 'What is this?')
-    """
-    asks = text.partition(" ")[0].partition("'")[0] in speech(language).asking
-    return f"{text[:1].upper()}{text[1:]}{'?' if asks else '.'}"
-
-
-def answer_hypotheses(
-    robot: Agent, heard: Sequence[Hypothesis], language: str = "en"
-) -> str:
-    """The robot's answer to what was perhaps said; it begs pardon for a noise.
-
-    Of several moves in one utterance the likeliest text counts. Of a single move all
-    hypotheses go into the dialogue, which weighs them with what is seen. Where none is
-    a sentence of the grammar, all are read by their parts.
-    """
-    if not heard:
-        return speech(language).sorry
-    understood = [
-        (it, len(understand(it.text, language, types=robot.types)))
-        for it in heard
-        if all(
-            sentence.readings
-            for sentence in understand(it.text, language, types=robot.types)
-        )
-    ]
-    if not understood:
-        sure = [it.text for it in heard if it.p >= SURE]
-        return robot.hear(sure[0]) if sure else robot.hear_perhaps(*heard)
-    (likeliest, moves), *_ = understood
-    if likeliest.p >= SURE or moves > 1:
-        return robot.hear(likeliest.text)
-    return robot.hear_perhaps(*(it for it, moves in understood if moves == 1))
+        self._listener.expect(words(robot.state))
+        return SpeechHypotheses(self._listener.hear(sound))

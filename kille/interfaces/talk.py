@@ -13,6 +13,7 @@ from threading import Thread
 from typing import Any
 
 from kille.agent.agent import Agent
+from kille.agent.spoken_turns import answer_hypotheses, tell_uttered
 from kille.agent.story_log import StoryLog
 from kille.agent.story_replay import language_of_file
 from kille.dialogue.language import LANGUAGES
@@ -32,11 +33,7 @@ from kille.interfaces.live_prompt import (
     keys_at_once,
     wait_for_key,
 )
-from kille.interfaces.speech_input import (
-    SpeechHypotheses,
-    SpeechInput,
-    answer_hypotheses,
-)
+from kille.interfaces.speech_input import SpeechHypotheses, SpeechInput
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import Memory, MemoryFileError
 from kille.perception.picture_sheet import overview, write_picture
@@ -279,7 +276,7 @@ class _Conversation:
                     self._print(f"   (cut off after {spoken!r})", style="dim")
                     break
         if self._aloud:
-            self._tell_uttered(" ".join(uttered), turns)
+            self._cut_off |= tell_uttered(self._robot, " ".join(uttered), turns)
 
     @contextmanager
     def _watch_for_stops(self) -> Iterator[Stop]:
@@ -292,16 +289,6 @@ class _Conversation:
             if self._aloud and self._ears is not None:
                 stops.append(watching.enter_context(self._ears.watch_for_voice()))
             yield lambda: any(stop() for stop in stops)
-
-    def _tell_uttered(self, uttered: str, turns: int) -> None:
-        """Tell the robot what of its answer was uttered, in a turn after so many."""
-        answered = [it.answer for it in self._robot.exchanges[turns:] if it.said]
-        words = uttered.split()
-        if not answered or len(words) >= len(answered[-1].split()):
-            self._robot.do("spoken")
-            return
-        self._cut_off = True
-        self._robot.interrupt(" ".join(words))
 
     def _respond(self, line: str | SpeechHypotheses) -> str:
         if isinstance(line, SpeechHypotheses):

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import Any, Protocol
 
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.speech.grammar import CONTRACTED, TAUGHT, split_words, tutors_grammar
@@ -25,12 +25,27 @@ from kille.speech.word_network import (
     sequence,
     union,
 )
-from ttr import Record
 
 LANGUAGES = ("en",)
 """The languages that there is a model of the sounds of."""
 
 _HISSING = re.compile(r"(s|z|x|sh|ch|se|ce|'re)\Z")
+
+
+class SpokenWord(Protocol):
+    """What speech asks of a word; nouns have an article, too."""
+
+    @property
+    def form(self) -> Any:
+        """As it is written."""
+
+    @property
+    def kind(self) -> Any:
+        """Noun, adjective or relation."""
+
+    @property
+    def article(self) -> Any:
+        """The indefinite one that it is used with, if there is any."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +98,9 @@ def speech(language: str = "en") -> Speech:
     )
 
 
-def expected_speech(words: Iterable[Record], language: str = "en") -> ExpectedSpeech:
+def expected_speech(
+    words: Iterable[SpokenWord], language: str = "en"
+) -> ExpectedSpeech:
     """What may be said to a robot that knows these words.
 
     >>> from kille.dialogue.meanings import sign
@@ -151,7 +168,7 @@ def _words(network: State) -> frozenset[str]:
 class _Neighbours:
     """Whether a word may follow another: articles agree, and "'s" needs its word."""
 
-    def __init__(self, lexicon_: Lexicon, known: Iterable[Record]) -> None:
+    def __init__(self, lexicon_: Lexicon, known: Iterable[SpokenWord]) -> None:
         self._articles = lexicon_.articles
         self._used = {
             split_words(str(it.form))[0]: str(it.article)

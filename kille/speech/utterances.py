@@ -21,6 +21,8 @@ from kille.speech.sound import RATE, SoundError, read_wav
 LONGEST = 15.0
 """Seconds of one utterance; what goes on for longer is noise, and is cut."""
 
+_MOST = int(2 * RATE * LONGEST)
+
 _WINDOW = 0.6
 """Seconds over which the voice must have fallen silent: longer than at a comma."""
 
@@ -36,29 +38,70 @@ _SILENT = bytes(2)
 _RECORDER = ("arecord", "-q", "-t", "raw", "-f", "S16_LE", "-r", str(RATE), "-c", "1")
 
 
+class UtteranceFinder:
+    """Parts a sound that comes piece by piece into stretches of speech."""
+
+    def __init__(self, window: float = _WINDOW) -> None:
+        from pocketsphinx import Endpointer
+
+        self._finder = Endpointer(window=window, sample_rate=RATE)
+        self._rest, self._spoken = bytearray(), bytearray()
+
+    @property
+    def frame_bytes(self) -> int:
+        """The bytes of sound that are judged at once."""
+        return int(self._finder.frame_bytes)
+
+    @property
+    def in_speech(self) -> bool:
+        """Whether somebody is speaking."""
+        return bool(self._finder.in_speech)
+
+    def feed(self, sound: bytes) -> Iterator[bytes]:
+        """The utterances that end in this piece."""
+        self._rest += sound
+        size = self.frame_bytes
+        while len(self._rest) >= size:
+            frame = bytes(self._rest[:size])
+            del self._rest[:size]
+            self._spoken += self._finder.process(frame) or b""
+            if not self.in_speech or len(self._spoken) >= _MOST:
+                yield from self._take()
+
+    def end(self) -> Iterator[bytes]:
+        """The utterance that the end of the sound cuts short, if there is any."""
+        whole = len(self._rest) // 2 * 2
+        frame = bytes(self._rest[:whole]) or _SILENT
+        self._rest.clear()
+        self._spoken += self._finder.end_stream(frame) or b""
+        yield from self._take()
+
+    def _take(self) -> Iterator[bytes]:
+        if self._spoken:
+            found = with_margins(bytes(self._spoken))
+            self._spoken.clear()
+            yield found
+
+
+def with_margins(sound: bytes) -> bytes:
+    """A sound with a little silence before and after it, as recognisers like it."""
+    return _MARGIN + sound + _MARGIN
+
+
 def utterances(read: Callable[[int], bytes], patience: float = inf) -> Iterator[bytes]:
     """The stretches of speech in a sound that is read little by little.
 
     `read` gives so many bytes, or fewer at the end. It is over when nobody has spoken
     for `patience` seconds of it.
     """
-    from pocketsphinx import Endpointer
-
-    finder = Endpointer(window=_WINDOW, sample_rate=RATE)
-    spoken, most = bytearray(), int(2 * RATE * LONGEST)
-    silent = 0
+    finder = UtteranceFinder()
+    size, silent = finder.frame_bytes, 0
     while True:
-        frame = read(finder.frame_bytes)
+        frame = read(size)
         silent = 0 if finder.in_speech else silent + len(frame)
-        last = len(frame) < finder.frame_bytes or silent > 2 * RATE * patience
-        frame = frame[: len(frame) // 2 * 2]
-        heard = finder.end_stream(frame or _SILENT) if last else finder.process(frame)
-        spoken += heard or b""
-        over = last or not finder.in_speech or len(spoken) >= most
-        if spoken and over:
-            yield _MARGIN + bytes(spoken) + _MARGIN
-            spoken.clear()
-        if last:
+        yield from finder.feed(frame)
+        if len(frame) < size or silent > 2 * RATE * patience:
+            yield from finder.end()
             return
 
 

@@ -14,7 +14,8 @@ from select import select
 import pytest
 
 from kille.interfaces.cli import main
-from kille.interfaces.speech_input import SpeechInput, punctuate
+from kille.interfaces.speech_input import SpeechInput
+from kille.speech.listening import punctuate
 from kille.speech.sound import RATE, Sound, SoundError, WavFile, read_wav
 
 Lesson = Callable[..., bytes]
