@@ -2,9 +2,23 @@
 
 `/` and its few files never change while the server runs. `/live` is the WebSocket: with
 `run` and `after`, the events after that number in that run, else all that are kept.
-Text is events and answers as JSON; a binary message is a picture: its number in four
-bytes, then a JPEG. A browser that has drawn a picture says so (`{"do": "shown"}`), and
-no more than two are ever under way: who is slow sees fewer.
+Text is events and answers as JSON; a binary message is a number in four bytes, and then
+a picture (a JPEG), or what the robot says in the turn of that number (a WAV file). A
+browser that has drawn a picture says so, and no more than two are ever under way: who
+is slow sees fewer.
+
+What a browser asks of the robot is in `browser_requests`; of its connection it asks:
+
+| `do` | with | does |
+| --- | --- | --- |
+| `shown` | | a picture has been drawn |
+| `watch` | `on` | pictures are sent, or not |
+| `ping` | | it is answered at once, `pong` |
+| `microphone` | `on`, `take` | it is heard; with `take` instead of another browser |
+| `voice` | `on` | it is sent the robot's voice |
+| `uttered` | `turn`, `line`, `share` | the answer was uttered up to a share of a line |
+
+The sound of a microphone is binary: see `microphone`.
 """
 
 from __future__ import annotations
@@ -12,10 +26,12 @@ from __future__ import annotations
 import asyncio
 import json
 import struct
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from importlib.resources import files
-from typing import Any
+from itertools import count
+from typing import Any, NamedTuple
 
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -28,17 +44,25 @@ from kille.page.browser_requests import (
     RequestError,
     parse_message,
     parse_request,
+    uttered_request,
 )
 from kille.page.feed import Event, Feed
 from kille.page.inside import MATRIX_STYLE
 from kille.page.live_picture import LivePicture, Watcher
+from kille.page.microphone import Microphone
 from kille.page.robot_thread import BusyError
+from kille.page.spoken_answers import SpokenAnswers
 
 BROWSERS = 16
 """How many may look at the page at a time."""
 
 UNDER_WAY = 2
 """Pictures that were sent and not yet drawn."""
+
+_SENTENCES = 16
+"""Sentences of the robot's voice that wait to be sent; of more, the newest."""
+
+_REFUSALS = 20
 
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -48,19 +72,34 @@ _TYPES = {
 }
 
 
+class Voice(NamedTuple):
+    """What the page hears, and how it speaks."""
+
+    microphone: Microphone
+    answers: SpokenAnswers
+
+    def close(self) -> None:
+        """Hear and say no more."""
+        self.microphone.close()
+        self.answers.close()
+
+
 def page_app(
     feed: Feed,
     picture: LivePicture,
     ask: Callable[[BrowserRequest], None],
     greeting: Callable[[], Event],
     reads: Iterable[BaseRoute] = (),
+    voice: Voice | None = None,
 ) -> Starlette:
     """The page of a robot: what it tells, what it sees, and how it is asked.
 
     `ask` has a request done, or raises BusyError; `greeting` is what a browser is told
-    first; `reads` are the addresses at which it is looked into.
+    first; `reads` are the addresses at which it is looked into; without a `voice`
+    nothing is heard or spoken.
     """
     connected: set[WebSocket] = set()
+    numbers = count(1)
 
     async def live(socket: WebSocket) -> None:
         await socket.accept()
@@ -69,7 +108,9 @@ def page_app(
             return
         connected.add(socket)
         try:
-            await _Connection(socket, feed, picture, ask, greeting).hold()
+            connection = _Connection(socket, feed, picture, ask, greeting, voice)
+            connection.number = next(numbers)
+            await connection.hold()
         finally:
             connected.discard(socket)
 
@@ -98,14 +139,6 @@ def _file_route(name: str, content: bytes) -> Route:
     return Route("/" if name == "index.html" else f"/{name}", answer)
 
 
-def _text_of(received: Mapping[str, Any]) -> str:
-    """The text of a message. RequestError if it is binary."""
-    text = received.get("text")
-    if not isinstance(text, str):
-        raise RequestError("a message is text, not bytes")
-    return text
-
-
 class _Connection:
     """A browser that looks at the page: what it has, and what it is sent next."""
 
@@ -116,11 +149,16 @@ class _Connection:
         picture: LivePicture,
         ask: Callable[[BrowserRequest], None],
         greeting: Callable[[], Event],
+        voice: Voice | None,
     ) -> None:
         self._socket, self._feed, self._picture = socket, feed, picture
-        self._ask, self._greeting = ask, greeting
+        self._ask, self._greeting, self._voice = ask, greeting, voice
         self._wake, self._loop = asyncio.Event(), asyncio.get_running_loop()
-        self._refusals: list[Event] = []
+        self.number = 0
+        self.name = socket.client.host if socket.client is not None else ""
+        self._told: deque[Event] = deque(maxlen=_REFUSALS)
+        self._sounds: deque[bytes] = deque(maxlen=_SENTENCES)
+        self._listens = False
         self._shown = self._sent = self._pictures = 0
         self._looks = True
         self._last = self._begin_after(socket.query_params)
@@ -142,11 +180,18 @@ class _Connection:
             "run": self._feed.run,
             "after": self._last,
             "last": self._feed.last,
+            "browser": self.number,
+            "deaf": "no" if self._voice is None else self._voice.microphone.why_deaf,
+            "mute": self._voice is None or not self._voice.answers.program,
         }
         await self._socket.send_text(json.dumps(greeting))
         watcher = Watcher(self._rouse, self._can_take_picture)
         self._wake.set()
-        with self._feed.listener(self._rouse), self._picture.watched_by(watcher):
+        with (
+            self._feed.listener(self._rouse),
+            self._picture.watched_by(watcher),
+            self._heard_and_spoken_to(),
+        ):
             sending = asyncio.create_task(self._send())
             receiving = asyncio.create_task(self._receive())
             done, left = await asyncio.wait(
@@ -158,6 +203,33 @@ class _Connection:
             for task in done:
                 with suppress(WebSocketDisconnect, RuntimeError):
                     task.result()
+
+    @contextmanager
+    def _heard_and_spoken_to(self) -> Iterator[None]:
+        """Let it be heard and spoken to as long as it is there."""
+        if self._voice is None:
+            yield
+            return
+        self._voice.answers.add(self)
+        try:
+            yield
+        finally:
+            self._voice.answers.remove(self)
+            self._voice.microphone.give_back(self)
+
+    def tell(self, event: Event) -> None:
+        """Tell this browser alone, from any thread."""
+        self._told.append(event)
+        self._rouse()
+
+    def wants_voice(self) -> bool:
+        """Whether it wants to hear the robot."""
+        return self._listens
+
+    def play(self, sound: bytes) -> None:
+        """Send it a sentence of the robot's, from any thread."""
+        self._sounds.append(sound)
+        self._rouse()
 
     def _can_take_picture(self) -> bool:
         """Whether the browser looks, and has drawn the pictures that it was sent."""
@@ -172,12 +244,14 @@ class _Connection:
         while True:
             await self._wake.wait()
             self._wake.clear()
-            while self._refusals:
-                await self._socket.send_text(json.dumps(self._refusals.pop(0)))
+            while self._told:
+                await self._socket.send_text(json.dumps(self._told.popleft()))
             while events := self._feed.after(self._last):
                 for event in events:
                     await self._socket.send_text(json.dumps(event))
                     self._last = event["id"]
+            while self._sounds:
+                await self._socket.send_bytes(self._sounds.popleft())
             await self._send_picture()
 
     async def _send_picture(self) -> None:
@@ -198,21 +272,51 @@ class _Connection:
             if received["type"] == "websocket.disconnect":
                 return
             try:
-                message = parse_message(_text_of(received))
-                match message.get("do"):
-                    case "shown":
-                        self._shown = min(self._shown + 1, self._pictures)
-                        self._picture.go_on()
-                    case "watch":
-                        self._looks = message.get("on") is not False
-                        self._picture.go_on()
-                    case _:
-                        self._ask(parse_request(message))
+                self._take(received.get("text"), received.get("bytes") or b"")
             except (RequestError, BusyError) as error:
-                self._refuse(error)
+                ref = error.ref if isinstance(error, RequestError) else ""
+                self.tell({"type": "refused", "ref": ref, "text": str(error)})
             self._wake.set()
 
-    def _refuse(self, error: RequestError | BusyError) -> None:
-        ref = error.ref if isinstance(error, RequestError) else ""
-        self._refusals.append({"type": "refused", "ref": ref, "text": str(error)})
-        del self._refusals[:-20]
+    def _take(self, text: str | None, sound: bytes) -> None:
+        """Take a message. RequestError, or BusyError, if nothing comes of it."""
+        if not isinstance(text, str):
+            self._speaking().microphone.take(self, sound)
+            return
+        message = parse_message(text)
+        is_on = message.get("on") is not False
+        match message.get("do"):
+            case "shown":
+                self._shown = min(self._shown + 1, self._pictures)
+                self._picture.go_on()
+            case "watch":
+                self._looks = is_on
+                self._picture.go_on()
+            case "ping":
+                self.tell({"type": "pong"})
+            case "microphone" if is_on:
+                take_over = message.get("take") is True
+                self._speaking().microphone.lend(self, take_over)
+            case "microphone":
+                self._speaking().microphone.give_back(self)
+            case "voice":
+                self._listens = is_on
+            case "uttered":
+                self._tell_uttered(message)
+            case _:
+                self._ask(parse_request(message))
+
+    def _speaking(self) -> Voice:
+        if self._voice is None:
+            raise RequestError("this page does not hear or speak")
+        return self._voice
+
+    def _tell_uttered(self, message: Event) -> None:
+        """Tell the robot how much of its answer was uttered, unless it was told."""
+        number = message.get("turn")
+        if type(number) is not int or not self._feed.first <= number <= self._feed.last:
+            raise RequestError("a `turn` is the number of an event")
+        event = self._feed.after(number - 1)[0]
+        request = uttered_request(event, message.get("line"), message.get("share"))
+        if self._speaking().answers.is_first_told_of(number):
+            self._ask(request)

@@ -19,13 +19,16 @@ calls it: the event that answers has it, too.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from kille.agent.agent import Agent
 from kille.agent.attention import THAT
+from kille.agent.spoken_turns import answer_hypotheses, tell_uttered
 from kille.page.table import add_thing
 from kille.sensors.sensor import SensorError, Stage
+from kille.speech.recognition import Hypothesis
+from kille.speech.synthesis import uttered_words
 from ttr.safety.limits import UTTERANCE, InputLimitError
 
 MESSAGE = 64 * 1024
@@ -58,9 +61,13 @@ class BrowserRequest(NamedTuple):
     pointed: dict[str, Any] | None = None
     """What it points at, if it does."""
     restarts: bool = False
-    """Whether a new dialogue begins."""
+    """Whether a new dialogue begins first."""
     arranges: bool = False
     """Whether it changes the scene: that it cannot is the tutor's concern alone."""
+    perhaps: tuple[Hypothesis, ...] = ()
+    """What was perhaps said, if it was spoken."""
+    uttered: int = 0
+    """The number of the turn whose answer was uttered, if that is told."""
 
 
 def parse_message(text: str) -> dict[str, Any]:
@@ -107,7 +114,7 @@ def _read_request(message: dict[str, Any], ref: str) -> BrowserRequest:
         case "look":
             return BrowserRequest(ref, "", lambda robot: robot.look())
         case "restart":
-            return BrowserRequest(ref, "", _restart, restarts=True)
+            return BrowserRequest(ref, "", lambda robot: robot.look(), restarts=True)
         case "show" | "remove" as verb:
             return _change(ref, str(verb), _name(message))
         case "add":
@@ -125,15 +132,52 @@ def _read_request(message: dict[str, Any], ref: str) -> BrowserRequest:
     raise RequestError("a message has no `do` that is known")
 
 
+def spoken_request(
+    ref: str, perhaps: tuple[Hypothesis, ...], language: str = "en"
+) -> BrowserRequest:
+    """That the tutor has perhaps said one of these texts.
+
+    >>> spoken_request("1", (Hypothesis("Hello.", 0.8), Hypothesis("No.", 0.1))).shown
+    'Hello.'
+    """
+    return BrowserRequest(
+        ref,
+        perhaps[0].text if perhaps else "…",
+        lambda robot: answer_hypotheses(robot, perhaps, language),
+        perhaps=perhaps,
+    )
+
+
+def uttered_request(
+    turn: Mapping[str, Any], line: object, share: object
+) -> BrowserRequest:
+    """That of the answer in the event of a turn these lines, and of the next one this
+    share, were uttered before it was cut off. RequestError if that is no such event.
+
+    Whoever has said something since is not told of it any more.
+    """
+    if turn["type"] != "turn":
+        raise RequestError("a `turn` is the number of a turn")
+    lines = str(turn["said"]).split("\n")
+    about = {"line": line, "share": share}
+    whole = int(_number(about, "line", 0, len(lines)))
+    part = _number(about, "share", 0, 1)
+    begun = uttered_words(lines[whole], part) if whole < len(lines) else ""
+    uttered = " ".join([*lines[:whole], begun]).strip()
+    first, last = turn["turns"]
+
+    def tell(robot: Agent) -> str:
+        if len(robot.exchanges) == last:
+            tell_uttered(robot, uttered, first)
+        return uttered
+
+    return BrowserRequest("", "", tell, uttered=int(turn["id"]))
+
+
 def _point_request(ref: str, target: str, pointed: dict[str, Any]) -> BrowserRequest:
     return BrowserRequest(
         ref, "", lambda robot: robot.do(f"point {target}"), pointed=pointed
     )
-
-
-def _restart(robot: Agent) -> str:
-    robot.do("restart")
-    return robot.look()
 
 
 def _change(ref: str, verb: str, name: str, spot: str = "") -> BrowserRequest:

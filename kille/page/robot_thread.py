@@ -5,7 +5,8 @@ it is on disk.
 
 | event | has |
 | --- | --- |
-| `heard` | what the tutor has said or done, before the robot answers: `says`, `ref` |
+| `heard` | what the tutor has said or done, before the robot answers: `says`, `ref`; \
+if it was spoken, `perhaps`: texts with their probabilities |
 | `turn` | the turn, as `turn_report` has it; `ms`, how long it took; `ref`; `turns`, \
 the numbers of its exchanges, to look inside |
 | `view` | what is in view after it, as `view_report` has it |
@@ -13,13 +14,17 @@ the numbers of its exchanges, to look inside |
 that has changed |
 | `pointed` | what the tutor points at now: `thing` or `box`; `as`: `that` for a \
 second thing, beside the one before; `ref` |
-| `failed` | why nothing came of it: `text`, `ref` |
+| `uttered` | how much of an answer was uttered before it was cut off: `turn`, its \
+number, `text`; `whole`, whether it was all of it |
+| `failed` | why nothing came of it: `text`, `ref`; `seen`, whether it is the camera |
+| `microphone` | who has the microphone: `browser`, its number, 0 for nobody; `who` |
 | `camera` | what is wrong with the camera: `text`, empty when it is well again |
 | `restarted` | a new dialogue has begun |
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from threading import Lock
@@ -44,6 +49,9 @@ RecordEvent = Callable[[Event], None]
 
 WAITING = 8
 """How many requests may wait for their turn; more are refused."""
+
+_KNOWN = 1_000
+"""How many requests are remembered, so that none is done twice."""
 
 
 class BusyError(Exception):
@@ -77,13 +85,21 @@ class RobotThread:
         self.began = self.robot.time
         self._trouble = ""
         self._table: Json = {}
+        self._known: deque[str] = deque(maxlen=_KNOWN)
 
     def ask(self, request: BrowserRequest) -> None:
-        """Have a request done when it is its turn. BusyError if too many wait."""
+        """Have a request done when it is its turn. BusyError if too many wait.
+
+        One that is asked for again, by the same `ref`, is done once: a browser asks
+        again for what was not answered when its connection went.
+        """
         with self._counting:
+            if request.ref and request.ref in self._known:
+                return
             if self._waiting >= WAITING:
                 raise BusyError("too much waits to be answered: say it again later")
             self._waiting += 1
+            self._known.append(request.ref)
         self._thread.submit(self._do, request)
 
     def read(self, work: Callable[[Agent], T]) -> Future[T]:
@@ -117,15 +133,21 @@ class RobotThread:
     def _take_turn(self, request: BrowserRequest) -> None:
         robot = self.robot
         if request.shown:
-            self._publish("heard", request, says=request.shown)
+            perhaps = [[it.text, round(it.p, 3)] for it in request.perhaps]
+            about = {"perhaps": perhaps} if request.perhaps else {}
+            self._publish("heard", request, says=request.shown, **about)
         turns, began = len(robot.exchanges), perf_counter()
         self._turns = turns
         try:
-            request.act(robot)
+            if request.restarts:
+                robot.do("restart")
+                turns = len(robot.exchanges)
+                self._publish("restarted", request)
+            answer = request.act(robot)
         except (SensorError, MemoryFileError, TTRError) as error:
             if not request.arranges and request.pointed is None:
                 self._tell_trouble(str(error))
-            self._fail(request, str(error))
+            self._fail(request, str(error), seen=isinstance(error, SensorError))
             self._tell_of_table(request, again=request.arranges)
             return
         self._tell_trouble("")
@@ -133,9 +155,11 @@ class RobotThread:
         if request.pointed is not None:
             self._publish("pointed", request, **request.pointed)
             return
-        if request.restarts:
-            self._publish("restarted", request)
+        if request.uttered:
+            self._tell_uttered(request, answer, turns)
+            return
         report = turn_report(robot, robot.exchanges[turns:])
+        report["said"] = report["said"] or answer
         taken = [turns, len(robot.exchanges)]
         if robot.view is not None and taken[0] < taken[1]:
             self.history.keep_picture(turns, robot.view.look.frame.colour)
@@ -150,11 +174,21 @@ class RobotThread:
             self._table = table
             self._publish("table", request, **table)
 
+    def _tell_uttered(self, request: BrowserRequest, text: str, turns: int) -> None:
+        """Tell how much of an answer was uttered, and what that did to the state."""
+        taken = [turns, len(self.robot.exchanges)]
+        is_whole = taken[0] == taken[1]
+        about = {"turn": request.uttered, "text": text, "whole": is_whole}
+        self._publish("uttered", request, **about)
+        if not is_whole:
+            report = turn_report(self.robot, self.robot.exchanges[turns:])
+            self._publish("turn", request, ms=0, turns=taken, **report)
+
     def _publish(self, kind: str, request: BrowserRequest, **about: object) -> None:
         self._feed.publish({"type": kind, "ref": request.ref, **about})
 
-    def _fail(self, request: BrowserRequest, why: str) -> None:
-        self._publish("failed", request, text=why)
+    def _fail(self, request: BrowserRequest, why: str, seen: bool = False) -> None:
+        self._publish("failed", request, text=why, seen=seen)
 
     def _tell_trouble(self, trouble: str) -> None:
         """Tell the terminal once of trouble that comes again with every request."""

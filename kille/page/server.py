@@ -13,17 +13,21 @@ import uvicorn
 
 from kille.agent.agent import Agent
 from kille.dialogue.language_files import plain
-from kille.page.app import page_app
+from kille.dialogue.state import words
+from kille.page.app import Voice, page_app
 from kille.page.browser_requests import MESSAGE, parse_request
 from kille.page.feed import Event, Feed
 from kille.page.guard import Access, Guard
 from kille.page.inside import PLAIN, Insight
 from kille.page.live_picture import LivePicture
+from kille.page.microphone import Listening, Microphone
 from kille.page.reads import read_routes
 from kille.page.robot_thread import RecordEvent, RobotThread
+from kille.page.spoken_answers import SpokenAnswers
 from kille.page.table import table_report
 from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
+from kille.speech.hearing import Heard, HearingProcess
 
 _FAREWELL = 2
 """Seconds that browsers have to take their leave."""
@@ -89,17 +93,35 @@ def serve_page(
         closing.callback(robot.close)
         closing.callback(picture.close)  # before the sensor that it reads
         robot.ask(parse_request({"do": "look"}))
+        voice = open_voice(feed, robot, terminal.trouble)
+        closing.callback(voice.close)
         app = page_app(
             feed,
             picture,
             robot.ask,
             lambda: _greeting(robot.robot),
             read_routes(robot),
+            voice,
         )
         server = uvicorn_server(Guard(app, settings.access), settings.certificate)
         with _signals_end(server):
             terminal.ready(robot.robot)  # from now on Ctrl-C ends it well
             server.run(sockets=[settings.listener])
+
+
+def open_voice(
+    feed: Feed,
+    robot: RobotThread,
+    trouble: Callable[[str], object],
+    begin: Callable[[Callable[[Heard], object]], Listening] = HearingProcess,
+) -> Voice:
+    """What hears for a robot, and speaks for it; `trouble` is told what goes wrong, and
+    `begin` begins what listens."""
+    language = robot.robot.language
+    microphone = Microphone(
+        feed, robot.ask, lambda: words(robot.robot.state), language, trouble, begin
+    )
+    return Voice(microphone, SpokenAnswers(feed, plain(language), trouble))
 
 
 def _greeting(robot: Agent) -> Event:
@@ -109,6 +131,7 @@ def _greeting(robot: Agent) -> Event:
         "sensor": sensor.name,
         "memory": str(robot.memory.place),
         "language": plain(robot.language),
+        "mode": robot.state.private.strategy.mode,
         "words": len(robot.state.private.nouns),
         "table": table_report(sensor),
     }

@@ -94,6 +94,21 @@ def read_wav(source: Path | bytes) -> Sound:
         ) from error
 
 
+def write_wav(sound: Sound) -> bytes:
+    """A sound as the bytes of a WAV file.
+
+    >>> read_wav(write_wav(Sound(8_000, bytes(800)))).seconds
+    0.05
+    """
+    out = io.BytesIO()
+    with wave.open(out, "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(sound.rate)
+        file.writeframes(sound.samples)
+    return out.getvalue()
+
+
 _RATES = range(1_000, 400_000)
 """How many samples a second there may be in a file."""
 

@@ -102,7 +102,7 @@ def uttered_words(text: str, share: float) -> str:
 
 def synthesise(text: str, program: str = "espeak", language: str = "en") -> Sound:
     """A text as sound; `SoundError` if the program is missing or fails."""
-    command = SYNTHESISERS[_check_installed(program)]
+    command, text = SYNTHESISERS[_check_installed(program)], _spoken_form(text)
     filled = [it.format(voice=_VOICES[language], text=text) for it in command]
     return read_wav(_run_program(filled, text.encode()))
 
@@ -202,7 +202,7 @@ def _speak(
 ) -> str:
     if stop():
         return ""
-    sound = synthesise(_spoken_form(text), program, language)
+    sound = synthesise(text, program, language)
     return uttered_words(text, target(sound, stop) / (sound.seconds or 1.0))
 
 

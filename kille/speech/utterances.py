@@ -26,7 +26,7 @@ _MOST = int(2 * RATE * LONGEST)
 _WINDOW = 0.6
 """Seconds over which the voice must have fallen silent: longer than at a comma."""
 
-_ONSET = 0.3
+ONSET = 0.3
 """Seconds of a voice that stop the robot: longer than a cough."""
 
 _MARGIN = bytes(2 * RATE // 5)
@@ -172,7 +172,7 @@ class SpokenOver:
         from pocketsphinx import Endpointer
 
         self._read_recorded, self._read = read_recorded, read
-        self._finder = Endpointer(window=_ONSET, sample_rate=RATE)
+        self._finder = Endpointer(window=ONSET, sample_rate=RATE)
         self._heard, self._judged = bytearray(), 0
 
     def __call__(self) -> bool:

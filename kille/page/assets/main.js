@@ -10,23 +10,27 @@ import { Table } from "./table.js";
 import { Talk } from "./talk.js";
 import { setLanguage, t } from "./texts.js";
 import { Things } from "./things.js";
+import { Voice } from "./voice.js";
 
 const picture = new LivePicture();
 const things = new Things(choose);
 const replay = new Replay(picture, things);
 const lab = new Lab((number, on) => things.light(number, on), replay);
-const talk = new Talk(say, (number, on) => things.light(number, on), (event) => lab.choose(event));
+const talk = new Talk(say, (number, on) => things.light(number, on), (event) => lab.choose(event), edit);
 const table = new Table((message) => connection.ask(message));
 const region = new Region(things, choose, (box) => connection.ask({ do: "point", box }));
 const field = byId("text");
+const HELD = 350; // milliseconds
 const said = []; // by the tutor, for the arrow keys
 let recalled = 0;
 let unconfirmed = null;
 let language = "";
 let meant = null; // the thing that the robot has just spoken of
 let old = 0; // the last event that had happened before this page was open
+let frozen = false;
+let undo = ""; // what takes the latest lesson back
+let instead = ""; // what is said first when the text in the field replaces what was heard
 
-label("en");
 const connection = new Connection({
   state: (state) => {
     const link = byId("link");
@@ -35,10 +39,23 @@ const connection = new Connection({
     link.textContent = t(state);
   },
   hello,
-  picture: (jpeg, done) => picture.draw(jpeg, done),
-  heard: (event) => talk.heard(event),
+  picture: (jpeg, done) => (frozen ? done() : picture.draw(jpeg, done)),
+  voice: (turn, wav) => voice.playback.play(turn, wav),
+  microphone: (event) => voice.microphone(event),
+  listening: () => voice.listening(),
+  taken: (event) => voice.taken(event),
+  began: () => voice.began(),
+  unheard: () => voice.unheard(),
+  "sound-lost": () => voice.lost(),
+  heard: (event) => {
+    offerUndo("");
+    talk.heard(event);
+  },
+  uttered: (event) => talk.uttered(event),
   turn: (event) => {
     confirm(event.ref);
+    if (event.said) voice.playback.expect(event.id, event.said.split("\n").length);
+    offerUndo(event.undo);
     lab.add(event);
     talk.turn(event);
     meant = event.said ? event.thing : null;
@@ -72,13 +89,25 @@ const connection = new Connection({
   },
 });
 
+const voice = new Voice(connection);
+label("en");
+byId("old").remove();
+
 function hello(event, before) {
-  if (event.language !== language) label(event.language);
   byId("facts").replaceChildren(
-    ...[["sensor", event.sensor], ["memory", event.memory], ["words", event.words]].map(([name, value]) =>
+    ...[
+      ["sensor", event.sensor],
+      ["memory", event.memory],
+      ["words", event.words],
+      ["mode", event.mode],
+      ["language", event.language],
+      ["microphone", ""],
+    ].map(([name, value]) =>
       el("div", {}, el("dt", {}, t(name)), el("dd", { title: String(value), id: `fact-${name}` }, String(value))),
     ),
   );
+  if (event.language !== language) label(event.language);
+  voice.hello(event);
   table.show(event.table);
   old = event.last;
   if (event.after === 0) {
@@ -109,10 +138,12 @@ function label(spoken) {
   setLanguage(spoken);
   const link = byId("link");
   link.textContent = t(link.dataset.state);
-  for (const [id, name] of [["picture", "picture"], ["things", "things"], ["seen", "seen"], ["talk", "talk"], ["turns", "talk"], ["answers", "answers"], ["tools", "tools"]])
+  for (const [id, name] of [["picture", "picture"], ["things", "things"], ["seen", "seen"], ["talk", "talk"], ["turns", "talk"], ["answers", "answers"], ["tools", "tools"], ["deeds", "deeds"]])
     byId(id).setAttribute("aria-label", t(name));
   byId("empty").textContent = t("empty");
   lab.label();
+  voice.label();
+  for (const [id, name] of [["freeze", "freeze"], ["undo", "undoLatest"], ["restart", "restart"]]) byId(id).textContent = t(name);
   byId("turns").dataset.hint = t("begin");
   field.placeholder = t("placeholder");
   byId("say").querySelector("label").textContent = t("say");
@@ -121,7 +152,6 @@ function label(spoken) {
   byId("tools").replaceChildren(
     tool("look", () => connection.ask({ do: "look" })),
     tool("region", () => region.beginByKeys()),
-    tool("restart", () => connection.ask({ do: "restart" })),
     el("span", { class: "tools__hint" }, t("hint")),
   );
 }
@@ -140,7 +170,30 @@ function choose(number) {
   connection.ask({ do: "point", thing: number, ...(things.isSecond(number) && { as: "that" }) });
 }
 
+/** What takes the latest lesson back, if anything does. */
+function offerUndo(says) {
+  undo = says;
+  byId("undo").disabled = !says;
+}
+
+byId("undo").addEventListener("click", () => undo && say(undo));
+byId("restart").addEventListener("click", () => connection.ask({ do: "restart" }));
+byId("freeze").addEventListener("click", () => {
+  frozen = !frozen;
+  byId("freeze").setAttribute("aria-pressed", String(frozen));
+  byId("stage").classList.toggle("stage--frozen", frozen);
+  connection.watch(!frozen);
+});
+
+/** Put a text that was heard into the field; once sent, it replaces what was learned. */
+function edit(text, first) {
+  field.value = text;
+  instead = first;
+  field.focus();
+}
+
 function say(text) {
+  voice.playback.stop();
   const ref = connection.ask({ do: "say", text });
   if (ref) unconfirmed = { ref, text };
   return Boolean(ref);
@@ -153,6 +206,8 @@ function confirm(ref) {
 byId("say").addEventListener("submit", (event) => {
   event.preventDefault();
   const text = field.value.trim();
+  if (instead && text) say(instead);
+  instead = "";
   if (!say(text)) return;
   if (text) said.push(text);
   recalled = said.length;
@@ -166,9 +221,26 @@ field.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 
+const typesIn = (element) => element.closest("input:not([type=range]), textarea, select");
+let pressing = 0; // until a Space on a button is one that is held
+
 document.addEventListener("keydown", (event) => {
-  const typing = event.target.closest("input, textarea, select");
-  if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (typesIn(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.key === " ") {
+    if (event.repeat) {
+      if (voice.held) event.preventDefault();
+      return;
+    }
+    // A short Space presses the button that has the focus, a long one is for talking.
+    const other = event.target.closest("button:not(#hold), summary, input, a, [tabindex='0']");
+    if (other) pressing = setTimeout(() => voice.press(), HELD);
+    else {
+      voice.press();
+      event.preventDefault();
+    }
+    return;
+  }
+  if (event.target.closest("input")) return;
   if (/^[1-9]$/.test(event.key) && !replay.on) {
     const button = things.buttons.get(Number(event.key));
     button?.focus();
@@ -177,4 +249,12 @@ document.addEventListener("keydown", (event) => {
   else if (event.key === "/") field.focus();
   else return;
   event.preventDefault();
+});
+
+document.addEventListener("keyup", (event) => {
+  if (event.key !== " ") return;
+  clearTimeout(pressing);
+  if (!voice.held) return;
+  event.preventDefault();
+  voice.release();
 });

@@ -1,14 +1,17 @@
 // The lesson as it was held: what was said, what came of it, and what can be answered.
 
 import { byId, el } from "./dom.js";
-import { t } from "./texts.js";
+import { percent, t } from "./texts.js";
 
 const KEPT = 300; // turns on the page
 
 export class Talk {
   /** `say(text)` says something for the tutor; `light(number, on)` shows a thing,
-   *  `inspect(event)` what a turn did inside. */
-  constructor(say, light, inspect) {
+   *  `inspect(event)` what a turn did inside; `edit(text, first)` puts a text into the
+   *  field, to be sent after another. */
+  constructor(say, light, inspect, edit) {
+    this.edit = edit;
+    this.undo = "";
     this.inspect = inspect;
     this.say = say;
     this.light = light;
@@ -29,17 +32,55 @@ export class Talk {
   }
 
   /** What the tutor has said or done. */
-  heard({ ref, says, id }) {
+  heard({ ref, says, id, perhaps }) {
     const turn = el("li", { class: "turn turn--waiting" }, this.bubble("tutor", says));
     this.waiting.set(ref || id, turn);
     this.endLatest();
+    this.undo = "";
     this.offer([]);
+    if (perhaps?.length) turn.append(this.heardAs(perhaps));
     this.add(turn);
+  }
+
+  /** What was perhaps said: another text may be said instead, or be mended. */
+  heardAs(perhaps) {
+    const instead = ([says, p]) =>
+      el(
+        "button",
+        { class: "chip chip--heard", type: "button", "aria-label": `${t("sayInstead", { says })} (${percent(p)})`, onclick: () => this.sayInstead(says) },
+        el("span", {}, says),
+        el("span", { class: "chip__degree" }, percent(p)),
+      );
+    const [[best, p], ...others] = perhaps;
+    return el(
+      "div",
+      { class: "chips chips--heard", role: "group", "aria-label": t("heardAs") },
+      el("span", { class: "chip chip--plain" }, `${t("heardAs")} ${percent(p)}`),
+      ...others.map(instead),
+      el("button", { class: "chip", type: "button", "aria-label": `${t("edit")}: ${best}`, onclick: () => this.edit(best, this.undo) }, t("edit")),
+    );
+  }
+
+  /** Take back what was learned from a text that was not said, and say another. */
+  sayInstead(text) {
+    if (this.undo) this.say(this.undo);
+    this.say(text);
+  }
+
+  /** So much of an answer was uttered before it was cut off. */
+  uttered({ turn, text, whole }) {
+    if (whole) return;
+    const found = this.list.querySelector(`[data-event="${turn}"]`);
+    const told = text ? t("cutOff", { text }) : t("cutAtOnce");
+    found?.append(el("p", { class: "cut" }, told));
+    this.scroll();
   }
 
   /** What came of it. */
   turn(event) {
     const turn = this.take(event);
+    if (event.said) turn.dataset.event = event.id;
+    this.undo = event.undo;
     for (const line of paragraphs(event.said)) turn.append(this.bubble("robot", line));
     const chips = this.chips(event);
     if (chips.length) turn.append(el("div", { class: "chips" }, ...chips));
@@ -50,6 +91,8 @@ export class Talk {
   }
 
   failed(event) {
+    // That the camera is gone is told over the picture, too: once is enough.
+    if (event.seen && !this.waiting.has(event.ref)) return;
     const turn = this.take(event);
     turn.append(el("p", { class: "bubble bubble--wrong" }, event.text));
     if (!turn.isConnected) this.add(turn);

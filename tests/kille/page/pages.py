@@ -26,9 +26,10 @@ from kille.page.inside import Insight
 from kille.page.live_picture import LivePicture
 from kille.page.reads import read_routes
 from kille.page.robot_thread import RobotThread
-from kille.page.server import _greeting, listen, uvicorn_server
+from kille.page.server import _greeting, listen, open_voice, uvicorn_server
 from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
+from kille.speech.hearing import HearingProcess
 
 SERVE = [sys.executable, "-m", "kille.interfaces.cli", "serve", "--port", "0"]
 _NUMBERS = count(1)
@@ -112,9 +113,12 @@ class Browser:
 
 @contextmanager
 def page_of(
-    sensor: Sensor, memory: Path | None = None, access: Access | None = None
+    sensor: Sensor,
+    memory: Path | None = None,
+    access: Access | None = None,
+    hearing: Callable[..., Any] = HearingProcess,
 ) -> Iterator[Page]:
-    """A page of a robot that looks through this sensor."""
+    """A page of a robot that looks through this sensor, and hears by that."""
     feed, troubles = Feed(), []
     picture = LivePicture(lambda text: feed.publish({"type": "camera", "text": text}))
     robot = RobotThread(
@@ -123,6 +127,7 @@ def page_of(
         troubles.append,
         insight=Insight(derivation, in_short),
     )
+    voice = open_voice(feed, robot, troubles.append, hearing)
     listener = listen("127.0.0.1", 0)
     app = page_app(
         feed,
@@ -130,6 +135,7 @@ def page_of(
         robot.ask,
         lambda: _greeting(robot.robot),
         read_routes(robot),
+        voice,
     )
     server = uvicorn_server(Guard(app, access or Access("127.0.0.1")))
     thread = Thread(target=server.run, kwargs={"sockets": [listener]})
@@ -140,6 +146,7 @@ def page_of(
     finally:
         server.should_exit = True
         thread.join(PATIENCE)
+        voice.close()
         robot.close()
         picture.close()
         listener.close()
