@@ -37,6 +37,11 @@ PATIENCE = 60
 """Seconds after which a test gives a server up."""
 
 
+def fresh_ref() -> str:
+    """A name for a request that no other has: what is asked for again is done once."""
+    return f"asked {next(_NUMBERS)}"
+
+
 class Page(NamedTuple):
     """A page that is served in this process, and the parts behind it."""
 
@@ -104,7 +109,7 @@ class Browser:
 
     def say(self, text: str, ref: str = "") -> dict[str, Any]:
         """Say something; the turn that came of it. Its view has come, too."""
-        ref = ref or f"said {next(_NUMBERS)}"
+        ref = ref or fresh_ref()
         self.ask(do="say", text=text, ref=ref)
         turn = self.until("turn", ref=ref)
         self.until("view", ref=ref)

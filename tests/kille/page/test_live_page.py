@@ -24,7 +24,7 @@ from kille.scene import Frame
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
 
-from .pages import PATIENCE, Page, page_of
+from .pages import PATIENCE, Page, fresh_ref, page_of
 
 HOSTILE = [
     "<img src=x onerror=alert(1)>",
@@ -41,8 +41,9 @@ HOSTILE = [
 def taught(page: Page) -> Page:
     """A page on which a cup has been shown."""
     with page.connect() as browser:
-        browser.ask(do="show", thing="cup", ref="shown")
-        browser.until("view", ref="shown")
+        shown = fresh_ref()
+        browser.ask(do="show", thing="cup", ref=shown)
+        browser.until("view", ref=shown)
     return page
 
 
@@ -108,6 +109,7 @@ def test_a_second_thing_is_that(page: Page) -> None:
 def test_the_table_is_arranged_by_hand(page: Page) -> None:
     with page.connect() as browser:
         browser.ask(do="show", thing="cup")
+        browser.ask(do="place", thing="cup", right=-0.2, away=0.1)
         browser.ask(do="add", thing="book", ref="add")
         (cup, book) = browser.until("table", ref="add")["plan"]["placed"]
         assert (cup["name"], book["name"]) == ("cup", "book")
@@ -221,8 +223,8 @@ def test_who_has_another_run_begins_anew(page: Page, run: str, after: int) -> No
 def test_two_browsers_see_the_same_dialogue(page: Page) -> None:
     with page.connect() as one, page.connect() as other:
         one.say("Hello.", ref="one")
-        other.say("Thank you.", ref="two")
-        one.until("view", ref="two")
+        other.say("Thank you.", ref="thanks")
+        one.until("view", ref="thanks")
         heard = [[it for it in who.events if "id" in it] for who in (one, other)]
     turns = [it["heard"] for it in heard[0] if it["type"] == "turn"]
     assert turns == ["Hello.", "Thank you."]
