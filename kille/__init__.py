@@ -25,7 +25,10 @@ _LATER = {"Agent": "kille.agent.agent", "Memory": "kille.memory"}
 
 find_former_modules(FORMER_MODULES)
 
-PROVIDERS = {"kille.scene.shown_look": "kille.perception.shown_looks"}
+PROVIDERS = {
+    "kille.scene.shown_look": "kille.perception.shown_looks",
+    "kille.lab.results.shown_result": "kille.lab.reports.shown_results",
+}
 """Which module provides what is declared below it (`ttr.hooks`)."""
 
 set_providers(PROVIDERS)

@@ -70,6 +70,5 @@ def test_pytest_is_given_the_tests_of_a_room(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr("os.execv", lambda program, words: given.extend(words))
     monkeypatch.chdir(ROOT)
     assert tool["main"](["display", "--co"]) is None
-    tests = "tests/ttr/test_escapes.py", "tests/ttr/test_render.py", "ttr/display"
-    assert given[given.index("--co") + 1 :] == [*tests]
+    assert given[given.index("--co") + 1 :] == rooms["display"]["tests"]
     assert given[given.index("-m", 3) + 1] == "not deep and not slow"

@@ -11,6 +11,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple, TypeAlias
 
+from ttr.hooks import hook
+from ttr.showing import NotebookValue, Part
+
 __all__ = [
     "Cell",
     "Estimate",
@@ -61,7 +64,7 @@ class ExperimentError(Exception):
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(NotebookValue):
     """Rows of numbers and words under the names of their columns.
 
     None is a value that is not known; the note is a sentence to show below the table.
@@ -74,6 +77,9 @@ class Table:
     note: str = ""
     links: Mapping[tuple[int, int], str] = field(default_factory=dict)
 
+    def _shown_as_(self) -> Part:
+        return shown_result(self)
+
     def has_numbers(self, column: int) -> bool:
         """Are all cells of a column numbers, or unknown?"""
         return all(
@@ -82,7 +88,7 @@ class Table:
 
 
 @dataclass(frozen=True, eq=False)
-class Figure:
+class Figure(NotebookValue):
     """What a figure shows, as plain numbers and lists; `data` by kind:
 
     - confusion: labels, counts (rows: the right word; columns: the answer); columns
@@ -106,9 +112,18 @@ class Figure:
     data: Mapping[str, Any]
     note: str = ""
 
+    def _shown_as_(self) -> Part:
+        return shown_result(self)
+
+
+@hook
+def shown_result(result: Result | Table | Figure) -> Part:
+    """What a notebook shows of a result (`kille.lab.reports.shown_results`)."""
+    raise NotImplementedError
+
 
 @dataclass(frozen=True, eq=False)
-class Result:
+class Result(NotebookValue):
     """All that was found out; `facts` are for machines only.
 
     The text says in a paragraph what there is to see.
@@ -119,6 +134,9 @@ class Result:
     figures: tuple[Figure, ...] = ()
     facts: Mapping[str, Any] = field(default_factory=dict)
     text: str = ""
+
+    def _shown_as_(self) -> Part:
+        return shown_result(self)
 
 
 def silent(share: float, doing: str) -> None:

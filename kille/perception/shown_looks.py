@@ -73,21 +73,20 @@ def view_shown(look: Look, names: Sequence[str] = (), focus: int | None = None) 
     picture = annotated_picture(look, names)
     if not look.percepts:
         return below(picture._shown_as_(), Text("Nothing is in view.", "quiet"))
-    called = [*names, *[""] * (len(look.percepts) - len(names))]
+    heads = ("", "called", "where", "") if any(names) else ("", "where", "")
 
     def row(number: int) -> tuple[Part, ...]:
         percept = look.percepts[number - 1]
+        name = Text(names[number - 1] or "–") if any(names) else None
         return (
             Text(f"#{number}", "strong"),
-            Text(called[number - 1] or "–"),
+            *([name] if name else []),
             Text(place_in_words(percept.region.place)),
             Text("this" if number == focus else "", "quiet"),
         )
 
-    return below(
-        picture._shown_as_(),
-        table(("", "called", "where", ""), range(1, len(look.percepts) + 1), row),
-    )
+    numbers = range(1, len(look.percepts) + 1)
+    return below(picture._shown_as_(), table(heads, numbers, row))
 
 
 def place_in_words(place: Point | tuple[float, float, float] | None) -> str:

@@ -17,18 +17,29 @@ from typing import Any, Self
 from ttr.dialogues.event_wording import line_of_event, wording
 from ttr.dialogues.settings import Setting
 from ttr.dialogues.state_snapshots import copy_of, first_change, snapshot
-from ttr.errors import NotHeardError, TTRError, UpdateError
+from ttr.errors import NotHeardError, TTRError, UpdateError, describe_error
 from ttr.judging.models import Model
+from ttr.showing import (
+    Fold,
+    In,
+    NotebookValue,
+    Part,
+    Text,
+    Value,
+    below,
+    count_of,
+    table,
+)
 from ttr.types.objects import Object, Record
 from ttr.types.syntax import TypeNode
-from ttr.updates.games import Game, Turn
-from ttr.updates.running import Run, Step
+from ttr.updates.games import Game, Turn, event_shown
+from ttr.updates.running import Run, Step, trace_shown
 
 __all__ = ["Dialogue", "Trial", "give", "play"]
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class Trial(NotebookValue):
     """One thing that was given to a game, the run before it, and the turn it led to.
 
     There is no turn where the game did not take what was given; `fault` is what went
@@ -73,6 +84,18 @@ class Trial:
             return self.fault.steps
         return self.steps
 
+    def _shown_as_(self) -> Part:
+        return below(
+            event_shown(self.given) if not self.line else Text(self.line, "strong"),
+            *[Text(f"S> {words}") for words in self.said],
+            trace_shown(self.applied),
+            Fold("the state after it", self._state_shown()),
+            Text(describe_error(self.fault), "no") if self.fault else None,
+        )
+
+    def _state_shown(self) -> Part:
+        return Value(self.after.state, before=self.before.state)
+
     def in_words(self, setting: Setting) -> Trial:
         """The same with its line and what was said; raises `UpdateError` without words.
 
@@ -90,7 +113,7 @@ class Trial:
 
 
 @dataclass(frozen=True, eq=False)
-class Dialogue:
+class Dialogue(NotebookValue):
     """A game with the trials of one dialogue in it; the last one may have a fault.
 
     `place` says by what reference and with what names the game is spelled; `origin` is
@@ -166,6 +189,40 @@ class Dialogue:
 
     def __repr__(self) -> str:
         return f"<Dialogue of {len(self.trials)} turns in {self.game.name}>"
+
+    def _shown_as_(self) -> Part:
+        shown = self._in_words_if_there_are()
+
+        def row(numbered: tuple[int, Trial]) -> tuple[Part, ...]:
+            number, trial = numbered
+            return (
+                Text(str(number), "quiet"),
+                below(
+                    Text(trial.line, "strong")
+                    if trial.line
+                    else event_shown(trial.given),
+                    *[Text(f"S> {words}") for words in trial.said],
+                ),
+                below(
+                    Fold(count_of(len(trial.steps), "rule"), trace_shown(trial.steps)),
+                    Fold("the state", trial._state_shown()),
+                    Text(describe_error(trial.fault), "no") if trial.fault else None,
+                ),
+            )
+
+        trials = shown.trials
+        whole = below(
+            Text(self.title or f"a dialogue in {self.game.name}", "strong"),
+            table(("", "turn", ""), enumerate(trials, 1), row, count=len(trials)),
+            Text(self.ending, "code") if self.ending else None,
+        )
+        return In(shown.setting.theory, whole) if shown.setting.theory else whole
+
+    def _in_words_if_there_are(self) -> Dialogue:
+        try:
+            return self.in_words()
+        except UpdateError:
+            return self
 
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         """How Hypothesis and notebooks print it: in a line, not with all its states."""

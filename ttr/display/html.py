@@ -59,7 +59,8 @@ def page(title: str, body: str, style: str = "") -> str:
 
 
 STYLE = """
-.ttr { color: inherit; overflow-x: auto; padding: .2em 0; line-height: 1.4; }
+.ttr { position: relative; color: inherit; overflow-x: auto; padding: .2em 0;
+  line-height: 1.4; }
 .ttr table.ttr-matrix { display: inline-table; width: auto;
   table-layout: auto; margin: .1em .15em;
   vertical-align: middle; border-collapse: separate; border-spacing: 0; border: 0;

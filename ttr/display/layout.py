@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, TypeAlias
 
-from ttr.display.room import cut, ellipsis, shorten, take_room
+from ttr.display.room import cut, ellipsis, shared_by, shorten, take_room
 from ttr.escapes import columns, terminal_line
 from ttr.safety.budgets import spend
 from ttr.types.objects import (
@@ -386,7 +386,10 @@ def layout_of(value: Object, scope: Scope = ()) -> Layout:
         case RecordType():
             inner = (labels_of(value), *scope)
             fields, left = cut(fields_in_order(value, scope), len(value.fields))
-            rows = [_row(k, T, inner) for k, T in fields]
+            rows = []
+            for number, (label, T) in enumerate(fields):
+                with shared_by(len(fields) - number):
+                    rows.append(_row(label, T, inner))
             return Matrix("[", _COLON, (*rows, *_rows_left(left)), "]")
         case Singleton(base, obj):
             return Subscript(_tight(base, scope), _tight_object(obj, scope))
@@ -466,7 +469,10 @@ def _rows_left(left: int) -> list[Row]:
 
 def _objects(values: Sequence[Object], scope: Scope) -> tuple[Layout, ...]:
     shown, left = cut(values, len(values))
-    drawn = [layout_of(as_object(v, scope), scope) for v in shown]
+    drawn = []
+    for number, value in enumerate(shown):
+        with shared_by(len(shown) - number):
+            drawn.append(layout_of(as_object(value, scope), scope))
     if left:
         drawn.append(Word(ellipsis(left), "text"))
     return tuple(drawn)

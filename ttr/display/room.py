@@ -8,7 +8,7 @@ it is.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
 from itertools import islice
 from typing import TypeVar
@@ -51,6 +51,12 @@ def room_for(words: int) -> Iterator[None]:
         _open.reset(token)
         if around is not None:
             around.left -= mine - own.left
+
+
+def shared_by(number: int) -> AbstractContextManager[None]:
+    """Draws what is drawn inside in one of so many shares of what is left."""
+    own = _open.get()
+    return nullcontext() if own is None else room_for(max(0, own.left) // number)
 
 
 def is_bounded() -> bool:
