@@ -20,6 +20,7 @@ from kille.agent.attention import (
     NumberedLook,
     is_same_thing,
 )
+from kille.agent.commands import answer_command, meant_command
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import (
     Event,
@@ -87,6 +88,9 @@ _POINTING = re.compile(r"#([0-9]{1,6})\b")
 _THIS_AND_THAT = 2
 
 TUTOR = "tutor"
+
+_UNTYPED = ("glimpse", "watch", "interrupt", "spoken", "meanwhile")
+"""Commands of stories, which nobody types."""
 
 WATCH, BUSY = "@ watch", "@ watch busy"
 """Looking while nobody speaks, and while somebody begins to, as lines of a story."""
@@ -283,8 +287,28 @@ class Agent(NotebookValue):
         )
 
     def do(self, command: str) -> str:
+        """Carry out a command, as after `@` in `kille talk`; returns what comes of it.
+
+        What only asks is answered: `picture`, `why`, `meaning cup`, `trace`, `things`
+        and `help` give what `kille talk` prints. All else is a `change_scene`. Raises
+        `TTRError` for what is misspelt and where there is nothing to show.
+
+        >>> with Agent(sensor="synthetic:empty?seed=7") as robot:
+        ...     robot.do("help").splitlines()[1]
+        '  @ show cup                    only the cup is on the table'
+        """
+        answer = answer_command(self, command)
+        if answer is not None:
+            return answer
+        verb = command.strip().partition(" ")[0]
+        if near := meant_command(verb) if verb not in _UNTYPED else "":
+            raise TTRError(f"there is no command @ {verb}: did you mean @ {near}?")
+        return self.change_scene(command)
+
+    def change_scene(self, command: str) -> str:
         """Change the scene, and look; returns what the robot then says, if anything.
 
+        It is for commands from elsewhere, as in a story or on a bus: it writes no file.
         Commands are those of `kille.sensors.stage_commands`, also after `meanwhile`,
         with which the robot does not look; and `look`, `glimpse`, a look that is no
         turn, as for a picture, `watch`, `point 2`, `point 320 240`, `scene SENSOR` and

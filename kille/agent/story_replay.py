@@ -237,7 +237,7 @@ class _StoryPlayer:
         if verb == "wait":
             return self._wait(line)
         if verb != "scene" or not rest:
-            return self._robot.do(line.text)
+            return self._robot.change_scene(line.text)
         if not self._started:
             return self._robot.look()
         return self._robot.do(f"scene {_sensor_of_line(line)}")

@@ -13,13 +13,13 @@ from threading import Thread
 from typing import Any
 
 from kille.agent.agent import Agent
+from kille.agent.commands import COMMANDS, answer_command
 from kille.agent.spoken_turns import answer_hypotheses, tell_uttered
 from kille.agent.story_log import StoryLog
 from kille.agent.story_replay import language_of_file
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
 from kille.dialogue.robust_reading.text_hearing import prepare_to_read
-from kille.dialogue.state import words
 from kille.interfaces.formatting import (
     Account,
     introduction,
@@ -36,38 +36,15 @@ from kille.interfaces.live_prompt import (
 from kille.interfaces.speech_input import SpeechHypotheses, SpeechInput
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import Memory, MemoryFileError
-from kille.perception.picture_sheet import overview, write_picture
 from kille.safety.private_files import create_private_file
-from kille.sensors.sensor import SensorError, Stage
+from kille.sensors.sensor import SensorError
 from kille.speech.sound import SoundError
 from kille.speech.synthesis import SYNTHESISERS, Stop, Voice, voice
 from ttr import TTRError
 from ttr.dialogues.stories import StoryError
-from ttr.misspellings import nearest_names
 from ttr.safety.files import why_unwritten
 from ttr.safety.inputs import ask_line
 from ttr.safety.limits import UTTERANCE, InputLimitError
-
-COMMANDS = """\
-Lines that begin with @ change what there is to see:
-  @ show cup                    only the cup is on the table
-  @ place book left of cup      also right of, in front of, behind, near
-  @ place book at 0.10 -0.05    metres right and away from the middle
-  @ remove cup
-  @ point 2                     "this" is thing #2 from now on; also in a sentence:
-                                #2 This is a book.
-  @ point that 3                "that" is thing #3, in what you say next
-  @ look                        what is in view
-  @ picture [FILE.png]          a picture of it, with the numbers and names
-  @ why [FILE.png]              the reason that it gave last, as a picture
-  @ meaning cup                 the type that a word means
-  @ trace                       what the latest turn did to the state, in full
-  @ things                      all that can be shown
-  @ scene SENSOR                look through another sensor
-  @ restart                     a new dialogue, with the same memory
-Ctrl-D or "Goodbye." ends the conversation; what was learned stays."""
-
-_COMMANDS = tuple(re.findall(r"^  @ ([a-z]+)", COMMANDS, re.MULTILINE))
 
 _PROMPT = "U> "
 
@@ -312,60 +289,18 @@ class _Conversation:
         return answer
 
     def _command(self, command: str) -> str:
-        verb, _, rest = command.partition(" ")
-        match verb:
-            case "picture":
-                return self._picture(Path(rest or "kille-view.png"))
-            case "why":
-                return self._reason(Path(rest or "kille-why.png"))
-            case "things":
-                return self._things()
-            case "trace":
-                return self._trace()
-            case "meaning":
-                return self._meaning(rest)
-            case "" | "help":
-                self._print(COMMANDS)
-                return ""
-            case _ if near := _misspelt_command(verb):
-                complain(f"there is no command @ {verb}: did you mean @ {near}?")
-                return ""
+        verb = command.partition(" ")[0] or "help"
+        if verb == "trace":
+            return self._trace()
+        shown = answer_command(self._robot, command or verb)
+        if shown is not None:
+            self._print(shown)
+            return ""
         answer = self._robot.do(command)
         if verb == "point":
             answer = self._robot.look()
         self._show_view()
         return answer
-
-    def _picture(self, path: Path) -> str:
-        """Writes a picture of what is in view now; the floor stays with the tutor."""
-        self._robot.do("glimpse")
-        view = self._robot.view
-        assert view is not None
-        try:
-            write_picture(path, overview(view.look, self._robot.names_in_view()))
-        except OSError as error:
-            complain(f"the picture cannot be written to {path}: {error.strerror}")
-            return ""
-        self._print(f"The picture is in {path}.")
-        return ""
-
-    def _reason(self, path: Path) -> str:
-        """Writes a picture of the reason that the robot gave last."""
-        try:
-            picture = self._robot.reason_picture()
-            if picture is not None:
-                write_picture(path, picture)
-        except (OSError, ValueError) as error:
-            complain(f"the picture cannot be written to {path}: {error}")
-            return ""
-        if picture is None:
-            complain(
-                'there is no reason to show: ask "Why?" after the robot has said what '
-                "something is"
-            )
-            return ""
-        self._print(f"Its reason is in {path}.")
-        return ""
 
     def _trace(self) -> str:
         """Shows all that the latest turn did, whatever `--trace` shows of each."""
@@ -374,30 +309,9 @@ class _Conversation:
         self._print_account(lines or ["The latest turn changed nothing."])
         return ""
 
-    def _meaning(self, form: str) -> str:
-        """Shows the types that a word means, one for each kind of word that it is."""
-        if not form.strip():
-            complain("@ meaning needs a word: write, for example, @ meaning cup")
-            return ""
-        known = words(self._robot.state)
-        found = [it for it in known if it.form == form.strip().lower()]
-        for it in found:
-            self._print(f"{it.form} ({it.kind}): {it.meaning}")
-        if not found:
-            complain(f'the word "{form}" is not known: "What do you know?" lists all')
-        return ""
-
     def _print_account(self, lines: Iterable[str]) -> None:
         for line in lines:
             self._print(line, style="dim")
-
-    def _things(self) -> str:
-        sensor = self._robot.gaze.sensor
-        if isinstance(sensor, Stage):
-            self._print("You can show: " + ", ".join(sensor.things()))
-        else:
-            self._print(f"{sensor.name} shows what was recorded, nothing else.")
-        return ""
 
     def _show_view(self) -> None:
         if self._robot.view is not None:
@@ -414,13 +328,6 @@ class _Conversation:
 
     def _print(self, text: str, style: str = "") -> None:
         self._out.print(text, markup=False, style=style or None)
-
-
-def _misspelt_command(verb: str) -> str:
-    """The command after @ that is meant by what is none, or nothing."""
-    if verb in _COMMANDS:
-        return ""
-    return "".join(nearest_names(verb, _COMMANDS))
 
 
 @contextmanager

@@ -128,7 +128,7 @@ class DialogueNode:
             raise BusError(
                 "the sensor is a node of its own: start that with another --sensor"
             )
-        self._robot.do(command)
+        self._robot.change_scene(command)
         if verb == "point":
             self._robot.look()
 

@@ -35,9 +35,9 @@ class WholeRobot:
         return self._reply(self._agent.exchanges[-1])
 
     def happen(self, command: str) -> Reply:
-        """Carry out a command by `Agent.do`."""
+        """Carry out a command by `Agent.change_scene`."""
         before = len(self._agent.exchanges)
-        self._agent.do(command)
+        self._agent.change_scene(command)
         return self._reply(next(iter(self._agent.exchanges[before:]), None))
 
     def rest(self) -> Reply:
