@@ -15,7 +15,7 @@ from rich_values import HOSTILE, check_html, check_latex
 from ttr import Basic, Ind, Model, Pred, Theory, record, rectype, subtype, this
 from ttr.display.room import room_for
 from ttr.errors import IllFormedError
-from ttr.showing import Below, Figure, Fold, NotebookValue, Part, Table, Text, Value
+from ttr.showing import Below, Figure, Fold, NotebookValue, Part, Value
 from ttr.types.records import find_differences
 from ttr.updates import NBest, rule
 from ttr.updates.games import Game
@@ -244,7 +244,7 @@ def test_rooms_inside_a_room_share_it() -> None:
 class Pictured(NotebookValue):
     def _shown_as_(self) -> Part:
         body = Figure(b"png", "image/png", HOSTILE, 40)
-        return Below((Text("no", "no"), Fold(HOSTILE, body), Table(("a",), (), 3)))
+        return Below((Fold(HOSTILE, body), Fold("again", body)))
 
 
 def test_a_picture_is_in_the_html_and_has_no_latex() -> None:
@@ -253,6 +253,13 @@ def test_a_picture_is_in_the_html_and_has_no_latex() -> None:
     assert Pictured()._repr_latex_() is None
     with pytest.raises(IllFormedError, match="a picture has no LaTeX, found Pictured"):
         ttr.latex(Pictured())
+
+
+def test_latex_leaves_pictures_out(monkeypatch) -> None:
+    figure = Figure(b"png", "image/png", "a cup", 40)
+    shown = Below((Value(Ind), Fold("seen", figure)))
+    monkeypatch.setattr(Pictured, "_shown_as_", lambda _: shown)
+    assert ttr.latex(Pictured()) == ttr.latex(Ind)
 
 
 # --- several values, and names --------------------------------------------------------

@@ -5,8 +5,7 @@ Folds are open on paper, and a picture has no LaTeX.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import cast
 
 from ttr.display.latex import (
@@ -37,30 +36,32 @@ from ttr.signature.signature import Signature
 
 
 def parts_as_latex(part: Part) -> str | None:
-    """The part as mathematics, without the dollars around it; None with a picture."""
-    if _has_picture(part):
+    """The part as mathematics, without the dollars around it; None for a picture."""
+    kept = _without_pictures(part)
+    if kept is None:
         return None
     drawing = _Drawing(Naming(None))
-    if isinstance(part, Value):
-        return guard_fonts(drawing.value(part))
-    return guard_fonts(drawing.draw(part))
+    whole = drawing.value(kept) if isinstance(kept, Value) else drawing.draw(kept)
+    return guard_fonts(whole)
 
 
-def _has_picture(part: Part) -> bool:
-    return isinstance(part, Figure) or any(map(_has_picture, _parts_of(part)))
-
-
-def _parts_of(part: Part) -> Iterable[Part]:
+def _without_pictures(part: Part) -> Part | None:
+    """What is left of a part without its pictures, if anything is."""
     match part:
+        case Figure():
+            return None
         case Beside(parts) | Below(parts):
-            return parts
-        case Fields(rows):
-            return [inner for _, inner in rows]
-        case Table(_, table_rows):
-            return [cell for row in table_rows for cell in row]
-        case Fold(_, body) | In(_, body):
-            return [body]
-    return []
+            kept = [it for it in map(_without_pictures, parts) if it is not None]
+            if len(kept) < 2:
+                return kept[0] if kept else None
+            return replace(part, parts=tuple(kept))
+        case Fold(_, inner):
+            left = _without_pictures(inner)
+            return None if left is None else replace(part, body=left)
+        case In(_, inner):
+            left = _without_pictures(inner)
+            return None if left is None else replace(part, part=left)
+    return part
 
 
 @dataclass(frozen=True)

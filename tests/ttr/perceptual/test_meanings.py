@@ -1,9 +1,13 @@
 """Perceptual meanings: records, judged of situations and in models, and corrected."""
 
 import math
+import re
+from base64 import b64decode
+from xml.etree import ElementTree
 
 import pytest
 
+from rich_values import check_html
 from ttr import (
     Basic,
     Ind,
@@ -76,8 +80,19 @@ def test_a_meaning_is_a_record_and_prints_as_one(to_the_right):
         "params = {t = 0.09, w = [0.8, 0.01]}}"
     )
     assert "⎡t = 0.09       ⎤" in box(to_the_right.record)
-    assert to_the_right._repr_html_() == html(to_the_right.record)
-    assert to_the_right._repr_latex_().startswith("$")
+    assert to_the_right._repr_latex_() == to_the_right.record._repr_latex_()
+
+
+def test_a_meaning_of_points_shows_where_in_the_plane_it_holds(to_the_right):
+    check_html(to_the_right._repr_html_())
+    (drawn,) = re.findall(r'svg\+xml;base64,([^"]*)"', html(to_the_right))
+    squares = ElementTree.fromstring(b64decode(drawn)).findall(".//*[@fill-opacity]")
+    shades = {(it.get("x"), it.get("y")): it.get("fill-opacity") for it in squares}
+    assert len(shades) == CELLS**2
+    rightmost = max(shades, key=lambda at: float(at[0]))[0]
+    leftmost = min(shades, key=lambda at: float(at[0]))[0]
+    assert {shades[at] for at in shades if at[0] == rightmost} == {"1.00"}
+    assert {shades[at] for at in shades if at[0] == leftmost} == {"0.00"}
 
 
 def test_meanings_are_compared_as_records(to_the_right):
