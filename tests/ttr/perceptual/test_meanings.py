@@ -41,6 +41,7 @@ from ttr.semantics.perceptual import (
     meaning,
     perceive,
 )
+from ttr.semantics.perceptual.degree_maps import CELLS
 from ttr.types import Meet
 
 right = Pred("right", Ind)
