@@ -411,7 +411,7 @@ class Agent(NotebookValue):
         ...     robot.picture()
         <Picture of 640 x 480 pixels: things in view: 1 of them>
         """
-        self.do("glimpse")
+        self.change_scene("glimpse")
         assert self.view is not None
         return annotated_picture(self.view.look, self.names_in_view())
 

@@ -102,7 +102,7 @@ class Step(NotebookValue):
 
     def _shown_as_(self) -> Part:
         event = None if self.rule.on is None else self.event
-        taken = beside(Text("on", "quiet"), Value(event), _probability(self.p))
+        taken = below(_probability(self.p), Fold("the event", Value(event)))
         doc = Text(self.rule.doc.split("\n")[0]) if self.rule.doc else None
         return below(
             beside(Text(self.rule.name, "strong"), doc),
