@@ -37,6 +37,7 @@ _MANIFEST = """<?xml version="1.0" encoding="utf-8"?>
 <Properties>
 <Property Id="Microsoft.VisualStudio.Code.Engine" Value="{engine}"/>
 <Property Id="Microsoft.VisualStudio.Code.ExtensionKind" Value="workspace"/>
+<Property Id="Microsoft.VisualStudio.Code.ExecutesCode" Value="true"/>
 </Properties>
 </Metadata>
 <Installation><InstallationTarget Id="Microsoft.VisualStudio.Code"/></Installation>

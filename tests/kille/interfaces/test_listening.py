@@ -116,6 +116,8 @@ TTR = [
     Case(("test", FETCH, "--examples", "2")),
     Case(("show", FETCH, "Fetch")),
     Case(("repl",), "x : Ind\n"),
+    Case(("editor", "vscode", "ttr.vsix")),
+    Case(("lsp",)),
     Case(("fracas", "fracas.xml")),
 ]
 
