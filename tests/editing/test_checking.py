@@ -50,8 +50,8 @@ def test_every_message_for_editors_is_on_one_line() -> None:
     theories = Path(__file__).resolve().parent.parent / "theories"
     found = [
         line
-        for file in sorted(theories.glob("*.ttr"))
-        for finding in check_file(file).findings
+        for file in ("failing.ttr", "mistakes.ttr", "rule_mistakes.ttr")
+        for finding in check_file(theories / file).findings
         for line in str(finding).split("\n")
     ]
     assert len(found) > 20

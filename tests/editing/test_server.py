@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -10,7 +9,8 @@ from pathlib import Path
 import pytest
 from lsprotocol import types as lsp
 
-from language_client import PATIENCE, Client, Work, client_in_thread
+from language_client import Client, Work, client_in_thread
+from ttr.cli.main import main
 from ttr.editing.findings import check_file
 
 KENNEL = "# All that barks.\nbasic Ind\npred dog(Ind)\nobject fido : Ind\n"
@@ -181,6 +181,15 @@ def children_of(process: int) -> set[str]:
     return set(Path(f"/proc/{process}/task/{process}/children").read_text().split())
 
 
+def is_running(process: str) -> bool:
+    """Is this a process that has not ended, whoever has yet to be told of its end?"""
+    try:
+        told = Path(f"/proc/{process}/stat").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return told.rpartition(")")[2].split()[0] not in "ZX"
+
+
 def test_newest_text_wins_over_a_check_that_takes_long(
     folder: Path, with_client: Callable[[Work], None]
 ) -> None:
@@ -230,14 +239,29 @@ def test_hostile_texts_are_told_in_a_line(
     assert sorted(folder.iterdir()) == before
 
 
-def test_the_server_ends_when_its_client_dies(folder: Path) -> None:
-    command = [sys.executable, "-m", "ttr.cli.main", "lsp"]
-    server = subprocess.Popen(
-        command,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-    )
-    out, _ = server.communicate(b"Content-Length: 20\r\n\r\n{half", timeout=PATIENCE)
-    assert server.returncode == 0
-    assert b"Error in server" in out
+def test_the_server_and_its_worker_end_when_their_client_dies(folder: Path) -> None:
+    processes: set[str] = set()
+
+    async def work(client: Client) -> None:
+        uri = client.open(folder / "slow.ttr", pigeons(9))
+        hovered = None
+        while hovered is None:  # until the checks are at work
+            at = lsp.HoverParams(**client.at(uri, 1, 0))
+            hovered = await client.text_document_hover_async(at)
+        processes.update(children_of(client.process), {str(client.process)})
+
+    with client_in_thread() as run:
+        run(work)
+    assert len(processes) == 2
+    assert [it for it in processes if is_running(it)] == []
+
+
+def test_without_pygls_there_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delitem(sys.modules, "ttr.editing.server", raising=False)
+    monkeypatch.setitem(sys.modules, "pygls", None)
+    monkeypatch.delitem(sys.modules, "pygls.lsp.server", raising=False)
+    assert main(["lsp"]) == 2
+    said = capsys.readouterr().err
+    assert said == "ttr: lsp needs pygls: install it by pip install 'kille[editor]'\n"

@@ -66,6 +66,7 @@ def command(tmp_path: Path) -> str:
     return str(file)
 
 
+@pytest.mark.deep
 def test_the_extension_shows_what_the_server_says(
     extension: Path, command: str, tmp_path: Path
 ) -> None:

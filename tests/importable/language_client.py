@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import sys
 from collections.abc import Callable, Coroutine, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -39,13 +39,12 @@ class Client(LanguageClient):
         return self
 
     async def __aexit__(self, *_: object) -> None:
+        """Hangs up without a word, as a client does that dies; the server must end."""
         server = self._server
         assert server is not None
-        if server.returncode is None:
-            with suppress(Exception):
-                await self.shutdown_async(None)
-                self.exit(None)
-        await asyncio.wait_for(server.wait(), PATIENCE)
+        assert server.stdin is not None
+        server.stdin.close()
+        assert await asyncio.wait_for(server.wait(), PATIENCE) == 0
         await asyncio.wait_for(self.stop(), PATIENCE)
 
     @property

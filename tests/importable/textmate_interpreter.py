@@ -14,6 +14,9 @@ import regex
 
 Rule = dict[str, Any]
 
+_Ahead = dict[str, "regex.Match[str] | None"]
+"""The next match of each pattern in a line, as far as it has been looked for."""
+
 
 @cache
 def compiled(pattern: str) -> regex.Pattern[str]:
@@ -30,8 +33,9 @@ def _lines(grammar: Rule, text: str) -> Iterator[list[str]]:
     for line in text.splitlines(keepends=True):
         found = [""] * len(line)
         at = 0
+        ahead: _Ahead = {}
         while True:
-            step = _next_match(grammar, around, line, at)
+            step = _next_match(grammar, around, line, at, ahead)
             if step is None:
                 break
             match, rule, ends = step
@@ -59,17 +63,17 @@ def _paint(found: list[str], span: tuple[int, int], name: str) -> None:
 
 
 def _next_match(
-    grammar: Rule, around: list[Rule], line: str, at: int
+    grammar: Rule, around: list[Rule], line: str, at: int, ahead: _Ahead
 ) -> tuple[regex.Match[str], Rule, bool] | None:
     """The leftmost match; of those at one place the end, then the first in order."""
     best: tuple[regex.Match[str], Rule, bool] | None = None
     candidates = [(around[-1].get("end"), around[-1], True)]
     candidates += [
         (rule.get("match") or rule["begin"], rule, False)
-        for rule in _flat(grammar, around[-1]["patterns"])
+        for rule in _rules_in(grammar, around[-1])
     ]
     for pattern, rule, ends in candidates:
-        found = pattern and compiled(pattern).search(line, at)
+        found = pattern and _search(pattern, line, at, ahead)
         if found and (best is None or found.start() < best[0].start()):
             best = found, rule, ends
     return best
@@ -84,3 +88,21 @@ def _flat(grammar: Rule, rules: list[Rule]) -> Iterator[Rule]:
             yield rule
         else:
             yield from _flat(grammar, rule["patterns"])
+
+
+def _search(pattern: str, line: str, at: int, ahead: _Ahead) -> regex.Match[str] | None:
+    known = ahead.get(pattern)
+    if pattern in ahead and (known is None or known.start() >= at):
+        return known
+    ahead[pattern] = compiled(pattern).search(line, at)
+    return ahead[pattern]
+
+
+_RULES: dict[int, tuple[Rule, list[Rule]]] = {}
+
+
+def _rules_in(grammar: Rule, around: Rule) -> list[Rule]:
+    """The rules in a region, with what it includes; worked out once."""
+    if id(around) not in _RULES:
+        _RULES[id(around)] = around, [*_flat(grammar, around["patterns"])]
+    return _RULES[id(around)][1]

@@ -280,9 +280,8 @@ def test_the_command_says_its_version_and_loads_no_parser_for_help() -> None:
 
 WRONG_USE = {
     ("chek",): "ttr: there is no chek: did you mean check?",
-    (
-        "xyz",
-    ): "ttr: there is no xyz: try check, play, replay, test, show, repl, lsp, editor, fracas",
+    ("xyz",): "ttr: there is no xyz: try check, play, replay, test, show, repl, lsp, "
+    "editor, fracas",
     (): "ttr: a command is missing",
     ("check",): "ttr check: the following arguments are required: FILE",
     ("check", "a", "--jsn"): "ttr check: there is no --jsn: did you mean --json?",

@@ -12,6 +12,7 @@ import asyncio
 import os
 import re
 import sys
+from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -26,7 +27,7 @@ from pygls.workspace import TextDocument
 
 from ttr.dialogues.stories.line_events import VERBS
 from ttr.dialogues.stories.story_reader import MARKS
-from ttr.editing.outline import declarations
+from ttr.editing.outline import Declaration, declarations
 from ttr.editing.story_tokens import story_tokens
 from ttr.editing.tokens import (
     AFTER_TERMS,
@@ -279,7 +280,7 @@ class _Editor:
         name = found[2]
         here = [
             lsp.Location(uri, self._range_of_span(document, vars(one.span)))
-            for one in declarations(_text_of(document))
+            for one in _declared(_text_of(document))
             if one.name == name and not _is_story(uri)
         ]
         places = self._known.get(uri, _Known()).names.get(name, {}).get("places", ())
@@ -301,7 +302,9 @@ class _Editor:
         word = re.search(r"\w*$", line)
         before = line[: word.start()] if word else line
         around = self._token_at(document, position)
-        if around is not None and around.kind is Kind.COMMENT and before.strip():
+        if around is not None and around.kind is Kind.COMMENT:
+            return []
+        if around is not None and around.kind in _QUOTED and not _is_story(uri):
             return []
         if _is_story(uri) and not before.strip():
             return [_item(mark, lsp.CompletionItemKind.Keyword) for mark in MARKS]
@@ -315,7 +318,7 @@ class _Editor:
         known = self._known.get(uri, _Known()).names
         details = {name: one["statements"][0] for name, one in known.items()}
         items |= {name: _ITEMS[Kind(one["kind"])] for name, one in known.items()}
-        for one in () if _is_story(uri) else declarations(text):
+        for one in () if _is_story(uri) else _declared(text):
             items[one.name] = _ITEMS[one.kind]
             details[one.name] = one.statement
         words = _words_after(before, _is_story(uri))
@@ -336,7 +339,7 @@ class _Editor:
                 self._range_of(document, one.start, one.end),
                 self._range_of_span(document, vars(one.span)),
             )
-            for one in declarations(_text_of(document))
+            for one in _declared(_text_of(document))
         ]
 
     def _titles(self, document: TextDocument) -> list[lsp.DocumentSymbol]:
@@ -374,21 +377,21 @@ class _Editor:
         return int(document.position_codec.client_num_units(text))
 
     def _offset(self, document: TextDocument, position: lsp.Position) -> int:
-        lines = _text_of(document).split("\n")
-        if position.line >= len(lines):
-            return len(_text_of(document))
-        line, column = lines[position.line], 0
-        units = 0
-        while column < len(line) and units < position.character:
-            units += self._units(document, line[column])
-            column += 1
-        return sum(len(one) + 1 for one in lines[: position.line]) + column
+        text = _text_of(document)
+        starts = _line_starts(text)
+        if position.line >= len(starts):
+            return len(text)
+        at, units = starts[position.line], 0
+        while at < len(text) and text[at] != "\n" and units < position.character:
+            units += self._units(document, text[at])
+            at += 1
+        return at
 
     def _position(self, document: TextDocument, at: int) -> lsp.Position:
         text = _text_of(document)
-        start = text.rfind("\n", 0, at) + 1
-        units = self._units(document, text[start:at])
-        return lsp.Position(text.count("\n", 0, at), units)
+        starts = _line_starts(text)
+        line = bisect_right(starts, at) - 1
+        return lsp.Position(line, self._units(document, text[starts[line] : at]))
 
     def _range_of(self, document: TextDocument, start: int, end: int) -> lsp.Range:
         return lsp.Range(self._position(document, start), self._position(document, end))
@@ -397,9 +400,11 @@ class _Editor:
         self, document: TextDocument, line: int, column: int, end: int
     ) -> lsp.Range:
         """The place of characters in a line; all counted from 1."""
-        lines = _text_of(document).split("\n")
-        text = lines[line - 1] if line <= len(lines) else ""
-        return self._range_in(document, line, text, column, end)
+        text = _text_of(document)
+        starts = _line_starts(text)
+        start = starts[line - 1] if line <= len(starts) else len(text)
+        shown = text[start : start + end].partition("\n")[0]
+        return self._range_in(document, line, shown, column, end)
 
     def _range_in(
         self, document: TextDocument, line: int, text: str, column: int, end: int
@@ -547,6 +552,17 @@ def _plain_lines(text: str) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
+@lru_cache(maxsize=8)
+def _line_starts(text: str) -> tuple[int, ...]:
+    return (0, *(found.end() for found in re.finditer("\n", text)))
+
+
+@lru_cache(maxsize=8)
+def _declared(text: str) -> tuple[Declaration, ...]:
+    """The declarations; none of a text that is too large to be checked."""
+    return () if len(text) > THEORY.maximum else declarations(text)
+
+
 def _tokens(document: TextDocument) -> tuple[Token, ...]:
     return _tokens_of(_text_of(document), _is_story(document.uri))
 
@@ -572,6 +588,9 @@ def _as_markdown(text: str) -> str:
         return "computes to\n" + _fenced(text.removeprefix("computes to `")[:-1])
     return re.sub(r"([\\`*_{}\[\]()#+.!<>|~-])", r"\\\1", text)
 
+
+_QUOTED = (Kind.STRING, Kind.ERROR)
+"""The kinds of a quoted text, closed or open."""
 
 _ITEMS = {
     Kind.TYPE: lsp.CompletionItemKind.Class,
