@@ -135,9 +135,9 @@ class _Editor:
     # --- documents ---
 
     def document(self, uri: str) -> TextDocument | None:
-        """An open document that is a file."""
-        found = self._server.workspace.text_documents.get(uri)
-        return found if found is not None and _path_of(uri) else None
+        """An open document that is a file of a theory or of stories."""
+        is_ours = _path_of(uri).endswith((".ttr", ".dlg"))
+        return self._server.workspace.text_documents.get(uri) if is_ours else None
 
     def _documents(self) -> list[TextDocument]:
         uris_known = list(self._server.workspace.text_documents)
@@ -173,6 +173,10 @@ class _Editor:
         """The version of a document."""
         found = self.document(uri)
         return None if found is None else found.version
+
+    def versions(self) -> dict[str, int | None]:
+        """The version of each open document, by its path."""
+        return {_path_of(one.uri): one.version for one in self._documents()}
 
     # --- what the worker says ---
 
@@ -462,6 +466,7 @@ class _Checks:
         request, newest = self._editor.request_for(uri), self._editor.version_of(uri)
         if request is None:
             return
+        versions = self._editor.versions()
         self._at_work = (uri, newest)
         try:
             async with asyncio.timeout(_PATIENCE):
@@ -469,6 +474,9 @@ class _Checks:
                 self._editor.take_names(uri, names.get("names", []))
                 found = names if "findings" in names else await self._worker.reply()
             self._editor.take_findings(uri, newest, found["findings"], found["files"])
+            now = self._editor.versions()
+            if any(now.get(it) != versions.get(it) for it in found["files"]):
+                self.schedule(uri)
         except TimeoutError:
             self._worker.kill()
             self._complain(uri, newest, f"takes more than {_PATIENCE} seconds")
