@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterable
 from typing import Any
 
 from ttr.dialogues.stories.line_events import VERBS
@@ -37,8 +38,9 @@ _TAIL = r"in|if|only(?:\s+if)?|up(?:\s+to(?:\s+relabelling)?)?|of|where"
 """The keywords that follow a term."""
 
 
-def _any_of(words: object) -> str:
-    return "|".join(sorted(words, reverse=True))  # type: ignore[call-overload]
+def _any_of(words: Iterable[str]) -> str:
+    """One of the words; a longer one is tried before its beginning."""
+    return "|".join(sorted(words, reverse=True))
 
 
 def _match(scope: str, pattern: str) -> Rule:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import sleep
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from ttr.cli.command_line import WRONG_USE
 from ttr.cli.consent_options import add_allow
@@ -141,7 +141,7 @@ class _Watched:
         return any(_stamp(path) != stamp for path, stamp in self.stamps.items())
 
 
-def _watch(files: list[_Watched], show: Callable[[list[Checked]], None]) -> None:
+def _watch(files: list[_Watched], show: Callable[[list[Checked]], None]) -> NoReturn:
     """Checks files whenever one changes, until Ctrl-C."""
     changed = files
     while True:
