@@ -19,6 +19,7 @@ import re
 import sys
 import tempfile
 import time
+from base64 import b64decode
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import ModuleType
@@ -28,6 +29,7 @@ import jupytext
 import matplotlib
 from IPython.core.displayhook import DisplayHook
 from IPython.core.interactiveshell import InteractiveShell
+from IPython.core.pylabtools import select_figure_formats
 from IPython.display import publish_display_data
 from IPython.utils.capture import RichOutput, capture_output
 from matplotlib import pyplot as plt
@@ -72,6 +74,13 @@ class _Shell(InteractiveShell):
         """Nothing to do without a window."""
 
 
+class Shown(NamedTuple):
+    """What a cell shows: all that can be read, and its pictures as PNG files."""
+
+    text: str
+    pictures: tuple[bytes, ...]
+
+
 class NotebookError(Exception):
     """A page or a cell cannot be run, or shows something else than the page says."""
 
@@ -104,24 +113,24 @@ def read_cells(page: Path) -> list[Cell]:
     return cells
 
 
-def run_page(page: Path) -> list[str]:
-    """Run a notebook from top to bottom; what each cell shows, as text.
+def run_page(page: Path) -> list[Shown]:
+    """Run a notebook from top to bottom; what each cell shows.
 
     NotebookError names the first cell that fails, or that does not show what the page
     says of it. The folder it runs in must be empty afterwards.
     """
     cells = read_cells(page)
     with _empty_folder() as folder, _shell() as shell:
-        texts = [_run_cell(shell, page, cell) for cell in cells]
+        shown = [_run_cell(shell, page, cell) for cell in cells]
         left = sorted({it.name for it in folder.iterdir()} - _CACHES)
     if left:
         raise NotebookError(
             f"{page.name}: leaves {', '.join(left)} behind: write to a temporary folder"
         )
-    return texts
+    return shown
 
 
-def _run_cell(shell: InteractiveShell, page: Path, cell: Cell) -> str:
+def _run_cell(shell: InteractiveShell, page: Path, cell: Cell) -> Shown:
     with capture_output() as captured:
         done = shell.run_cell(cell.source)  # type: ignore[no-untyped-call]
     error = done.error_before_exec or done.error_in_exec
@@ -144,7 +153,8 @@ def _run_cell(shell: InteractiveShell, page: Path, cell: Cell) -> str:
                     f"does not show {told!r}, but {shown!r}: change the text below it",
                 )
             )
-    return text
+    pictures = (it.data.get("image/png") for it in captured.outputs)
+    return Shown(text, tuple(map(b64decode, filter(None, pictures))))
 
 
 def _complaint(page: Path, cell: Cell, what: str) -> str:
@@ -171,12 +181,14 @@ def _shell() -> Iterator[InteractiveShell]:
     hook = sys.excepthook
     shell = _Shell.instance(config=settings, user_module=ModuleType("notebook"))
     try:
-        shell.enable_matplotlib("inline")  # type: ignore[no-untyped-call]
-        yield shell
+        with matplotlib.rc_context():
+            shell.enable_matplotlib("inline")  # type: ignore[no-untyped-call]
+            # The backend does it once in a process, for the first shell.
+            select_figure_formats(shell, {"png"}, bbox_inches="tight")  # type: ignore[no-untyped-call]
+            yield shell
     finally:
         _Shell.clear_instance()
         plt.close("all")
-        matplotlib.rcdefaults()
         plt.switch_backend(backend)
         sys.excepthook = hook
 
