@@ -153,8 +153,13 @@ def _run_cell(shell: InteractiveShell, page: Path, cell: Cell) -> Shown:
                     f"does not show {told!r}, but {shown!r}: change the text below it",
                 )
             )
-    pictures = (it.data.get("image/png") for it in captured.outputs)
-    return Shown(text, tuple(map(b64decode, filter(None, pictures))))
+    pictures = filter(None, (it.data.get("image/png") for it in captured.outputs))
+    return Shown(text, tuple(map(_bytes_of, pictures)))
+
+
+def _bytes_of(picture: str | bytes) -> bytes:
+    """A picture as bytes; figures come in base64, what a value says of itself not."""
+    return b64decode(picture) if isinstance(picture, str) else picture
 
 
 def _complaint(page: Path, cell: Cell, what: str) -> str:
