@@ -1,4 +1,4 @@
-"""Draws the small pictures of the gallery anew: `python docs/pictures/gallery.py`.
+"""Draws the small pictures of the gallery anew: `python -m docs.pictures.gallery`.
 
 Each is a figure of its notebook, as the notebook draws it. Run it from the top folder.
 """
