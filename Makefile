@@ -4,6 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 INSTALLED := .venv/.installed
 SENSES := .venv/.senses
+DOCS := .venv/.docs
 
 # Who runs on each core waits for nobody's threads on another.
 SINGLE := OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
@@ -12,10 +13,10 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo talk serve test deep bench mutants oracles clean
+.PHONY: help demo talk serve test deep docs docs-serve bench mutants oracles clean
 
 help: ## show these lines
-	@sed -n 's/^\([a-z]*\):[^#]*## /\1\t/p' Makefile | expand -t 10
+	@sed -n 's/^\([a-z-]*\):[^#]*## /\1\t/p' Makefile | expand -t 12
 
 demo: $(INSTALLED) ## a tutor teaches the robot ten objects and where things are, and tests it
 	@$(BIN)/kille demo
@@ -44,6 +45,12 @@ endif
 deep: $(SENSES) ## the tests that take too long for every day; not a part of test
 	HYPOTHESIS_PROFILE=$${HYPOTHESIS_PROFILE:-deep} $(SINGLE) \
 	    $(BIN)/pytest -n auto --dist worksteal -m deep -o faulthandler_timeout=0
+
+docs: $(DOCS) ## build the site of the documentation, in site/
+	@$(BIN)/python -m tools.website
+
+docs-serve: docs ## build it, and show it in a browser at http://127.0.0.1:8000/
+	@$(BIN)/python -m tools.website serve
 
 # Hours of hostile inputs and of kills are for whoever asks for them by name.
 BENCHMARKS := $(filter-out %/fuzz.py %kills.py,$(wildcard benchmarks/[!_]*.py))
@@ -76,7 +83,7 @@ oracles: ## install the Debian packages that optional tests need
 	fi
 
 clean: ## remove all that was made here, .venv too
-	rm -rf .venv build dist *.egg-info .*_cache .hypothesis kille-demo*
+	rm -rf .venv build dist site *.egg-info .*_cache .hypothesis kille-demo*
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(INSTALLED): pyproject.toml
@@ -95,4 +102,8 @@ $(INSTALLED): pyproject.toml
 $(SENSES): $(INSTALLED)
 	@$(BIN)/python -m pip install -q -e '.[dev,senses]' || \
 	    echo "not all of kille[senses] can be installed here; its tests are skipped"
+	@touch $@
+
+$(DOCS): $(INSTALLED)
+	@$(BIN)/python -m pip install -q -e '.[docs]'
 	@touch $@
