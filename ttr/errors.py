@@ -84,7 +84,18 @@ class Span:
 
 
 class TTRError(Exception):
-    """Something that type theory, notation or an update rule does not allow."""
+    """Something that type theory, notation or an update rule does not allow.
+
+    `message` says what, in one line, and `hint` what to do; `span` is where it stands
+    in a text, if it was read from one.
+
+    >>> from ttr import parse
+    >>> try:
+    ...     parse("[x : ]")
+    ... except TTRError as error:
+    ...     print(error.span is not None)
+    True
+    """
 
     def __init__(self, message: str, *, span: Span | None = None, hint: str = ""):
         super().__init__(message)

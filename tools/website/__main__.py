@@ -11,7 +11,7 @@ from pathlib import Path
 from sphinx.cmd.build import main as sphinx
 
 from tools.website.composing import compose
-from tools.website.html_check import lost_links
+from tools.website.html_check import compact, lost_links
 from tools.website.public_names import ROOT
 from tools.website.source_pages import write_source_pages
 
@@ -38,10 +38,14 @@ def build(site: Path = SITE, work: Path = WORK) -> int:
     )
     if status:
         return status
+    for page in site.rglob("*.html"):
+        text = page.read_text("utf-8")
+        if (shorter := compact(text)) != text:
+            page.write_text(shorter, encoding="utf-8")
     write_source_pages(files, site / "source")
     lost = lost_links(site)
-    for page, links in lost.items():
-        print(f"{page}: nothing is at {', '.join(links)}", file=sys.stderr)
+    for name, links in lost.items():
+        print(f"{name}: nothing is at {', '.join(links)}", file=sys.stderr)
     return 1 if lost else 0
 
 
@@ -57,6 +61,7 @@ def serve(site: Path = SITE, port: int = 8000) -> None:
 
 
 def main() -> int:
+    """Builds or serves, as the command line says; the exit code."""
     parser = argparse.ArgumentParser(
         prog="python -m tools.website", description=__doc__
     )

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from tools.website.docstrings import docstring_as_myst, prose_as_myst, sentences
 from tools.website.public_names import (
+    ROOT,
     Member,
     PublicName,
     Room,
@@ -75,6 +76,27 @@ def link_in(module: str, page: str) -> _Linker:
 
 
 @cache
+def overview() -> Mapping[str, str]:
+    """What the tables of the overview of Python say of names, by their dotted names."""
+    text = (ROOT / "docs" / "reference" / "python.md").read_text("utf-8")
+    found, room = {}, ""
+    for line in text.splitlines():
+        if line.startswith("#"):
+            room = line.strip("# `")
+        if line.startswith("| `"):
+            _, names, said = re.split(r"(?<!\\)\|", line.strip().removesuffix("|"))
+            said = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", said.strip())
+            for name in re.findall(r"`(\w+)`", names):
+                found[f"{room}.{name}"] = said.replace("\\|", "|")
+    return found
+
+
+def _said(path: str, doc: str) -> str:
+    """A docstring, or what the overview says where there is none."""
+    return doc or overview().get(path, "")
+
+
+@cache
 def _pages_by_small_letters() -> Counter[str]:
     """How many names there are that some file systems take for one."""
     rooms = (it.lower() for it in public_rooms())
@@ -94,7 +116,11 @@ class _Linker:
             return None
         if name in public_rooms():
             target = room_page(name)
-        elif found := (named_in(self.module, name) or known_paths().get(name)):
+        elif found := (
+            named_in(self.module, name)
+            or known_paths().get(name)
+            or known_paths().get(f"ttr.errors.{name}")
+        ):
             target = page_of(found)
         else:
             return None
@@ -143,7 +169,7 @@ def _directive(name: PublicName, link: _Linker) -> str:
         signature = signature_of(name.value, module)
     inner = [
         _source_link(name.source),
-        docstring_as_myst(name.doc, link),
+        docstring_as_myst(_said(name.path, name.doc), link),
         _table(signature, name.doc, name.source),
     ]
     body = "\n\n".join(it for it in inner if it)
@@ -185,7 +211,7 @@ def _member(name: PublicName, it: Member, link: _Linker) -> str:
         options.append(f":type: {qualified(typed, module)}")
     inner = [
         _source_link(it.source),
-        docstring_as_myst(it.source.doc, link),
+        docstring_as_myst(_said(f"{name.path}.{it.name}", it.source.doc), link),
         _table(signature, it.source.doc, it.source),
     ]
     body = "\n\n".join(part for part in inner if part)
@@ -308,7 +334,9 @@ def _room_page(room: Room) -> str:
 
 
 def _listed(name: PublicName, link: _Linker) -> str:
-    said = prose_as_myst(first_sentence(name.doc), link).replace("|", "\\|")
+    said = prose_as_myst(first_sentence(_said(name.path, name.doc)), link).replace(
+        "|", "\\|"
+    )
     return f"| [`{name.name}`](/{page_of(name)}.md) | {said} |"
 
 

@@ -1,4 +1,4 @@
-"""The works that the documentation cites, `docs/references.bib`, and how it cites them."""
+"""The works that the documentation cites, `docs/references.bib`, and how it does."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ REFERENCES = ROOT / "docs" / "references.bib"
 BIBLIOGRAPHY = """\
 # Works cited
 
-The works that these pages cite. Which definitions of them are in the code, and where, is told by
-[which definitions](/explanation/which-definitions.md).
+The works that these pages cite. Which definitions of them are in the code, and where,
+is told by [which definitions](/explanation/which-definitions.md).
 
 ```{bibliography}
 :all:

@@ -27,7 +27,7 @@ FRONT = HERE / "front.md"
 SECTIONS = {
     "how-to": (
         "How to",
-        "Each page answers one question, with commands and code that run as tests.",
+        "A question a page, with code that runs as a test.",
     ),
     "explanation": ("Explanation", "What it means, why it is so, and what was found."),
     "reference": ("Reference", "What there is, to look things up in."),
@@ -54,7 +54,7 @@ def compose(folder: Path) -> set[Path]:
     pages = Pages(cited_as())
     made = {**_repository(pages), **_sections(), **api_pages(), **game_pages()}
     made["reference/bibliography"] = BIBLIOGRAPHY
-    made["index"] = FRONT.read_text("utf-8") + _contents()
+    made["index"] = _front()
     folder.mkdir(parents=True, exist_ok=True)
     written = {Path(f"{name}.md") for name in made}
     for old in folder.rglob("*.md"):
@@ -91,7 +91,7 @@ def _repository(pages: Pages) -> Mapping[str, str]:
     return found
 
 
-def _sections() -> Iterator[tuple[str, str]] | Mapping[str, str]:
+def _sections() -> Mapping[str, str]:
     """The pages that list what is in each section, in the order of the index."""
     index = (DOCS / "index.md").read_text("utf-8")
     listed = [*dict.fromkeys(filter(None, map(staged, linked_pages(index))))]
@@ -128,6 +128,29 @@ def _card(name: str, section: str) -> str:
     said = re.split(r"(?<=[.!?:]) ", first_paragraph(text))[0].rstrip(":")
     target = name.removeprefix(f"{section}/")
     return f"**[{title_of(text)}]({target}.md)**\n: {said}\n"
+
+
+def _front() -> str:
+    """The front page, with ways to what there is."""
+    text = FRONT.read_text("utf-8")
+    for word, (page, link) in _WAYS.items():
+        there = (DOCS / page).is_file()
+        text = text.replace(f"{word}\n", f"{link}\n" if there else "")
+    return text + _contents()
+
+
+_WAYS = {
+    "GALLERY": (
+        "gallery/index.md",
+        '<a href="gallery/index.html"><b>Gallery</b> Notebooks, a question each: what is'
+        " a dog, what is a cup, what does most dogs mean?</a>",
+    ),
+    "PLAYGROUND": (
+        "playground.md",
+        '<a href="playground.html"><b>Playground</b> Write a theory in the browser,'
+        " without installing anything.</a>",
+    ),
+}
 
 
 def _contents() -> str:

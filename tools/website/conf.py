@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from docutils import nodes
-from pygments.lexer import Lexer
 from pygments.lexers import TextLexer, find_lexer_class_by_name
 from pygments.util import ClassNotFound
 from sphinx.addnodes import pending_xref
@@ -67,8 +66,8 @@ html_theme_options = {
         "color-brand-primary": "#1f5f8b",
         "color-brand-content": "#1f5f8b",
         "color-brand-visited": "#5b4a8a",
-        "font-stack": "'Source Sans 3', 'Segoe UI', system-ui, 'DejaVu Sans', sans-serif",
-        "font-stack--monospace": "'JuliaMono', 'DejaVu Sans Mono', 'Cascadia Mono', Menlo, Consolas, monospace",
+        "font-stack": "'Source Sans 3', 'Segoe UI', system-ui, sans-serif",
+        "font-stack--monospace": "'DejaVu Sans Mono', Menlo, Consolas, monospace",
     },
     "dark_css_variables": {
         "color-brand-primary": "#7db8e0",
@@ -83,7 +82,9 @@ suppress_warnings = ["myst.strikethrough", "mystnb.unknown_mime_type"]
 def setup(app: Sphinx) -> dict[str, bool]:
     """Adds what the pages need of Sphinx and it does not have."""
     for name in ("ttr", "dlg"):
-        if find_lexer_class_by_name_or_none(name) is None:
+        try:
+            find_lexer_class_by_name(name)
+        except ClassNotFound:
             app.add_lexer(name, TextLexer)
     app.connect("doctree-read", leave_foreign_names)
     app.connect("html-page-context", add_room)
@@ -103,14 +104,6 @@ def add_room(
             (it.name, page_of(it))
             for it in (public_rooms()[room].names if room in public_rooms() else ())
         ]
-
-
-def find_lexer_class_by_name_or_none(name: str) -> type[Lexer] | None:
-    """The lexer of this name, if one is installed."""
-    try:
-        return find_lexer_class_by_name(name)
-    except ClassNotFound:
-        return None
 
 
 def leave_foreign_names(app: Sphinx, doctree: nodes.document) -> None:

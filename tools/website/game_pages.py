@@ -44,7 +44,7 @@ def _page(name: str, title: str, table: str) -> str:
         [
             "---\norphan: true\n---",
             f"# {prose_as_myst(title)}",
-            f'[All games](index.md) · <a href="{href}">kille/dialogue/games/{name}.py</a>',
+            f'[All games](index.md) · <a href="{href}">{name}.py</a>',
             doc,
             "## A dialogue",
             *_turns(table),
@@ -64,9 +64,8 @@ def _turns(table: str) -> Iterator[str]:
         inner += [f"- {it}" for it in changes.split("<br>") if it]
         if inner:
             listed = "\n".join(inner)
-            parts.append(
-                f"<details><summary>What fires, and what changes</summary>\n\n{listed}\n\n</details>"
-            )
+            summary = "<summary>What fires, and what changes</summary>"
+            parts.append(f"<details>{summary}\n\n{listed}\n\n</details>")
         yield "\n\n".join(parts)
 
 

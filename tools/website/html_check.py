@@ -35,9 +35,11 @@ def _lost(page: Path, folder: Path) -> Iterator[str]:
             target = target / "index.html"
         if folder not in [target, *target.parents] or not target.is_file():
             yield link
-        elif parts.fragment and target.suffix == ".html":
-            if unquote(parts.fragment) not in _parts(target)[1]:
-                yield link
+        elif (
+            target.suffix == ".html"
+            and unquote(parts.fragment) not in _parts(target)[1]
+        ):
+            yield link
 
 
 @cache
@@ -48,3 +50,19 @@ def _parts(page: Path) -> tuple[frozenset[str], frozenset[str]]:
     links = frozenset(unescape(a or b) for a, b in _LED_TO.findall(tags))
     names = frozenset(unescape(a or b) for a, b in _NAMED.findall(tags))
     return links - {"", "data:,"}, names | {"", "top"}
+
+
+def compact(text: str) -> str:
+    """The page without what nobody sees: icons it does not use, and indentation.
+
+    >>> compact("<ul>\\n    <li>one</li></ul><pre>  as it is</pre>")
+    '<ul>\\n<li>one</li></ul><pre>  as it is</pre>'
+    """
+    text = _UNUSED.sub("", text)
+    parts = re.split(r"(<pre\b.*?</pre>)", text, flags=re.S)
+    return "".join(
+        it if i % 2 else re.sub(r"\s*\n\s*", "\n", it) for i, it in enumerate(parts)
+    )
+
+
+_UNUSED = re.compile(r'<symbol id="svg-(?:pencil|eye)".*?</symbol>', flags=re.S)

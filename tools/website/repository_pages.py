@@ -1,8 +1,8 @@
 """The Markdown of the repository as pages of the site: links lead to pages there.
 
-What readers see in the repository stays as it is. On the site a link to a page is one to
-the page, a link to a file of the program one to its text, names of Python lead to the
-reference, and works that are cited to the bibliography.
+What readers see in the repository stays as it is. On the site a link to a page is one
+to the page, a link to a file of the program one to its text, names of Python lead to
+the reference, and works that are cited to the bibliography.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from tools.website.api_pages import FOLDER, page_of, room_page
@@ -96,13 +97,12 @@ class Pages:
             re.escape(it).replace(r"\ ", r"\s+")
             for it in sorted(self.bibliography, key=len, reverse=True)
         )
-        return re.sub(
-            rf"(?<![\w(])(?:{every})(?!\w)",
-            lambda it: (
-                f'<a class="cited" href="{up}#{self.bibliography[" ".join(it[0].split())]}">{it[0]}</a>'
-            ),
-            text,
-        )
+
+        def link(found: re.Match[str]) -> str:
+            place = self.bibliography[" ".join(found[0].split())]
+            return f'<a class="cited" href="{up}#{place}">{found[0]}</a>'
+
+        return re.sub(rf"(?<![\w(])(?:{every})(?!\w)", link, text)
 
 
 def staged(path: Path) -> str | None:
@@ -228,7 +228,9 @@ def _rows(text: str, named: Mapping[str, str]) -> str:
                 line = f"{line}\n\n[Each name by itself](/{FOLDER}/{room}.md)"
         if line.startswith("| `"):
             _, first, rest = line.split("|", 2)
-            first = re.sub(r"`(\w+)`", lambda it: _row_link(it, room, named), first)
+            first = re.sub(
+                r"`(\w+)`", partial(_row_link, room=room, named=named), first
+            )
             line = f"|{first}|{rest}"
         lines.append(line)
     return "\n".join(lines)

@@ -114,7 +114,7 @@ def _part(it: inspect.Parameter, module: str) -> str:
 
 
 def _parameter(it: inspect.Parameter) -> Parameter:
-    stars = {it.VAR_POSITIONAL: "*", it.VAR_KEYWORD: "**"}.get(it.kind, "")
+    stars = "*" * ((it.kind is it.VAR_POSITIONAL) + 2 * (it.kind is it.VAR_KEYWORD))
     return Parameter(stars + it.name, _written(it.annotation), _default(it.default))
 
 

@@ -21,7 +21,8 @@ _PAGE = """\
 <!doctype html>
 <html lang="en">
 <head>
-<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title} – Kille</title>
 <link rel="stylesheet" href="{up}_static/source.css">
 <link rel="icon" href="data:,">

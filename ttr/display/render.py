@@ -89,6 +89,10 @@ def html(
 
     Its colours are those of the page. When it is copied, the notation is copied. For
     values, `unfold` and errors see `latex`; pictures are in it.
+
+    >>> from ttr import Ind, rectype
+    >>> "<script" in html(rectype(x=Ind)), "Ind" in html(rectype(x=Ind))
+    (False, True)
     """
     to_layout = layout_function(theory, unfold)
     if has_parts(value):

@@ -323,6 +323,14 @@ def load(
 
     An `import` in it is relative to the file, and may not lead out of the file's folder
     but into the folders that `allow` names.
+
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "kennel.ttr")
+    ...     _ = file.write_text("basic Ind; Pet := [x : Ind]")
+    ...     print(load(file).Dog)
+    [x : Ind, c : dog(x)]
     """
     if not isinstance(path, str | os.PathLike):
         raise TTRError(f"load takes the path of a file, found {kind_of(path)}")

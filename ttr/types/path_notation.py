@@ -76,7 +76,16 @@ this = PathTo(0)
 It is the innermost record type around the place where it ends up. A Python function
 that puts a record type around its argument captures it: to compose with functions write
 `rectype(x=Ind, c=lambda r: P(r.x))`, where `r.x` is always the x of this record type.
+
+>>> from ttr import Ind, Pred, rectype, this
+>>> print(rectype(x=Ind, c=Pred("dog", Ind)(this.x)))
+[x : Ind, c : dog(x)]
 """
 
 outer = PathTo(1)
-"""The record one further out, `^.x`; `outer(2).x` is two further out."""
+"""The record one further out, `^.x`; `outer(2).x` is two further out.
+
+>>> from ttr import Ind, Pred, outer, rectype
+>>> print(rectype(x=Ind, e=rectype(c=Pred("dog", Ind)(outer.x))))
+[x : Ind, e : [c : dog(^.x)]]
+"""

@@ -120,7 +120,13 @@ def kind_of(value: object) -> str:
 
 @node
 class Basic(TypeNode):
-    """A basic type: a name, and whatever a model judges to be of it."""
+    """A basic type: a name, and whatever a model judges to be of it.
+
+    >>> from ttr import Model
+    >>> Topic = Basic("Topic")
+    >>> Model().given("rain", Topic).judge("rain", Topic).holds
+    True
+    """
 
     name: str
 
@@ -262,7 +268,13 @@ class _Of(TypeNode):
 
 @node
 class ListOf(_Of):
-    """list(T): the type of the finite lists of objects of T."""
+    """list(T): the type of the finite lists of objects of T.
+
+    >>> from ttr import Model
+    >>> M = Model().given("fido", Ind).given("rex", Ind)
+    >>> M.judge(("fido", "rex", "fido"), ListOf(Ind)).holds
+    True
+    """
 
     item: TypeNode
     _sign = "list"
@@ -278,7 +290,13 @@ class NonEmpty(_Of):
 
 @node
 class SetOf(_Of):
-    """set(T): the type of the finite sets of objects of T."""
+    """set(T): the type of the finite sets of objects of T.
+
+    >>> from ttr import Model
+    >>> M = Model().given("fido", Ind).given("rex", Ind)
+    >>> M.judge({"fido", "rex"}, SetOf(Ind)).holds
+    True
+    """
 
     item: TypeNode
     _sign = "set"
@@ -286,7 +304,14 @@ class SetOf(_Of):
 
 @node
 class Plus(_Of):
-    """plus(T), T⁺: the strings that are one or more strings or events of T in a row."""
+    """plus(T), T⁺: the strings that are one or more strings or events of T in a row.
+
+    >>> Step = Basic("Step")
+    >>> Str(Step, Step, Step) <= Plus(Step)
+    True
+    >>> Plus(Step) <= Str(Step, Step, Step)
+    False
+    """
 
     item: TypeNode
     _sign = "plus"
@@ -572,13 +597,33 @@ def _flat_parts(
 
 
 Ind = Basic("Ind")
-"""The basic type of individuals."""
+"""The basic type of individuals.
+
+>>> from ttr import Ind, Model
+>>> Model().given("fido", Ind).judge("fido", Ind).holds
+True
+"""
 
 Type = Universe("Type")
-"""The type of all types of level 0, those that mention neither Type nor RecType."""
+"""The type of all types of level 0, those that mention neither Type nor RecType.
+
+>>> from ttr import Ind, Model, RecType, Type
+>>> Model().judge(Ind, Type).holds, Model().judge(RecType, Type).holds
+(True, False)
+"""
 
 RecType = Universe("RecType")
-"""The type of all record types of level 0."""
+"""The type of all record types of level 0.
+
+>>> from ttr import Ind, Model, RecType, rectype
+>>> Model().judge(rectype(x=Ind), RecType).holds, Model().judge(Ind, RecType).holds
+(True, False)
+"""
 
 Rec = RecordType(())
-"""The record type without fields: every record is of it."""
+"""The record type without fields: every record is of it.
+
+>>> from ttr import Ind, Rec, rectype
+>>> rectype(x=Ind) <= Rec
+True
+"""

@@ -8,6 +8,18 @@ after every rule; a `Game` is what is needed to play whole dialogues.
 Read `rules`, `update_strategies`, `running` and `games` first; `matching` finds what a
 rule binds, `effect_application` makes the next state, and `checks` finds faults in
 rules without running them. This room may use `judging` and what is below it.
+
+>>> from ttr import Model, Theory, record
+>>> board = Theory.parse('''
+...     basic Ind
+...     object ann, bo : Ind
+...     Board := [spkr : Ind, addr : Ind]
+...     rule turn(s : Board) "Who was spoken to speaks."
+...         where [a = s.addr : Ind] := [spkr = a : Ind, addr = s.spkr : Ind]
+... ''')
+>>> turn, start = board.rules["turn"], record(spkr="ann", addr="bo")
+>>> print(run(turn, start, type=board.Board, model=Model(board)).state)
+{addr = ann, spkr = bo}
 """
 
 from typing import TYPE_CHECKING
