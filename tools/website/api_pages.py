@@ -349,9 +349,9 @@ def _index() -> str:
     """The page of all rooms."""
     parts = [
         "# Python, name by name\n",
-        "Every public name of the two libraries has a page, with its signature, what it",
-        "means, what it raises and an example. For an overview that you can read from top",
-        "to bottom, see [Python](/reference/python.md).\n",
+        "Every public name of the two libraries has a page, with its signature, what",
+        "it means and what it raises. For an overview that you can read from top to",
+        "bottom, see [Python](/reference/python.md).\n",
     ]
     for package, said in (
         ("ttr", "Type Theory with Records"),

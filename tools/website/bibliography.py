@@ -40,7 +40,7 @@ def cited_as() -> Mapping[str, str]:
 
 
 def _citations(entry: Entry) -> set[str]:
-    """How a work can be cited: by its authors, the year with and without parentheses."""
+    """How a work can be cited: by its authors and the year, in parentheses or not."""
     names = [_surname(it) for it in entry.persons.get("author", [])]
     year = entry.fields.get("year", "")
     if not names or not year:

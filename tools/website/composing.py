@@ -142,8 +142,8 @@ def _front() -> str:
 _WAYS = {
     "GALLERY": (
         "gallery/index.md",
-        '<a href="gallery/index.html"><b>Gallery</b> Notebooks, a question each: what is'
-        " a dog, what is a cup, what does most dogs mean?</a>",
+        '<a href="gallery/index.html"><b>Gallery</b> Notebooks, a question each:'
+        " what is a cup, what does most dogs mean?</a>",
     ),
     "PLAYGROUND": (
         "playground.md",

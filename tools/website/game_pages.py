@@ -113,8 +113,8 @@ def _notation(rule: Rule) -> str:
 def _index(sections: Mapping[str, tuple[str, str]]) -> str:
     lines = [
         "# The games of tutoring, one by one\n",
-        "What a tutor and the robot can do with words is a game, and a game is a page of",
-        "rules of update. [One page](/reference/games.md) has them all.\n",
+        "What a tutor and the robot can do with words is a game, and a game is a page",
+        "of rules of update. [One page](/reference/games.md) has them all.\n",
         "| game | is |",
         "| --- | --- |",
     ]

@@ -228,7 +228,7 @@ def _bindings(module: str) -> Mapping[str, tuple[ast.stmt, str]]:
 
 
 def _bound(body: Sequence[ast.stmt]) -> Iterator[tuple[str, tuple[ast.stmt, str]]]:
-    """The names that statements bind, each with its statement and what is said of it."""
+    """The names that statements bind, each with its statement and its docstring."""
     for statement, after in zip(body, [*body[1:], None], strict=True):
         said = _string(after)
         match statement:

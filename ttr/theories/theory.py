@@ -328,9 +328,9 @@ def load(
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
     ...     file = Path(folder, "kennel.ttr")
-    ...     _ = file.write_text("basic Ind; Pet := [x : Ind]")
-    ...     print(load(file).Dog)
-    [x : Ind, c : dog(x)]
+    ...     _ = file.write_text("basic Ind\\nPet := [x : Ind]")
+    ...     print(load(file).Pet)
+    [x : Ind]
     """
     if not isinstance(path, str | os.PathLike):
         raise TTRError(f"load takes the path of a file, found {kind_of(path)}")

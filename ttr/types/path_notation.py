@@ -85,7 +85,7 @@ that puts a record type around its argument captures it: to compose with functio
 outer = PathTo(1)
 """The record one further out, `^.x`; `outer(2).x` is two further out.
 
->>> from ttr import Ind, Pred, outer, rectype
->>> print(rectype(x=Ind, e=rectype(c=Pred("dog", Ind)(outer.x))))
-[x : Ind, e : [c : dog(^.x)]]
+>>> from ttr import Ind, Pred, outer, rectype, this
+>>> print(rectype(x=Ind, e=rectype(x=Ind, c=Pred("hug", Ind, Ind)(this.x, outer.x))))
+[x : Ind, e : [x : Ind, c : hug(x, ^.x)]]
 """

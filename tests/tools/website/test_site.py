@@ -1,0 +1,131 @@
+"""The site: every public name has a page, links lead somewhere, pages can be read."""
+
+from __future__ import annotations
+
+import ast
+import doctest
+import random
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("sphinx", reason="Sphinx is not installed: kille[docs]")
+
+import kille
+import ttr
+from browsers import IN_BROWSER
+from tools.website.__main__ import build
+from tools.website.api_pages import api_pages, page_of
+from tools.website.bibliography import cited_as
+from tools.website.docstrings import docstring_as_myst, has_example
+from tools.website.html_check import compact, lost_links
+from tools.website.public_names import ROOT, PublicName, public_names, public_rooms
+
+
+def test_every_public_name_has_a_page_and_every_room_an_index() -> None:
+    pages = api_pages()
+    for room in public_rooms().values():
+        index = pages[f"api/{room.name}"]
+        for name in room.names:
+            assert name.name in pages[page_of(name)]
+            assert f"/{page_of(name)}.md" in index
+    every = {name for it in public_rooms().values() for name in it.names}
+    assert {it.name for it in public_rooms()["ttr"].names} == set(ttr.__all__)
+    assert {it.name for it in public_rooms()["kille"].names} == set(kille.__all__)
+    assert {page_of(it).lower() for it in every} <= {it.lower() for it in pages}
+    assert len({it.lower() for it in pages}) == len(pages), "some disks know no case"
+
+
+def test_every_name_of_ttr_has_an_example() -> None:
+    names = public_rooms()["ttr"].names
+    assert [it.name for it in names if not has_example(docs_of(it))] == []
+
+
+def docs_of(name: PublicName) -> str:
+    """The docstrings of a name and of its members."""
+    return "\n".join([name.doc, *(it.source.doc for it in name.members)])
+
+
+def test_the_examples_of_values_are_true() -> None:
+    """Those of functions and classes run with all doctests."""
+    for it in public_names().values():
+        if it.kind == "data" and it.path.startswith("ttr."):
+            test = doctest.DocTestParser().get_doctest(it.doc, {}, it.path, None, 0)
+            assert doctest.DocTestRunner().run(test).failed == 0, it.path
+
+
+def test_a_docstring_keeps_its_formulas_and_examples() -> None:
+    written = docstring_as_myst("p_o of [x : Ind] is `a_b`.\n\n- one\n\n>>> 1\n1")
+    assert r"p\_o of \[x : Ind\] is `a_b`." in written
+    assert "- one" in written
+    assert written.endswith("```pycon\n>>> 1\n1\n```")
+
+
+def test_a_link_that_leads_nowhere_is_found(tmp_path: Path) -> None:
+    (tmp_path / "a.html").write_text('<a href="b.html#x">b</a><h1 id="top">a</h1>')
+    (tmp_path / "b.html").write_text('<p id="x"><a href="a.html#y"></a><img src="c">')
+    assert lost_links(tmp_path) == {"b.html": ["a.html#y", "c"]}
+
+
+def test_compact_pages_keep_their_code() -> None:
+    page = "<ul>\n    <li>one</li>\n</ul><pre>  as\n  it is</pre>"
+    assert compact(page) == "<ul>\n<li>one</li>\n</ul><pre>  as\n  it is</pre>"
+
+
+def test_works_are_found_as_the_pages_cite_them() -> None:
+    assert cited_as()["Dobnik and de Graaf 2017"] == "cite-dobnik2017"
+    pages = [it.read_text("utf-8") for it in (ROOT / "docs").rglob("*.md")]
+    text = " ".join(" ".join(pages).split())
+    places = {place for said, place in cited_as().items() if said in text}
+    assert set(cited_as().values()) == places, "a work that no page cites"
+
+
+def test_the_citation_has_what_cff_asks_for() -> None:
+    text = (ROOT / "CITATION.cff").read_text("utf-8")
+    keys = dict(re.findall(r"^([a-z-]+):(.*)$", text, flags=re.M))
+    assert {"cff-version", "message", "title", "authors"} <= keys.keys()
+    assert keys["cff-version"].strip() == "1.2.0"
+    project = (ROOT / "pyproject.toml").read_text("utf-8")
+    assert f'version = "{keys["version"].strip()}"' in project
+    assert f'license = "{keys["license"].strip()}"' in project
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The whole site, built without a warning and without a lost link."""
+    folder = tmp_path_factory.mktemp("site")
+    assert build(folder / "site", folder / "work") == 0
+    return folder / "site"
+
+
+@pytest.mark.deep
+def test_the_whole_site_is_built_and_not_large(site: Path) -> None:
+    files = [it for it in site.rglob("*") if "playground" not in it.as_posix()]
+    assert sum(it.stat().st_size for it in files if it.is_file()) < 30_000_000
+
+
+def random_pages(site: Path) -> list[Path]:
+    pages = sorted(site.rglob("*.html"))
+    return [site / "index.html", *random.Random(26).sample(pages, 100)]
+
+
+@pytest.mark.deep
+def test_a_hundred_pages_fit_a_telephone(site: Path, chromium: Any) -> None:
+    context = chromium.new_context(viewport={"width": 390, "height": 800})
+    tab = context.new_page()
+    said: list[str] = []
+    tab.on("console", lambda it: said.append(it.text) if it.type == "error" else None)
+    tab.on("pageerror", lambda it: said.append(str(it)))
+    wide = []
+    for page in random_pages(site):
+        tab.goto(page.as_uri())
+        if tab.evaluate("document.documentElement.scrollWidth") > 390:
+            wide.append(page.name)
+    context.close()
+    assert (wide, said) == ([], [])
+
+
+for mark in IN_BROWSER:
+    test_a_hundred_pages_fit_a_telephone = mark(test_a_hundred_pages_fit_a_telephone)
