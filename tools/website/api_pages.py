@@ -62,7 +62,8 @@ def page_of(name: PublicName) -> str:
     if name.kind == "module":
         return room_page(name.source.module)
     same = _pages_by_small_letters()[name.path.lower()] > 1
-    return f"{FOLDER}/{name.path}{'-class' if same and name.kind == 'class' else ''}"
+    suffix = f"-{name.kind}" if same and name.kind != "function" else ""
+    return f"{FOLDER}/{name.path}{suffix}"
 
 
 def room_page(room: str) -> str:

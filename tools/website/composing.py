@@ -27,7 +27,7 @@ FRONT = HERE / "front.md"
 SECTIONS = {
     "how-to": (
         "How to",
-        "A question a page, with code that runs as a test.",
+        "A question a page.",
     ),
     "explanation": ("Explanation", "What it means, why it is so, and what was found."),
     "reference": ("Reference", "What there is, to look things up in."),
@@ -43,7 +43,7 @@ _ALWAYS_SHOWN = [
     "LICENSE",
 ]
 _MADE = ("api/", "decisions/", "games/")
-"""Pages that are found by an index of theirs, not in the list of contents at the side."""
+"""Pages that an index of theirs lists, and not the list of contents at the side."""
 
 
 def compose(folder: Path) -> set[Path]:

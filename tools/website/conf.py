@@ -96,7 +96,7 @@ def add_room(
 ) -> None:
     """Tells the list at the side of a page of the reference which room it is of."""
     if page.startswith("api/"):
-        name = page.removeprefix("api/").removesuffix("-class")
+        name = page.removeprefix("api/").partition("-")[0]
         public = known_paths().get(name)
         room = public.room if public and name not in public_rooms() else name
         context["room"] = room

@@ -33,11 +33,13 @@ def _lost(page: Path, folder: Path) -> Iterator[str]:
         target = (page.parent / path).resolve() if path else page
         if target.is_dir():
             target = target / "index.html"
-        if folder not in [target, *target.parents] or not target.is_file():
-            yield link
-        elif (
-            target.suffix == ".html"
-            and unquote(parts.fragment) not in _parts(target)[1]
+        if (
+            folder not in [target, *target.parents]
+            or not target.is_file()
+            or (
+                target.suffix == ".html"
+                and unquote(parts.fragment) not in _parts(target)[1]
+            )
         ):
             yield link
 

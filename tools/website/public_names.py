@@ -57,7 +57,7 @@ class Member:
     owner: type
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PublicName:
     """A public name, at home in one room, perhaps to be had from others."""
 

@@ -461,6 +461,10 @@ class RecordType(TypeNode):
     """[ℓ₁ : T₁, …]: r is of it iff each r.ℓᵢ is of Tᵢ. Built by `rectype`.
 
     Paths in a field's type start in the record where the field stands.
+
+    >>> T = RecordType((("x", Ind),))
+    >>> T["x"] == Ind
+    True
     """
 
     fields: tuple[tuple[str, TypeNode], ...]
