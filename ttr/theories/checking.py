@@ -19,6 +19,7 @@ from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.signature.signature import Interval
 from ttr.theories.check_reports import Failure, Report
 from ttr.theories.queries import (
+    Check,
     Creates,
     Expects,
     HasDegree,
@@ -42,16 +43,21 @@ from ttr.updates.rule_application import apply_rule
 from ttr.updates.rules import Rule
 
 if TYPE_CHECKING:
+    from ttr.judging.judgements import Why
     from ttr.judging.models import Model
 
 
 @dataclass(frozen=True)
-class _Answer:
-    """An answer (yes, no, unknown or error), what was found, and why."""
+class Answer:
+    """An answer (yes, no, unknown or error), what was found, and why.
+
+    `derivation` is the reasons as a tree, where a judgement gives the answer.
+    """
 
     verdict: str
     found: str
     why: str = ""
+    derivation: Why | None = None
 
 
 def check(theory: Theory) -> Report:
@@ -77,14 +83,30 @@ def answer_checks(theory: Theory, model: Model | None = None) -> Report:
     """
     if not isinstance(theory, Theory):
         raise TTRError(f"check takes a theory, found {kind_of(theory)}")
+    failures = [
+        Failure(asked, answer.found, answer.why)
+        for asked, answer in answers(theory, model)
+        if answer.verdict != asked.expected
+    ]
+    return Report(len(theory.checks), tuple(failures))
+
+
+def answers(
+    theory: Theory, model: Model | None = None
+) -> tuple[tuple[Check, Answer], ...]:
+    """Each check of the theory with its answer, also where that is the expected one.
+
+    For `model` and errors see `answer_checks`.
+
+    >>> theory = Theory.parse("basic A, B\\nA <: B\\ncheck not B <= A")
+    >>> [(asked.expected, answer.verdict) for asked, answer in answers(theory)]
+    [('no', 'no')]
+    """
     purse = purse_of_several(len(theory.givens) + len(theory.checks))
     model = model_of(theory, purse) if model is None else model
-    failures = []
-    for one in theory.checks:
-        answer = _answer(one.query, theory, model, purse)
-        if answer.verdict != one.expected:
-            failures.append(Failure(one, answer.found, answer.why))
-    return Report(len(theory.checks), tuple(failures))
+    return tuple(
+        (one, _answer(one.query, theory, model, purse)) for one in theory.checks
+    )
 
 
 def _faults(theory: Theory, rules: list[Rule]) -> tuple[Fault, ...]:
@@ -104,7 +126,7 @@ def _is_own(span: Span | None, theory: Theory) -> bool:
 
 def _answer(
     query: Query | TTRError, theory: Theory, model: Model, purse: SharedPurse
-) -> _Answer:
+) -> Answer:
     if isinstance(query, TTRError):
         return _answer_of_error(query)
     try:
@@ -113,12 +135,12 @@ def _answer(
     except TTRError as error:
         return _answer_of_error(error)
     except RecursionError:
-        return _Answer("error", "error", "the types nest too deep to be compared here")
+        return Answer("error", "error", "the types nest too deep to be compared here")
 
 
-def _answer_of_error(error: TTRError) -> _Answer:
+def _answer_of_error(error: TTRError) -> Answer:
     verdict = "unknown" if isinstance(error, TooLargeError) else "error"
-    return _Answer(verdict, verdict, error.message)
+    return Answer(verdict, verdict, error.message)
 
 
 def _reduce(query: Query, theory: Theory, model: Model) -> Query:
@@ -133,36 +155,37 @@ def _reduce(query: Query, theory: Theory, model: Model) -> Query:
     return replace(query, **{k: model.reduce(v) for k, v in computed.items()})
 
 
-def _evaluate(query: Query, theory: Theory, model: Model) -> _Answer:
+def _evaluate(query: Query, theory: Theory, model: Model) -> Answer:
     match query:
         case IsOf():
             return _is_of(query, model)
         case IsBelow(lower, upper):
             answer = subtype(lower, upper, theory)
-            return _Answer(answer.verdict, answer.verdict, answer.why)
+            return Answer(answer.verdict, answer.verdict, answer.why)
         case IsBelowRelabelled(lower, upper):
             answer = subtype_up_to_relabelling(lower, upper, theory)
-            return _Answer(answer.verdict, answer.verdict, answer.why)
+            return Answer(answer.verdict, answer.verdict, answer.why)
         case IsSame(left, right):
             answer = equal(left, right, theory)
-            return _Answer(answer.verdict, answer.verdict, answer.why)
+            return Answer(answer.verdict, answer.verdict, answer.why)
         case Merges():
             return _merges(query, theory)
         case Creates(T):
             model.create(T)
-            return _Answer("yes", "yes")
+            return Answer("yes", "yes")
         case IsWellFormed(T):
             return _is_well_formed(T)
         case HasDegree():
             judgement = model.judge(query.sit, query.type, when=query.when)
-            return _has_degree(query, judgement.p, str(judgement.why))
+            answer = _has_degree(query, judgement.p, str(judgement.why))
+            return replace(answer, derivation=judgement.why)
         case Expects(T, when):
             found = model.chance(T, when=when)
             return _has_degree(query, found.p, str(found))
         case IsTrue(T, interval):
             p = model.true(T)
             why = f"{'a' if p.lo == 1.0 else 'no'} certain witness of {T} is known"
-            return _Answer(
+            return Answer(
                 "yes" if _is_same(p, interval) else "no", _format_interval(p), why
             )
         case Updates():
@@ -170,11 +193,11 @@ def _evaluate(query: Query, theory: Theory, model: Model) -> _Answer:
     assert_never(query)
 
 
-def _yes_or_no(holds: bool, why_not: str) -> _Answer:
-    return _Answer("yes", "yes") if holds else _Answer("no", "no", why_not)
+def _yes_or_no(holds: bool, why_not: str) -> Answer:
+    return Answer("yes", "yes") if holds else Answer("no", "no", why_not)
 
 
-def _is_of(query: IsOf, model: Model) -> _Answer:
+def _is_of(query: IsOf, model: Model) -> Answer:
     judgement = model.judge(query.sit, query.type)
     try:
         verdict = "yes" if judgement.holds else "no"
@@ -183,41 +206,41 @@ def _is_of(query: IsOf, model: Model) -> _Answer:
     found = (
         verdict if verdict != "unknown" else f"unknown, {_format_interval(judgement.p)}"
     )
-    return _Answer(verdict, found, str(judgement.why))
+    return Answer(verdict, found, str(judgement.why), judgement.why)
 
 
-def _merges(query: Merges, theory: Theory) -> _Answer:
+def _merges(query: Merges, theory: Theory) -> Answer:
     operations: dict[str, Callable[[], TypeNode]] = {
         "merge": lambda: merge(query.left, query.right, theory),
         "amerge": lambda: amerge(query.left, query.right, theory),
     }
     merged = operations[query.operation]()
     if normal_value(merged, theory) is query.result:
-        return _Answer("yes", "yes")
-    return _Answer("no", str(merged), f"it is not {query.result}")
+        return Answer("yes", "yes")
+    return Answer("no", str(merged), f"it is not {query.result}")
 
 
-def _updates(query: Updates, model: Model) -> _Answer:
+def _updates(query: Updates, model: Model) -> Answer:
     """Does the rule give this state? Raises `TTRError` if it does not apply."""
     wanted = model.reduce(query.result)
     after = apply_rule(query.rule, [*map(model.reduce, query.args)], model).state
     if identity(after) == identity(wanted):
-        return _Answer("yes", "yes")
-    return _Answer("no", notation(after), "\n".join(differences(wanted, after)))
+        return Answer("yes", "yes")
+    return Answer("no", notation(after), "\n".join(differences(wanted, after)))
 
 
-def _is_well_formed(T: TypeNode | TTRError) -> _Answer:
+def _is_well_formed(T: TypeNode | TTRError) -> Answer:
     if isinstance(T, TTRError):
-        return _Answer("no", "no", T.message)
+        return Answer("no", "no", T.message)
     return _yes_or_no(
         not describe_cycle(T), f"its paths go in a circle: {describe_cycle(T)}"
     )
 
 
-def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> _Answer:
+def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> Answer:
     wanted = query.interval
     holds = _is_same(p, wanted) if query.relation == "=" else is_within(p, wanted)
-    return _Answer("yes" if holds else "no", _format_interval(p), why)
+    return Answer("yes" if holds else "no", _format_interval(p), why)
 
 
 def _is_same(p: Interval, wanted: Interval) -> bool:
