@@ -13,7 +13,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo talk serve test deep docs docs-serve bench mutants oracles clean
+.PHONY: help demo talk serve test deep docs docs-serve playground bench mutants oracles clean
 
 help: ## show these lines
 	@sed -n 's/^\([a-z-]*\):[^#]*## /\1\t/p' Makefile | expand -t 12
@@ -59,6 +59,9 @@ bench: $(SENSES) ## measure how fast things are, on one thread
 	@for script in $(BENCHMARKS); do \
 	    echo "== $$script"; $(SINGLE) $(BIN)/python "$$script" || exit 1; \
 	done
+
+playground: $(INSTALLED) ## build the page that runs theories in a browser, and serve it
+	@$(BIN)/python -m tools.playground --serve
 
 mutants: $(SENSES) ## see which small mistakes in a room its tests miss: make mutants ROOM=memory
 	@$(BIN)/python -m pip install -q -e '.[mutants]'

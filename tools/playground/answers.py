@@ -19,7 +19,7 @@ from ttr.display.html import STYLE
 from ttr.display.render import html
 from ttr.errors import MistakesError, Span, TTRError
 from ttr.judging.models import model_of
-from ttr.safety.budgets import budget
+from ttr.safety.budgets import STEPS, budget
 from ttr.theories.checking import answers, check
 from ttr.theories.theory import Theory, theory_of_text
 from ttr.types.printing import notation
@@ -65,8 +65,7 @@ class Playground:
             "command": lambda it: command_output(it["file"], it["text"]),
         }
         try:
-            with budget():
-                answer = todo[asked["do"]](asked)
+            answer = todo[asked["do"]](asked)
         except TTRError as error:
             answer = {"error": str(error)}
         except RecursionError:
@@ -77,9 +76,10 @@ class Playground:
         """Read a theory and answer its checks: mistakes, definitions, answers, faults."""
         self._theory, self._game, self._turns = None, None, []
         try:
-            theory = theory_of_text(text, FILE)
-            report = check(theory)
-            answered = answers(theory, model_of(theory))
+            with budget(steps=STEPS):
+                theory = theory_of_text(text, FILE)
+                report = check(theory)
+                answered = answers(theory, model_of(theory))
         except MistakesError as error:
             return _mistakes(error.errors)
         except TTRError as error:
@@ -89,7 +89,9 @@ class Playground:
             "mistakes": [],
             "summary": report.summary,
             "holds": report.holds,
-            "definitions": [_definition(theory, it) for it in _some(theory.definitions)],
+            "definitions": [
+                _definition(theory, it) for it in _some(theory.definitions)
+            ],
             "more": max(0, len(theory.definitions) - MOST),
             "answers": [
                 {

@@ -10,7 +10,6 @@ import shutil
 import subprocess
 import tarfile
 import urllib.request
-from pathlib import Path
 
 from platformdirs import user_cache_path
 
