@@ -54,7 +54,7 @@ class Playground:
         self._offers: tuple[TypeNode | None, ...] = ()
 
     def respond(self, request: str) -> str:
-        """The answer to a request, both in JSON; what is wrong is part of the answer."""
+        """The answer to a request, in JSON; what is wrong is part of it."""
         asked = json.loads(request)
         todo: dict[str, Callable[[Facts], Facts]] = {
             "check": lambda it: self.check(it["text"]),
@@ -73,7 +73,7 @@ class Playground:
         return json.dumps(answer)
 
     def check(self, text: str) -> Facts:
-        """Read a theory and answer its checks: mistakes, definitions, answers, faults."""
+        """Read a theory: its mistakes, or definitions, answers and faults."""
         self._theory, self._game, self._turns = None, None, []
         try:
             with budget(steps=STEPS):

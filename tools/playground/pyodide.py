@@ -78,7 +78,7 @@ def _fetch(address: str) -> bytes:
 
 def _registry() -> str:
     """The registry that npm is set to here, else the public one."""
-    set_to = os.environ.get("npm_config_registry", "")
+    set_to = os.environ.get("npm_config_registry", "")  # noqa: SIM112 - npm has it so
     npm = shutil.which("npm")
     if not set_to and npm:
         told = subprocess.run(

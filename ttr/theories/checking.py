@@ -177,8 +177,8 @@ def _evaluate(query: Query, theory: Theory, model: Model) -> Answer:
             return _is_well_formed(T)
         case HasDegree():
             judgement = model.judge(query.sit, query.type, when=query.when)
-            answer = _has_degree(query, judgement.p, str(judgement.why))
-            return replace(answer, derivation=judgement.why)
+            degree = _has_degree(query, judgement.p, str(judgement.why))
+            return replace(degree, derivation=judgement.why)
         case Expects(T, when):
             found = model.chance(T, when=when)
             return _has_degree(query, found.p, str(found))

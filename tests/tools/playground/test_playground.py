@@ -132,7 +132,7 @@ def wait_until_checked(tab: Tab, times: int = 1) -> None:
 class TestInTheBrowser:
     """One page, in which everything happens in turn: Python is loaded once."""
 
-    pytestmark = IN_BROWSER
+    pytestmark = [*IN_BROWSER]
 
     def test_it_answers_as_here(
         self,
