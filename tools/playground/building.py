@@ -5,11 +5,10 @@ from __future__ import annotations
 import io
 import json
 import zipfile
-from importlib.metadata import distribution
 from pathlib import Path
 
 from tools.playground.links import LONGEST_FRAGMENT, LONGEST_TEXT
-from tools.playground.pyodide import pyodide_files
+from tools.playground.pyodide import pyodide_files, wheels
 from ttr.display.html import STYLE
 from ttr.notation.scanning import LETTER, LETTER_OR_DIGIT
 from ttr.notation.syntax_errors import KEYWORDS
@@ -17,9 +16,6 @@ from ttr.types.reserved_words import RESERVED
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 ASSETS = Path(__file__).resolve().parent / "assets"
-LIBRARIES = ("hypothesis", "sortedcontainers")
-"""What `ttr` needs there besides itself: the property tests need both."""
-
 THEORIES = ("functions", "gameboard", "collections", "attitudes", "scopes", "mistakes")
 """Which theories of the tests are examples, too."""
 
@@ -67,13 +63,9 @@ def _python() -> bytes:
         if path.is_file() and path.suffix != ".pyc"
     }
     files["playground_answers.py"] = (Path(__file__).parent / "answers.py").read_bytes()
-    for library in LIBRARIES:
-        for file in distribution(library).files or ():
-            name = file.as_posix()
-            if not name.startswith("..") and (
-                name.endswith(".py") or "licen" in name.lower() or "vendor/" in name
-            ):
-                files[name] = Path(str(file.locate())).read_bytes()
+    for wheel in wheels():
+        with zipfile.ZipFile(io.BytesIO(wheel)) as library:
+            files |= {name: library.read(name) for name in library.namelist()}
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name in sorted(files):

@@ -1,4 +1,4 @@
-"""Python for the browser, from npm: fetched once, its checksum pinned, then cached."""
+"""What the page needs from npm and PyPI: fetched once, its checksum pinned, cached."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import io
 import os
 import shutil
 import subprocess
+import sys
 import tarfile
 import urllib.request
 
@@ -27,6 +28,16 @@ FILES = (
     "python_stdlib.zip",
     "pyodide-lock.json",
 )
+WHEELS = {
+    "hypothesis-6.155.7-py3-none-any.whl": (
+        "9f634bdb1f9e9b8ab6ba09431cf2deedb750c96978125a6fb3c5a0f6c6db4131"
+    ),
+    "sortedcontainers-2.4.0-py2.py3-none-any.whl": (
+        "a163dcaede0f1c021485e957a39245190e74249897e2ae4b2aa38595db237ee0"
+    ),
+}
+"""Libraries in Python alone, by their SHA-256; later Hypotheses need parts in Rust."""
+
 SECONDS = 60
 
 
@@ -43,6 +54,31 @@ def pyodide_files() -> dict[str, bytes]:
             assert file is not None
             found[name] = file.read()
     return found
+
+
+def wheels() -> tuple[bytes, ...]:
+    """The libraries that property tests need there; raises `FetchError`."""
+    return tuple(_wheel(name, checksum) for name, checksum in WHEELS.items())
+
+
+def _wheel(name: str, checksum: str) -> bytes:
+    cached = user_cache_path("kille") / name
+    if not (cached.is_file() and _has_checksum(cached, checksum)):
+        library, version, *_ = name.split("-")
+        options = ["--no-deps", "--only-binary=:all:", "--platform", "any"]
+        options += ["--python-version", "3.14", "--implementation", "py"]
+        options += ["--abi", "none", "--dest", str(cached.parent)]
+        command = [sys.executable, "-m", "pip", "download", "--quiet", *options]
+        done = subprocess.run(
+            [*command, f"{library}=={version}"], capture_output=True, check=False
+        )
+        if done.returncode or not _has_checksum(cached, checksum):
+            raise FetchError(f"{library} {version} cannot be fetched from PyPI by pip")
+    return cached.read_bytes()
+
+
+def _has_checksum(file: Path, checksum: str) -> bool:
+    return hashlib.sha256(file.read_bytes()).hexdigest() == checksum
 
 
 def _package() -> bytes:

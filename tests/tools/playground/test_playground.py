@@ -175,6 +175,10 @@ class TestInTheBrowser:
         tab.get_by_role("button", name="nothing happens").click()
         tab.locator(".step").first.wait_for()
         assert tab.locator(".step b").first.inner_text() == "begin"
+        tab.fill("#examples-count", "1")
+        tab.click("#test")
+        tab.locator("#tested p").wait_for()
+        assert tab.locator("#tested p").inner_text() == "fetch: holds, 1 dialogue"
 
     @pytest.mark.deep
     def test_what_runs_away_is_stopped(self, tab: Tab, address: str) -> None:
