@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tarfile
 import urllib.request
+from pathlib import Path
 
 from platformdirs import user_cache_path
 
