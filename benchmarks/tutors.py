@@ -63,6 +63,9 @@ BETWEEN = re.compile(
     r"| by | with | round | between | across | in front of | far from | på | i | bakom "
     r"| bredvid | under | vänster om | till höger om | runt | långt från "
 )
+AMID = re.compile(
+    r"(?P<amid>.+) (?:between|mellan) (?P<left>.+) (?:and|och) (?P<right>.+)"
+)
 POINTED = re.compile(r"(?:points at|pekar på|utpekad)\s*(?:the )?(\w+)?")
 ROBOT = r"(?:robot|roboten) (?:asked|said|frågade|sade): (?:kanske )?"
 A, THIS = (
@@ -96,6 +99,10 @@ SAID_BEFORE = re.compile(r"(?:läraren|tutor) (?:sade nyss|said): Det är \w+ (\
 TAUGHT_PLACE = re.compile(r"drop (\w+)\((\w+), (\w+)\)")
 ANYTHING = {"en": "cup", "sv": "kopp"}
 WHERE = ("left", "right", "vänster", "höger")
+SINGULARS = {
+    "en": {it + "s": it for it in ("cup", "mug", "spoon", "plate", "stone", "coin")},
+    "sv": {"koppar": "kopp", "muggar": "mugg", "bollar": "boll", "böcker": "bok"},
+}
 PLURAL = {"en": re.compile(r"(?<!s)s$"), "sv": re.compile(r"[oa]r$")}
 TELLS = {
     "en": {
@@ -169,6 +176,10 @@ def things_in(scene: str, language: str) -> list[str]:
     )
     if NO_THING.match(head):
         return [] if re.match(r"empty|tomt", head) else [some]
+    amid = AMID.match(head)
+    if amid:
+        head = ", ".join(amid.group("left", "amid", "right"))
+    singulars = SINGULARS[language]
     found: list[str] = []
     for part in BETWEEN.split(ALONE.sub("", head)):
         words = part.split()
@@ -178,7 +189,9 @@ def things_in(scene: str, language: str) -> list[str]:
         names = [it for it in words if it not in COUNTS and it not in WHERE]
         is_plural = times == 1 and names and plural.search(names[-1])
         known = names and names[-1] in ("scissors", "glasses", "glasögon")
-        found += names[-1:] * (3 if is_plural and not known else times)
+        several = is_plural and not known
+        name = singulars.get(names[-1], names[-1]) if names else ""
+        found += [name] * (3 if several else times) if names else []
     return found[:5] or [some]
 
 

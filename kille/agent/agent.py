@@ -535,8 +535,7 @@ class Agent(NotebookValue):
         exchange, now = Exchange(text, None, (), (), self._clock()), self._now_at
         full = [self._in_full(it, now.state) for it in sentences]
         situation = situation_of(now.state)
-        names_several = len(numbers) > 1 and any(not it.readings for it in sentences)
-        if not names_several and needs_parts(full, situation, self.language):
+        if needs_parts(full, situation, self.language):
             return self._hear_in_parts(full, situation, exchange, now)
         for sentence in sentences:
             sentence = self._in_full(sentence, now.state)

@@ -36,7 +36,7 @@ STILL = "AskKindStill"
 VETTED = "vetted"
 """The label under which a move has a new noun that the tutor means as a word."""
 
-TOLD = ("learned_kind", "know_kind", "explain_kind", "same_kind")
+TOLD = ("learned_kind", "know_kind", "cite_kind", "explain_kind", "same_kind")
 """What the robot says of an axiom, which "Forget that." may take back."""
 
 
@@ -132,6 +132,15 @@ def tell_kind(s: Record, *, types: DialogueTypes) -> Record:
     return _plan_answer(s, act, lower, upper, types=types)
 
 
+@rule(answers="AskWhy")
+def cite_kind(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It has just said that the one is a kind of the other: the tutor said so."""
+    told = _axiom_told(s) if kind_of(content_of(s)) is None else None
+    if told is None:
+        return None
+    return plan(s, "CiteKind", told.content, signs=told.signs, types=types)
+
+
 # --- taking back ----------------------------------------------------------------------
 
 
@@ -184,18 +193,19 @@ def forget_that_kind(s: Record, *, types: DialogueTypes) -> Record | None:
 
 def _plan_taking_back(s: Record, *, types: DialogueTypes) -> Record | None:
     """The plan to take back the axiom that the robot has just spoken of, if it has."""
-    if not s.private.kinds:
-        return None
-    if kind_of(content_of(s)) is not None or len(s.private.last) != 1:
+    told = _axiom_told(s) if kind_of(content_of(s)) is None else None
+    return None if told is None else _plan_forgetting(s, told, types=types)
+
+
+def _axiom_told(s: Record) -> Record | None:
+    """The axiom that the robot has just spoken of, if it has."""
+    if not s.private.kinds or len(s.private.last) != 1:
         return None
     said = s.private.last[0]
     if s.shared.pending or predicate_at(said, "e").name not in TOLD:
         return None
     told = value_at(said, "content")
-    for it in s.private.kinds:
-        if it.content == told:
-            return _plan_forgetting(s, it, types=types)
-    return None
+    return next((it for it in s.private.kinds if it.content == told), None)
 
 
 @rule(answers="ForgetLast")
@@ -343,6 +353,7 @@ CLASSIFYING = first(
     ask_still,
     learn_kind,
     tell_kind,
+    cite_kind,
     ask_earlier_kind,
     ask_denied_kind,
     forget_kind,

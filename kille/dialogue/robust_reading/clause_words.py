@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from kille.dialogue.word_lists import WordLists
 
-_WORD = re.compile(r"[^\W_]+(?:['’´-][^\W_]+)*")
+_WORD = re.compile(r"(?:#(?=\d))?[^\W_]+(?:['’´-][^\W_]+)*")
 BREAK = re.compile(r"[,;:.!?…()\"“”]|\s[-–—]+\s")
 """What ends a clause, between two words."""
 

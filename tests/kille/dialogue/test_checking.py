@@ -83,8 +83,14 @@ def test_a_no_is_a_claim_too(scene: Make) -> None:
 @pytest.mark.parametrize(
     ("text", "answer"),
     [
-        ("Is this a unicorn?", "I have not learned what a unicorn is."),
-        ("Is this striped?", 'I have not learned what "striped" means.'),
+        (
+            "Is this a unicorn?",
+            "I have not learned what a unicorn is. Please show me one.",
+        ),
+        (
+            "Is this striped?",
+            'I have not learned what "striped" means. Please show me an example.',
+        ),
         ("Is this red?", "Yes, it is red."),
         ("Is this blue?", "No, I think it is red."),
         ("Is this big?", "I do not know."),
@@ -115,7 +121,10 @@ LEFT = {("to_the_left_of", "o1", "o2"): 0.9}
             "No, I think the book is to the left of the box.",
         ),
         ("Is the box left of the book?", "No, the box is not to the left of the book."),
-        ("Is the book above the box?", 'I have not learned what "above" means.'),
+        (
+            "Is the book above the box?",
+            'I have not learned what "above" means. Please show me an example.',
+        ),
     ],
 )
 def test_it_is_asked_where_things_are(scene: Make, text: str, answer: str) -> None:
@@ -199,7 +208,10 @@ VIEW: dict[str, Any] = {
         ("How many mugs are there?", "Perhaps one, but I am not sure."),
         ("How many books are there?", "I see none."),
         ("How many things are on the table?", "Five."),
-        ("How many unicorns are there?", "I have not learned what a unicorn is."),
+        (
+            "How many unicorns are there?",
+            "I have not learned what a unicorn is. Please show me one.",
+        ),
     ],
 )
 def test_it_says_what_is_in_view(scene: Make, text: str, answer: str) -> None:

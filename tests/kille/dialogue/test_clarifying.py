@@ -212,7 +212,10 @@ def test_two_phrases_are_asked_about_in_turn(scene: Scenes) -> None:
             "Where is the blue cup to the left of the book?",
             "I do not see a blue cup to the left of the book here.",
         ),
-        ("What is the cup near the box?", 'I have not learned what "near" means.'),
+        (
+            "What is the cup near the box?",
+            'I have not learned what "near" means. Please show me an example.',
+        ),
     ],
 )
 def test_what_is_not_there(table: Any, text: str, said: str) -> None:

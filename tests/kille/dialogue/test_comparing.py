@@ -50,7 +50,7 @@ def three(scene: Callable[..., Any]) -> Any:
         ("Is the book closest to the cup?", "No, the book is not closest to the cup."),
         (
             "Is the cup heavier than the book?",
-            'I have not learned what "heavier than" means.',
+            'I have not learned what "heavier than" means. Please show me an example.',
         ),
     ],
 )
@@ -283,7 +283,10 @@ def test_a_size_is_asked_for(pair: Any, text: str) -> None:
 
 
 def test_what_is_not_seen_has_no_size(pair: Any) -> None:
-    assert pair.hear("How big is the fork?") == "I have not learned what a fork is."
+    assert (
+        pair.hear("How big is the fork?")
+        == "I have not learned what a fork is. Please show me one."
+    )
 
 
 def test_no_size_without_depth(scene: Callable[..., Any]) -> None:

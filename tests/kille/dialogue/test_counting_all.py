@@ -29,8 +29,16 @@ KNOWN = {
         (3, "Are all the cups red?", "Yes, both of them."),
         (3, "Are all the books books?", "Yes, and I see only one."),
         (3, "Is every one of them blue?", "I do not know."),
-        (3, "Are they all mugs?", "I have not learned what a mug is."),
-        (3, "Are all the mugs red?", "I have not learned what a mug is."),
+        (
+            3,
+            "Are they all mugs?",
+            "I have not learned what a mug is. Please show me one.",
+        ),
+        (
+            3,
+            "Are all the mugs red?",
+            "I have not learned what a mug is. Please show me one.",
+        ),
         (0, "Are they all cups?", "I see nothing on the table."),
         (3, "How many of them are red?", "Two."),
         (3, "How many of these are cups?", "Two."),

@@ -108,10 +108,16 @@ def test_without_a_claim_it_asks_of_which_things(table: Any) -> None:
 @pytest.mark.parametrize(
     ("text", "answer"),
     [
-        ("Cups are white.", "I have not learned what a cup is."),
-        ("The colour does not matter for cups.", "I have not learned what a cup is."),
-        ("Mugs are shiny.", 'I have not learned what "shiny" means.'),
-        ("Cups have handles.", "I have not learned what a cup is."),
+        ("Cups are white.", "I have not learned what a cup is. Please show me one."),
+        (
+            "The colour does not matter for cups.",
+            "I have not learned what a cup is. Please show me one.",
+        ),
+        (
+            "Mugs are shiny.",
+            'I have not learned what "shiny" means. Please show me an example.',
+        ),
+        ("Cups have handles.", "I have not learned what a cup is. Please show me one."),
         (
             "Mugs have ideas.",
             "I take that as a remark. I learn words for what I can see.",

@@ -264,7 +264,10 @@ def test_what_a_word_means_is_a_type(table: Any, text: str, meaning: object) -> 
         ("What is a cup?", "A cup is what you showed me twice."),
         ("What does behind mean?", '"behind" says how two things stand; you showed me'),
         ("Have you seen a cup before?", "You have not shown me that."),
-        ("Have you ever seen a unicorn?", "I have not learned what a unicorn is."),
+        (
+            "Have you ever seen a unicorn?",
+            "I have not learned what a unicorn is. Please show me one.",
+        ),
     ],
 )
 def test_what_a_word_means_is_said_in_words(table: Any, text: str, told: str) -> None:
@@ -315,7 +318,10 @@ def test_what_it_may_take_a_word_for(
 
 
 def test_what_a_word_means_that_was_never_learned(table: Any) -> None:
-    assert table.hear("What is a unicorn?") == "I have not learned what a unicorn is."
+    assert (
+        table.hear("What is a unicorn?")
+        == "I have not learned what a unicorn is. Please show me one."
+    )
 
 
 def test_why_it_does_not_know(scene: Callable[..., Any]) -> None:

@@ -68,7 +68,10 @@ def test_what_nobody_said_it_says_so(table: Any) -> None:
     assert table.hear("Does the size matter for mugs?") == (
         "Nobody has told me whether the size matters for mugs."
     )
-    assert table.hear("Do forks have handles?") == "I have not learned what a fork is."
+    assert (
+        table.hear("Do forks have handles?")
+        == "I have not learned what a fork is. Please show me one."
+    )
     assert table.hear("Are mugs cups?") == (
         "Nobody has told me that a mug is a kind of cup."
     )
