@@ -60,7 +60,7 @@ from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
 from kille.perception.prominence import prominences
 from kille.perception.shown_looks import Picture, annotated_picture, view_shown
-from kille.scene import Colour, Percept
+from kille.scene import Colour, Configuration, Percept
 from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.stage_commands import perform
 from ttr import Model, Record, RecType, Theory, TTRError, record
@@ -368,6 +368,18 @@ class Agent(NotebookValue):
         {labels = [cup], learner = <Handle ObjectMemory>}
         """
         return self.words()[word]
+
+    def spatial_degrees(
+        self, name: str, places: Sequence[tuple[float, float]]
+    ) -> list[float]:
+        """How well a relation holds of things at these places, each from 0 to 1.
+
+        A place is in metres right of and away from the landmark, as the viewer sees it;
+        0 everywhere for a relation that it was never taught.
+        """
+        placed = [Configuration((right, away, 0.0)) for right, away in places]
+        found = self._knowledge.relations.degrees_of(placed)
+        return [float(it.get(name, 0.0)) for it in found]
 
     def names_in_view(self) -> tuple[str, ...]:
         """What it would call each thing in its latest view, by their numbers.

@@ -13,6 +13,7 @@ the page is sent the events after the last one that they have, and the newest pi
 | `table` | the table from above, arranged by hand; recordings, wound by hand |
 | `inside` | what a turn did to the information state, when somebody asks |
 | `unfired` | the rules that did not fire in a turn, and why |
+| `shelf` | words with their examples, and what was learned from them |
 | `history` | pictures and events of earlier turns |
 | `exports` | a turn or the dialogue as a file |
 | `reads` | the addresses at which it is looked into |

@@ -5,6 +5,9 @@
 | `/inside/F/L` | what the exchanges from F to before L did |
 | `/unfired/F/L` | the rules that did not fire in them, and why |
 | `/picture/F.jpg` | what was in view in the turn that began with F |
+| `/words/N` | the words that were taught, from number N on |
+| `/word/KIND/NAME` | what a word was learned from |
+| `/example/KEY` | what was seen in a lesson |
 | `/export/F/L/dlg` `log` `tex` | the turn as a file |
 | `/export/dlg` `log` `tex` | the dialogue as a file |
 
@@ -22,14 +25,18 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
 from kille.agent.agent import Agent
+from kille.memory.pictures import JPEG
 from kille.page.exports import FORMATS, file_name, log_text, state_as_latex, story_text
 from kille.page.inside import inside_report
 from kille.page.robot_thread import RobotThread
+from kille.page.shelf import example_picture, shelf_page, word_report
 from kille.page.unfired import unfired_report
 from ttr import TTRError
 
 _TOGETHER = 8
 """Exchanges of one turn, at most."""
+
+_LARGEST_KEY = 2**63 - 1
 
 _MISSING = Response(status_code=404)
 
@@ -41,6 +48,9 @@ def read_routes(robot: RobotThread) -> list[Route]:
         Route("/inside/{first:int}/{last:int}", reads.inside),
         Route("/unfired/{first:int}/{last:int}", reads.unfired),
         Route("/picture/{first:int}.jpg", reads.picture),
+        Route("/words/{start:int}", reads.words),
+        Route("/word/{kind}/{name:path}", reads.word),
+        Route("/example/{key:int}", reads.example),
         Route("/export/{first:int}/{last:int}/{kind}", reads.export),
         Route("/export/{kind}", reads.export),
     ]
@@ -84,6 +94,25 @@ class _Reads:
         if jpeg is None:
             return _MISSING
         return Response(jpeg, media_type="image/jpeg")
+
+    async def words(self, request: Request) -> Response:
+        start = request.path_params["start"]
+        return JSONResponse(await self._read(lambda it: shelf_page(it, start)))
+
+    async def word(self, request: Request) -> Response:
+        kind, name = request.path_params["kind"], request.path_params["name"]
+        found = await self._read(lambda it: word_report(it, kind, name))
+        return _MISSING if found is None else JSONResponse(found)
+
+    async def example(self, request: Request) -> Response:
+        key = request.path_params["key"]
+        if key > _LARGEST_KEY:
+            return _MISSING
+        found = await self._read(lambda it: example_picture(it, key))
+        if found is None:
+            return _MISSING
+        kind = "image/jpeg" if found.startswith(JPEG) else "image/png"
+        return Response(found, media_type=kind)
 
     async def export(self, request: Request) -> Response:
         kind, whole = request.path_params["kind"], "first" not in request.path_params

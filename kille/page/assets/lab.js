@@ -1,6 +1,7 @@
 // The lab: what each turn did to the information state, chosen on a timeline.
 
 import { byId, el } from "./dom.js";
+import { Shelf } from "./shelf.js";
 import { t } from "./texts.js";
 import { unfired } from "./unfired.js";
 
@@ -13,6 +14,7 @@ export class Lab {
     this.turns = [];
     this.dropped = 0;
     this.views = new Map();
+    this.shelf = new Shelf(byId("shelf"));
     this.shown = -1;
     this.folded = new Map();
     this.toggle = byId("lab-toggle");
@@ -36,6 +38,7 @@ export class Lab {
     this.toggle.textContent = t("lab");
     byId("lab").setAttribute("aria-label", t("lab"));
     this.timeline.setAttribute("aria-label", t("timeline"));
+    this.shelf.label();
     byId("lab-tools").replaceChildren(this.now, this.saving());
     this.now.textContent = t("now");
     this.title();
@@ -61,6 +64,7 @@ export class Lab {
   /** A turn was taken; the lab follows, unless an earlier one is looked at. */
   add(event) {
     if (!event.turns || event.turns[0] === event.turns[1]) return;
+    if (event.lessons.length) this.shelf.reload();
     const follows = this.shown === this.turns.length - 1;
     this.turns.push(event);
     if (this.turns.length > KEPT) this.drop();

@@ -189,6 +189,13 @@ def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
     why = tab.locator(".unfired .step").filter(has_text="another came first")
     why.or_(tab.locator(".unfired .step")).first.locator("summary").click()
     playwright.expect(tab.locator(".unfired__event li b").first).not_to_be_empty()
+    say(tab, "#1 This is a jug.", "a jug")
+    tab.locator("#shelf summary").click()
+    tab.locator("#shelf").get_by_role("button", name="jug 1").click()
+    example = tab.get_by_role("img", name=re.compile("^jug, 20"))
+    playwright.expect(example).to_be_visible()
+    assert example.evaluate("async it => (await it.decode(), it.naturalWidth)") > 20
+    tab.get_by_role("slider", name="Turn").press("ArrowLeft")
     tab.get_by_text("Save as a file").click()
     with tab.expect_download() as saved:
         tab.get_by_role("link", name="This turn: story (.dlg)").click()

@@ -186,6 +186,35 @@ def test_a_turn_can_be_looked_into_and_saved(taught: Page) -> None:
         assert get(taught, missing) == b""
 
 
+def test_words_are_on_the_shelf_with_what_they_were_learned_from(page: Page) -> None:
+    with page.connect() as browser:
+        browser.ask(do="show", thing="cup")
+        browser.ask(do="place", thing="book", right=0.2, away=0.1, ref="two")
+        browser.until("view", ref="two")
+        browser.say("#1 This is a beaker.")
+        browser.say("#2 This is not a beaker.")
+        browser.say("#1 #2 This is to the left of that.")
+    shelf = json.loads(get(page, "/words/0"))
+    words = {it["form"]: it for it in shelf["words"]}
+    assert words["beaker"]["lessons"] == 1
+    beaker = json.loads(get(page, "/word/object/beaker"))
+    assert [it["holds"] for it in beaker["examples"]] == [False, True]
+    assert beaker["curve"]["for"][-1] == beaker["curve"]["against"][-1] == 1
+    example = get(page, f"/example/{beaker['examples'][0]['key']}")
+    assert cv2.imdecode(np.frombuffer(example, np.uint8), 1) is not None
+    left = json.loads(get(page, "/word/relation/to_the_left_of"))["template"]
+    middle = left[len(left) // 2]
+    assert middle[2] > 0.3 > middle[-3]
+    assert json.loads(get(page, "/words/9999"))["words"] == []
+    for missing in (
+        "/word/object/none",
+        "/word/x/y",
+        "/example/9999",
+        f"/example/{9**30}",
+    ):
+        assert get(page, missing) == b""
+
+
 def test_only_the_latest_pictures_are_kept() -> None:
     history = History(pictures=2)
     frames = [np.full((4, 4, 3), n, np.uint8) for n in (10, 20, 20)]
