@@ -12,7 +12,6 @@ from threading import Thread
 from typing import TYPE_CHECKING
 
 from kille.agent.agent import Agent
-from kille.agent.exchanges import Event
 from kille.interfaces.formatting import derivation, in_short, introduction
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError, default_path
@@ -20,6 +19,7 @@ from kille.sensors.sensor import Sensor, SensorError
 from ttr.safety.unforeseen_errors import report_unforeseen
 
 if TYPE_CHECKING:
+    from kille.page.robot_thread import Watch
     from kille.page.server import PageSettings
 
 MISSING = (
@@ -55,14 +55,15 @@ def serve(
         return complain(MISSING)
     place = memory_path(memory)
 
-    def robot(of: Sensor, record: Callable[[Event], None]) -> Agent:
+    def robot(of: Sensor, watch: Watch) -> Agent:
         return make(
             of,
             place,
             language=language,
             mode=mode,
             wording=wording,
-            record_event=record,
+            record_event=watch.record_event,
+            change=watch.change,
         )
 
     try:

@@ -14,6 +14,7 @@ the page is sent the events after the last one that they have, and the newest pi
 | `inside` | what a turn did to the information state, when somebody asks |
 | `unfired` | the rules that did not fire in a turn, and why |
 | `shelf` | words with their examples, and what was learned from them |
+| `stepping` | turns that wait before each rule |
 | `history` | pictures and events of earlier turns |
 | `exports` | a turn or the dialogue as a file |
 | `reads` | the addresses at which it is looked into |

@@ -12,6 +12,8 @@ calls it: the event that answers has it, too.
 | `show`, `remove` | `thing` | changes the scene |
 | `place` | `thing`, `right`, `away`, `turn` | puts it there: metres, degrees |
 | `add` | `thing` | puts it where there is room |
+| `stepping` | `on` | whether turns wait before each rule |
+| `step` | `rest` | lets the turn that waits apply a rule, or all that are left |
 | `seek` | `at` | goes to that second of the recording |
 | `restart` | | a new dialogue with the same memory |
 """
@@ -62,6 +64,8 @@ class BrowserRequest(NamedTuple):
     """What it points at, if it does."""
     restarts: bool = False
     """Whether a new dialogue begins first."""
+    steps: str = ""
+    """What it asks of a turn that waits, if it is about that."""
     arranges: bool = False
     """Whether it changes the scene: that it cannot is the tutor's concern alone."""
     perhaps: tuple[Hypothesis, ...] = ()
@@ -113,6 +117,12 @@ def _read_request(message: dict[str, Any], ref: str) -> BrowserRequest:
             return _point_request(ref, str(number), {"thing": number})
         case "look":
             return BrowserRequest(ref, "", lambda robot: robot.look())
+        case "stepping":
+            steps = "off" if message.get("on") is False else "on"
+            return BrowserRequest(ref, "", lambda _: "", steps=steps)
+        case "step":
+            steps = "rest" if message.get("rest") is True else "step"
+            return BrowserRequest(ref, "", lambda _: "", steps=steps)
         case "restart":
             return BrowserRequest(ref, "", lambda robot: robot.look(), restarts=True)
         case "show" | "remove" as verb:

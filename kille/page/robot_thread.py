@@ -18,6 +18,8 @@ second thing, beside the one before; `ref` |
 number, `text`; `whole`, whether it was all of it |
 | `failed` | why nothing came of it: `text`, `ref`; `seen`, whether it is the camera |
 | `microphone` | who has the microphone: `browser`, its number, 0 for nobody; `who` |
+| `stepping` | whether turns wait before each rule: `on` |
+| `step` | before which the turn waits now: `rule`, what it `does`, its `changes` |
 | `camera` | what is wrong with the camera: `text`, empty when it is well again |
 | `restarted` | a new dialogue has begun |
 """
@@ -27,9 +29,10 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
 from threading import Lock
 from time import perf_counter
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from kille.agent.agent import Agent
 from kille.agent.exchanges import Event
@@ -38,14 +41,28 @@ from kille.page.browser_requests import BrowserRequest
 from kille.page.feed import Feed
 from kille.page.history import History
 from kille.page.inside import PLAIN, Insight, Json
+from kille.page.stepping import Stepper
 from kille.page.table import table_report
 from kille.page.turn_reports import turn_report, view_report
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
+from ttr.updates import Game
 
 T = TypeVar("T")
 
-RecordEvent = Callable[[Event], None]
+
+class Watch(NamedTuple):
+    """What watches a robot, as it is made: it is given every event after it has
+    happened, and the game that it plays instead of its own waits when it is asked to.
+    """
+
+    record_event: Callable[[Event], None]
+    stepper: Stepper
+
+    def change(self, game: Game) -> Game:
+        """The game whose steps are watched."""
+        return replace(game, watch=self.stepper)
+
 
 WAITING = 8
 """How many requests may wait for their turn; more are refused."""
@@ -66,19 +83,21 @@ class RobotThread:
 
     def __init__(
         self,
-        make: Callable[[RecordEvent], Agent],
+        make: Callable[[Watch], Agent],
         feed: Feed,
         tell: Callable[[str], object] = lambda _: None,
         report: Callable[[Exception], object] = lambda _: None,
         insight: Insight = PLAIN,
     ) -> None:
         self.insight, self.history = insight, History()
+        self.stepper = Stepper(feed.publish, insight)
         self._feed, self._tell, self._report = feed, tell, report
         self._turns = 0  # exchanges before the request that is done now
         self._counting, self._waiting, self._closed = Lock(), 0, False
         self._thread = ThreadPoolExecutor(1, "kille-robot")
         try:
-            self.robot = self._thread.submit(make, self._keep_event).result()
+            watch = Watch(self._keep_event, self.stepper)
+            self.robot = self._thread.submit(make, watch).result()
         except BaseException:
             self._thread.shutdown()
             raise
@@ -93,6 +112,9 @@ class RobotThread:
         One that is asked for again, by the same `ref`, is done once: a browser asks
         again for what was not answered when its connection went.
         """
+        if request.steps:  # it is about the turn that is taken now
+            self.stepper.ask(request.steps)
+            return
         with self._counting:
             if request.ref and request.ref in self._known:
                 return
@@ -115,6 +137,7 @@ class RobotThread:
     def close(self) -> None:
         """End the turn that is taken now, drop those that wait, and let go of all."""
         self._closed = True
+        self.stepper.ask("off")
         closing = self._thread.submit(self.robot.close)
         self._thread.shutdown()
         closing.result()
@@ -138,6 +161,7 @@ class RobotThread:
             self._publish("heard", request, says=request.shown, **about)
         turns, began = len(robot.exchanges), perf_counter()
         self._turns = turns
+        self.stepper.begin_turn()
         try:
             if request.restarts:
                 robot.do("restart")

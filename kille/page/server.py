@@ -22,7 +22,7 @@ from kille.page.inside import PLAIN, Insight
 from kille.page.live_picture import LivePicture
 from kille.page.microphone import Listening, Microphone
 from kille.page.reads import read_routes
-from kille.page.robot_thread import RecordEvent, RobotThread
+from kille.page.robot_thread import RobotThread, Watch
 from kille.page.spoken_answers import SpokenAnswers
 from kille.page.table import table_report
 from kille.sensors.sensor import Sensor
@@ -60,7 +60,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 def serve_page(
     sensor: str,
-    make: Callable[[Sensor, RecordEvent], Agent],
+    make: Callable[[Sensor, Watch], Agent],
     settings: PageSettings,
     terminal: Terminal,
     insight: Insight = PLAIN,
@@ -83,7 +83,7 @@ def serve_page(
         with ExitStack() as failing:
             failing.callback(opened.close)
             robot = RobotThread(
-                lambda record: make(picture.share(opened), record),
+                lambda watch: make(picture.share(opened), watch),
                 feed,
                 terminal.trouble,
                 terminal.unforeseen,

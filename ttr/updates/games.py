@@ -35,7 +35,14 @@ from ttr.types.printing import notation
 from ttr.types.syntax import RecordType, TypeNode, as_type, kind_of
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import FEW, Rule, rules_shown
-from ttr.updates.running import Run, Step, continue_run, endless, trace_shown
+from ttr.updates.running import (
+    Run,
+    Step,
+    Watch,
+    continue_run,
+    endless,
+    trace_shown,
+)
 from ttr.updates.states import check_state
 from ttr.updates.update_strategies import (
     Algorithm,
@@ -109,7 +116,8 @@ class Game(NotebookValue):
     `agenda` is the path of the list of types of the moves to be made next, if the game
     makes any. `hears` are the types of the events from outside; by default, all that a
     rule takes. `act` makes a planned move; by default, an event of its type is created.
-    A game with a language reads texts by `hear` and words its moves by `say`. Raises
+    A game with a language reads texts by `hear` and words its moves by `say`; `watch`
+    is given each step before the game goes on from it, and may take its time. Raises
     `UpdateError` if the start is not of the type.
 
     >>> from ttr import Theory
@@ -147,6 +155,7 @@ class Game(NotebookValue):
     hear: Callable[[str], object] | None = None
     say: Callable[[Judgement], str] | None = None
     theory: Theory | None = None
+    watch: Watch | None = None
 
     def __post_init__(self) -> None:
         check_strategies("a game", (self.algorithm,))
@@ -258,7 +267,7 @@ class Game(NotebookValue):
         state, model, _ = so_far
         if judged_in is None or model.facts is not judged_in.facts:
             check_state(state, self.type, model, "before the first rule")
-        return continue_run(self.algorithm, so_far, event, self.type)
+        return continue_run(self.algorithm, so_far, event, self.type, self.watch)
 
     # --- events ---
 

@@ -6,12 +6,12 @@ state is not of its type, nothing is changed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
 from time import perf_counter
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from ttr.errors import EndlessError, UpdateError
 from ttr.judging.certainty import is_certain_given
@@ -177,6 +177,10 @@ def _is_within(path: str, outer: str) -> bool:
     return path == outer or path.startswith(f"{outer}.")
 
 
+Watch: TypeAlias = Callable[[Step], object]
+"""Somebody who is given each step before a run goes on from it."""
+
+
 class Run(NamedTuple):
     """The state and the model after a run, and the steps that led there."""
 
@@ -235,13 +239,18 @@ def run(
 
 @within_budget
 def continue_run(
-    algorithm: Algorithm, so_far: Run, event: Object | NBest, type: RecordType
+    algorithm: Algorithm,
+    so_far: Run,
+    event: Object | NBest,
+    type: RecordType,
+    watch: Watch | None = None,
 ) -> Run:
     """The run after one more event, or the same run if no rule applies to it.
 
-    The state so far has to be of the type; it is not checked again.
+    The state so far has to be of the type; it is not checked again. `watch` is given
+    each step before the run goes on from it.
     """
-    return _Player(type, event).play(algorithm, so_far) or so_far
+    return _Player(type, event, watch).play(algorithm, so_far) or so_far
 
 
 # --- playing -------------------------------------------------------------------------
@@ -269,6 +278,7 @@ class _Player:
 
     type: RecordType
     event: Object | NBest
+    watch: Watch | None = None
     conditions: _ConditionCache = field(default_factory=_ConditionCache)
 
     def play(self, algorithm: Algorithm, so_far: Run) -> Run | None:
@@ -428,6 +438,8 @@ class _Player:
             so_far.model,
             event.event if rule.on is None else self.event,
         )
+        if self.watch is not None:
+            self.watch(step)
         return Run(after.state, after.model, (*trace, step))
 
     def _match_event(self, rule: Rule, model: Model) -> MatchedEvent | None:

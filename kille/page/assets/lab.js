@@ -2,14 +2,16 @@
 
 import { byId, el } from "./dom.js";
 import { Shelf } from "./shelf.js";
-import { t } from "./texts.js";
+import { brief, t } from "./texts.js";
 import { unfired } from "./unfired.js";
 
 const KEPT = 200; // turns that can be looked at, with their pictures
 
 export class Lab {
-  /** `light(number, on)` shows a thing in the picture; `replay` what was in view. */
-  constructor(light, replay) {
+  /** `light(number, on)` shows a thing in the picture; `replay` what was in view.
+   *  `tools` are buttons that the lab has room for. */
+  constructor(light, replay, ...tools) {
+    this.tools = tools;
     this.replay = replay;
     this.turns = [];
     this.dropped = 0;
@@ -39,7 +41,7 @@ export class Lab {
     byId("lab").setAttribute("aria-label", t("lab"));
     this.timeline.setAttribute("aria-label", t("timeline"));
     this.shelf.label();
-    byId("lab-tools").replaceChildren(this.now, this.saving());
+    byId("lab-tools").replaceChildren(...this.tools, this.now, this.saving());
     this.now.textContent = t("now");
     this.title();
   }
@@ -133,7 +135,7 @@ export class Lab {
     this.shown = index;
     this.timeline.value = index + 1;
     this.showView(turn, this.title());
-    byId("lab-tools").replaceChildren(this.now, this.saving());
+    byId("lab-tools").replaceChildren(...this.tools, this.now, this.saving());
     if (!turn || byId("lab").hidden) return;
     const answer = await fetch(`/inside/${turn.turns.join("/")}`);
     if (!answer.ok || this.shown !== index) return;
@@ -196,9 +198,6 @@ export class Lab {
     return made;
   }
 }
-
-/** A text with its long numbers rounded. */
-const brief = (text) => text.replace(/\d+\.\d{4,}/g, (number) => String(Number(Number(number).toFixed(3))));
 
 /** What the robot's library has drawn, which has no script and escapes every word. */
 function matrix(html) {

@@ -6,6 +6,7 @@ import { Lab } from "./lab.js";
 import { LivePicture } from "./picture.js";
 import { Replay } from "./replay.js";
 import { Region } from "./region.js";
+import { Stepping } from "./stepping.js";
 import { Table } from "./table.js";
 import { Talk } from "./talk.js";
 import { setLanguage, t } from "./texts.js";
@@ -14,8 +15,9 @@ import { Voice } from "./voice.js";
 
 const picture = new LivePicture();
 const things = new Things(choose);
+const stepping = new Stepping((message) => connection.ask(message));
 const replay = new Replay(picture, things);
-const lab = new Lab((number, on) => things.light(number, on), replay);
+const lab = new Lab((number, on) => things.light(number, on), replay, stepping.toggle);
 const talk = new Talk(say, (number, on) => things.light(number, on), (event) => lab.choose(event), edit);
 const table = new Table((message) => connection.ask(message));
 const region = new Region(things, choose, (box) => connection.ask({ do: "point", box }));
@@ -52,7 +54,10 @@ const connection = new Connection({
     talk.heard(event);
   },
   uttered: (event) => talk.uttered(event),
+  stepping: (event) => stepping.switched(event),
+  step: (event) => stepping.wait(event),
   turn: (event) => {
+    stepping.over();
     confirm(event.ref);
     if (event.said) voice.playback.expect(event.id, event.said.split("\n").length);
     offerUndo(event.undo);
@@ -66,6 +71,7 @@ const connection = new Connection({
     talk.notice(t("anew"));
   },
   failed: (event) => {
+    stepping.over();
     confirm(event.ref);
     talk.failed(event);
   },
@@ -113,6 +119,7 @@ function hello(event, before) {
   if (event.after === 0) {
     talk.clear();
     lab.clear();
+    stepping.switched({ on: false });
     byId("trouble").hidden = true;
     byId("stage").classList.remove("stage--stale");
   }
@@ -141,6 +148,7 @@ function label(spoken) {
   for (const [id, name] of [["picture", "picture"], ["things", "things"], ["seen", "seen"], ["talk", "talk"], ["turns", "talk"], ["answers", "answers"], ["tools", "tools"], ["deeds", "deeds"]])
     byId(id).setAttribute("aria-label", t(name));
   byId("empty").textContent = t("empty");
+  stepping.label();
   lab.label();
   voice.label();
   for (const [id, name] of [["freeze", "freeze"], ["undo", "undoLatest"], ["restart", "restart"]]) byId(id).textContent = t(name);

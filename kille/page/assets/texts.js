@@ -52,6 +52,7 @@ const EN = {
   isOne: "{word}, {day}", isNone: "no {word}, {day}", noPicture: "no picture", latestExamples: "The latest {shown} of {count}.",
   curve: "Examples over the latest {count} lessons: {pro} for it, {con} against it",
   template: "Where the target stands, seen from above, {across} cm across, the landmark in the middle; at best {most}",
+  stepping: "Step before every rule", waits: "It waits before", stepOne: "Step", stepRest: "Go on", nothingNew: "changes nothing that is shown",
   now: "Back to now", replayed: "As it was: {turn}", on: "on", when: "when", gone: "That turn is not kept any more.",
   unfired: "Rules that did not fire, and why", insteadOf: "Fired: {rules}. Not fired:", others: "{count} more wait for other events.",
   foundNothing: "the condition holds, but what the rule is for is not the case", cameLater: "it would have fired, but another came first",
@@ -113,6 +114,7 @@ const SV = {
   isOne: "{word}, {day}", isNone: "inte {word}, {day}", noPicture: "ingen bild", latestExamples: "De senaste {shown} av {count}.",
   curve: "Exempel under de senaste {count} lektionerna: {pro} för, {con} emot",
   template: "Var saken står, sett uppifrån, {across} cm brett, landmärket i mitten; som bäst {most}",
+  stepping: "Stega före varje regel", waits: "Den väntar före", stepOne: "Stega", stepRest: "Fortsätt", nothingNew: "ändrar inget som visas",
   now: "Tillbaka till nu", replayed: "Som det var: {turn}", on: "vid", when: "när", gone: "Den turen finns inte kvar.",
   unfired: "Regler som inte användes, och varför", insteadOf: "Användes: {rules}. Användes inte:", others: "{count} till väntar på andra händelser.",
   foundNothing: "villkoret gäller, men det som regeln är till för är inte fallet", cameLater: "den hade använts, men en annan kom före",
@@ -138,3 +140,6 @@ export function t(name, slots = {}) {
 
 /** A number from 0 to 1 in percent. */
 export const percent = (degree) => t("percent", { percent: Math.round(degree * 100) });
+
+/** A text with its long numbers rounded. */
+export const brief = (text) => text.replace(/\d+\.\d{4,}/g, (number) => String(Number(Number(number).toFixed(3))));

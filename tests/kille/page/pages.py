@@ -127,7 +127,12 @@ def page_of(
     feed, troubles = Feed(), []
     picture = LivePicture(lambda text: feed.publish({"type": "camera", "text": text}))
     robot = RobotThread(
-        lambda record: Agent(picture.share(sensor), memory, record_event=record),
+        lambda watch: Agent(
+            picture.share(sensor),
+            memory,
+            record_event=watch.record_event,
+            change=watch.change,
+        ),
         feed,
         troubles.append,
         insight=Insight(derivation, in_short),

@@ -202,6 +202,29 @@ def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
     assert "U> Thank you." in saved.value.path().read_text()
 
 
+def test_a_turn_is_stepped_through(desk: Program, tab: Tab) -> None:
+    tab.goto(desk.address)
+    playwright.expect(thing(tab, 1)).to_be_visible()  # it has looked
+    tab.get_by_role("button", name="Look inside", exact=True).click()
+    toggle = tab.get_by_role("button", name="Step before every rule")
+    toggle.click()
+    playwright.expect(toggle).to_have_attribute("aria-pressed", "true")
+    waits = tab.locator("#step")
+    field = tab.get_by_role("textbox", name="Say something")
+    field.fill("Hello.")
+    field.press("Enter")
+    playwright.expect(waits).to_contain_text("It waits before hear")
+    waits.get_by_role("button", name="Step").click()
+    playwright.expect(waits).to_contain_text("GreetBack")
+    waits.get_by_role("button", name="Go on").click()
+    playwright.expect(waits).to_be_hidden()
+    playwright.expect(tab.locator(".bubble--robot").last).to_have_text(
+        "The robot: Hello!"
+    )
+    toggle.click()
+    playwright.expect(toggle).to_have_attribute("aria-pressed", "false")
+
+
 def test_a_lesson_by_keys_alone(start: Start, tab: Tab) -> None:
     visit(tab, start(*EMPTY), things=0)
     keys = tab.keyboard

@@ -15,11 +15,14 @@ import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosed
 
+from kille.agent.agent import Agent
 from kille.interfaces.cli import main
 from kille.page.app import BROWSERS, UNDER_WAY
 from kille.page.browser_requests import MESSAGE, parse_request
 from kille.page.history import History
-from kille.page.robot_thread import WAITING, BusyError
+from kille.page.inside import PLAIN
+from kille.page.robot_thread import WAITING, BusyError, Watch
+from kille.page.stepping import Stepper
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
@@ -213,6 +216,36 @@ def test_words_are_on_the_shelf_with_what_they_were_learned_from(page: Page) -> 
         f"/example/{9**30}",
     ):
         assert get(page, missing) == b""
+
+
+def test_a_turn_waits_before_each_rule_until_it_may_go_on(page: Page) -> None:
+    with page.connect() as one, page.connect() as other:
+        one.ask(do="stepping", on=True)
+        assert other.until("stepping")["on"] is True
+        one.ask(do="say", text="Hello.", ref="slow")
+        first = other.until("step")
+        assert (first["rule"], bool(first["does"])) == ("hear", True)
+        other.ask(do="step")
+        second = one.until("step", rule="GreetBack to Greet")
+        assert any("agenda" in it for it in second["changes"])
+        one.ask(do="step", rest=True)
+        assert "Hello" in one.until("turn", ref="slow")["said"]
+        one.ask(do="say", text="Thank you.", ref="closed")
+        one.until("step")
+        other.ask(do="stepping", on=False)
+        assert one.until("turn", ref="closed")["said"]
+        assert one.say("Hello.")["said"]
+        assert one.events[-3]["type"] == "heard"
+
+
+def test_a_turn_does_not_wait_for_ever() -> None:
+    told: list[dict[str, object]] = []
+    stepper = Stepper(told.append, PLAIN, patience=0.0)
+    stepper.ask("on")
+    with Agent("synthetic:empty?seed=7", change=Watch(print, stepper).change) as robot:
+        assert robot.hear("Hello.") == "Hello."
+    assert [it["type"] for it in told] == ["stepping", "step", "stepping"]
+    assert told[-1]["on"] is False
 
 
 def test_only_the_latest_pictures_are_kept() -> None:
