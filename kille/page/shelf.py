@@ -99,19 +99,19 @@ def _template(robot: Agent, name: str) -> list[list[float]]:
 
 @cache
 def swatch(name: str) -> str:
-    """The colour that people call by this word most of all, as `#rrggbb`.
+    """The colour that people call so most of all, as `#rrggbb`; by its predicate.
 
     Empty for what is no colour word that people were asked about.
 
-    >>> swatch("soft")
-    ''
+    >>> swatch("is_red"), swatch("is_soft")
+    ('#e70017', '')
     """
-    words = xkcd()
-    if name not in words.names:
+    words, colour = xkcd(), name.removeprefix("is_").replace("_", " ")
+    if colour not in words.names:
         return ""
     steps = np.linspace(0, 255, _SHADES).astype(np.uint8)
     rgb = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
-    chances = words.chances(lab_of(rgb))[:, words.names.index(name)]
+    chances = words.chances(lab_of(rgb))[:, words.names.index(colour)]
     red, green, blue = rgb[int(chances.argmax())].tolist()
     return f"#{red:02x}{green:02x}{blue:02x}"
 

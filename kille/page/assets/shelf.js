@@ -70,13 +70,14 @@ export class Shelf {
       return;
     }
     const word = await answer.json();
-    this.card.replaceChildren(
+    const parts = [
       el("h3", {}, word.swatch ? dye(word.swatch) : null, word.form),
       el("div", { class: "shelf__examples" }, ...word.examples.map((it) => example(it, word.form))),
       word.lessons > word.examples.length ? el("p", { class: "part__empty" }, t("latestExamples", { shown: word.examples.length, count: word.lessons })) : null,
       curve(word.curve),
       word.template ? heatMap(word.template, word.cell) : null,
-    );
+    ];
+    this.card.replaceChildren(...parts.filter(Boolean));
   }
 }
 
@@ -117,7 +118,7 @@ function heatMap(rows, cell) {
   const text = t("template", { across: Math.round(wide * cell * 100), most: percent(best) });
   const drawing = svg("svg", { class: "heat", viewBox: `0 0 ${wide} ${high}`, role: "img", "aria-label": text });
   rows.forEach((row, y) =>
-    row.forEach((degree, x) => drawing.append(svg("rect", { class: "heat__cell", x, y, width: 1.02, height: 1.02, "fill-opacity": degree }))),
+    row.forEach((degree, x) => drawing.append(svg("rect", { class: "heat__cell", x, y, width: 1, height: 1, "fill-opacity": degree }))),
   );
   drawing.append(svg("circle", { class: "heat__landmark", cx: wide / 2, cy: high / 2, r: 0.5 }));
   return el("figure", { class: "shelf__figure" }, drawing, el("figcaption", {}, text));

@@ -14,14 +14,21 @@ async function load(turn, body) {
   body.replaceChildren(el("p", { class: "part__empty" }, "…"));
   const answer = await fetch(`/unfired/${turn.turns.join("/")}`);
   const { error, events } = answer.ok ? await answer.json() : { error: t("gone"), events: [] };
-  body.replaceChildren(...(error ? [el("p", {}, error)] : events.map(eventReport)));
+  body.replaceChildren(...(error ? [el("p", {}, error)] : eventReports(events)));
 }
 
-function eventReport({ fired, others, reasons }) {
+/** Unfolded is the event from which most came. */
+function eventReports(events) {
+  const most = Math.max(...events.map((it) => it.fired.length));
+  const open = events.findIndex((it) => it.fired.length === most);
+  return events.map((it, n) => eventReport(it, n === open));
+}
+
+function eventReport({ fired, others, reasons }, open) {
   return el(
-    "section",
-    { class: "unfired__event" },
-    el("h4", {}, t("insteadOf", { rules: fired.join(", ") })),
+    "details",
+    { class: "unfired__event", open },
+    el("summary", {}, t("insteadOf", { rules: fired.join(", ") })),
     ...reasons.map(reason),
     others ? el("p", { class: "part__empty" }, t("others", { count: others })) : null,
   );
