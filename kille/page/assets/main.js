@@ -58,6 +58,7 @@ const connection = new Connection({
   step: (event) => stepping.wait(event),
   turn: (event) => {
     stepping.over();
+    things.settle();
     confirm(event.ref);
     if (event.said) voice.playback.expect(event.id, event.said.split("\n").length);
     offerUndo(event.undo);

@@ -72,6 +72,11 @@ export class Things {
     return isNew && first !== null && that === null && first !== number;
   }
 
+  /** What was pointed at has been spoken of: the next click is "this" again. */
+  settle() {
+    this.pointed.isNew = false;
+  }
+
   /** The tutor has pointed at a thing, or at a region of their own. */
   point({ thing = null, as }) {
     const second = as === "that";

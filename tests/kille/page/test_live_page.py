@@ -112,14 +112,14 @@ def test_a_second_thing_is_that(page: Page) -> None:
 def test_the_table_is_arranged_by_hand(page: Page) -> None:
     with page.connect() as browser:
         browser.ask(do="show", thing="cup")
-        browser.ask(do="place", thing="cup", right=-0.2, away=0.1)
+        browser.ask(do="place", thing="cup", right=-0.1, away=-0.1)
         browser.ask(do="add", thing="book", ref="add")
         (cup, book) = browser.until("table", ref="add")["plan"]["placed"]
         assert (cup["name"], book["name"]) == ("cup", "book")
         assert len(book["outline"]) >= 3
-        browser.ask(do="place", thing="book", right=0.2, away=0.1, turn=90, ref="moved")
+        browser.ask(do="place", thing="book", right=0.3, away=0.1, turn=90, ref="moved")
         moved = browser.until("table", ref="moved")["plan"]["placed"][1]
-        assert [moved[it] for it in ("right", "away", "turn")] == [0.2, 0.1, 90.0]
+        assert [moved[it] for it in ("right", "away", "turn")] == [0.3, 0.1, 90.0]
         browser.ask(do="place", thing="book", right=9, away=0.1, ref="off")
         assert "would not stand" in browser.until("failed", ref="off")["text"]
         again = browser.until("table", ref="off")["plan"]["placed"][1]
