@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import io
 import secrets
 import socket
 import webbrowser
@@ -28,6 +29,13 @@ MISSING = (
 )
 
 
+DEAF = {
+    "language": "The page has no microphone: the robot can hear English only.",
+    "pocketsphinx": "The page has no microphone: to be heard, pip install "
+    "'kille[speech]'.",
+}
+"""What is told where no microphone can be heard, by the reason."""
+
 _TAKEN = (errno.EADDRINUSE, getattr(errno, "WSAEACCES", errno.EADDRINUSE))
 
 
@@ -50,6 +58,7 @@ def serve(
     """
     try:
         from kille.page.inside import Insight
+        from kille.page.microphone import why_deaf
         from kille.page.server import Terminal, serve_page
     except ImportError:
         return complain(MISSING)
@@ -72,7 +81,7 @@ def serve(
         return complain(_why_no_page(host, port, error))
     with settings.listener:
         terminal = Terminal(
-            lambda woken: _welcome(woken, settings, show),
+            lambda woken: _welcome(woken, settings, show, why_deaf(woken.language)),
             complain,
             lambda error: report_unforeseen("kille", error),
         )
@@ -117,19 +126,41 @@ def _why_no_page(host: str, port: int, error: OSError) -> str:
     return f"the page cannot listen on {host}, port {port}: {error.strerror or error}"
 
 
-def _welcome(robot: Agent, settings: PageSettings, show: bool) -> None:
+def _welcome(robot: Agent, settings: PageSettings, show: bool, why_deaf: str) -> None:
     """Print where the page is, and open it in a browser if that is wanted."""
-    access = settings.access
-    port = settings.listener.getsockname()[1]
-    name = access.host
-    if name in ("0.0.0.0", "::"):
-        name = socket.gethostname()
-    name = f"[{name}]" if ":" in name else name
-    address = f"{access.scheme}://{name}:{port}/"
-    if access.token:
-        address += f"?token={access.token}"
+    address = _address(settings)
     out = console()
     out.print(introduction(robot))
+    if deaf := DEAF.get(why_deaf):
+        out.print(deaf)
     out.print(f"The page is ready: {address}\nCtrl-C ends it.")
+    if settings.access.token and out.is_terminal:
+        out.print(f"For a phone:\n{qr_code(address)}", highlight=False)
     if show:
         Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+
+def _address(settings: PageSettings) -> str:
+    """Where the page is: where it listens on all addresses, at the likeliest."""
+    from kille.page.guard import own_addresses
+
+    access, port = settings.access, settings.listener.getsockname()[1]
+    name = access.host
+    if name in ("0.0.0.0", "::"):
+        name = next(iter(own_addresses()), socket.gethostname())
+    name = f"[{name}]" if ":" in name else name
+    address = f"{access.scheme}://{name}:{port}/"
+    return f"{address}?token={access.token}" if access.token else address
+
+
+def qr_code(text: str) -> str:
+    """A text as a QR code for a terminal: two rows of it in a line.
+
+    >>> len(qr_code("https://192.0.2.7:8765/").splitlines())
+    17
+    """
+    import segno
+
+    out = io.StringIO()
+    segno.make(text, error="l", micro=False).terminal(out, compact=True)
+    return out.getvalue()

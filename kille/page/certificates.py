@@ -20,7 +20,7 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
-from kille.page.guard import is_number, own_names
+from kille.page.guard import is_number, own_addresses, own_names
 from kille.safety.private_files import FOLDER_MODE, open_private
 
 LASTS = timedelta(days=397)
@@ -53,7 +53,7 @@ def host_certificate(host: str, folder: Path) -> Certificate:
 
 def _names_of(host: str) -> tuple[str, ...]:
     """The names and addresses under which the host may be asked for."""
-    found = {"localhost", "127.0.0.1", "::1", host, *own_names()}
+    found = {"localhost", "127.0.0.1", "::1", host, *own_names(), *own_addresses()}
     with suppress(OSError):
         for it in socket.getaddrinfo(socket.gethostname(), None):
             found.add(str(it[4][0]).partition("%")[0])

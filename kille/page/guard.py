@@ -12,6 +12,7 @@ import ipaddress
 import secrets
 import socket
 from collections.abc import Awaitable, Callable, MutableMapping
+from contextlib import suppress
 from typing import Any, NamedTuple
 from urllib.parse import parse_qs, urlsplit
 
@@ -34,6 +35,12 @@ HEADERS = {
 """No script but the page's own files, nothing from elsewhere, no frames around it."""
 
 REFUSED = "kille: open the address with its token that `kille serve` has printed.\n"
+_ELSEWHERE = (
+    (socket.AF_INET, "192.0.2.1"),
+    (socket.AF_INET6, "2001:db8::1"),
+)
+"""Addresses that are nobody's, by which to find out which are this machine's."""
+
 _LOCAL = frozenset({"localhost", "127.0.0.1", "::1"})
 
 
@@ -92,6 +99,20 @@ def own_names() -> frozenset[str]:
     return frozenset(
         {name, f"{name.partition('.')[0]}.local", socket.getfqdn().lower()}
     )
+
+
+def own_addresses() -> tuple[str, ...]:
+    """The addresses at which other machines reach this one, the likeliest first.
+
+    They are those from which it would send to others; nothing is sent. Its name is no
+    help: on Debian it leads to 127.0.1.1.
+    """
+    found: list[str] = []
+    for family, elsewhere in _ELSEWHERE:
+        with suppress(OSError), socket.socket(family, socket.SOCK_DGRAM) as probe:
+            probe.connect((elsewhere, 9))
+            found.append(str(probe.getsockname()[0]).partition("%")[0])
+    return tuple(it for it in found if not ipaddress.ip_address(it).is_loopback)
 
 
 def split_host(host: str) -> str:

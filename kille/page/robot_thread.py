@@ -78,7 +78,8 @@ class BusyError(Exception):
 class RobotThread:
     """A robot whose turns are serialised, and told to a feed.
 
-    `tell` is given what goes wrong, for the terminal; `report` what nobody foresaw.
+    `tell` is given what goes wrong with the camera or the memory, and an empty text
+    when that is over; `report` what nobody foresaw.
     """
 
     def __init__(
@@ -215,7 +216,7 @@ class RobotThread:
         self._publish("failed", request, text=why, seen=seen)
 
     def _tell_trouble(self, trouble: str) -> None:
-        """Tell the terminal once of trouble that comes again with every request."""
-        if trouble and trouble != self._trouble:
+        """Tell once of trouble that comes again with every request, and of its end."""
+        if trouble != self._trouble:
+            self._trouble = trouble
             self._tell(trouble)
-        self._trouble = trouble

@@ -7,6 +7,7 @@ import socket
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from threading import Lock
 from typing import NamedTuple
 
 import uvicorn
@@ -52,6 +53,29 @@ class Terminal(NamedTuple):
     unforeseen: Callable[[Exception], object]
 
 
+class ToldOnce:
+    """Tells of trouble once, whoever meets with it; an empty text: it is over.
+
+    >>> heard = []
+    >>> told = ToldOnce(heard.append)
+    >>> for who, trouble in ("robot", "gone"), ("picture", "gone"), ("picture", ""):
+    ...     told.tell(who, trouble)
+    >>> heard
+    ['gone']
+    """
+
+    def __init__(self, tell: Callable[[str], object]) -> None:
+        self._tell, self._troubles, self._lock = tell, dict[str, str](), Lock()
+
+    def tell(self, who: str, trouble: str) -> None:
+        """Tell of what somebody meets with, unless anybody has at present."""
+        with self._lock:
+            is_new = bool(trouble) and trouble not in self._troubles.values()
+            self._troubles[who] = trouble
+        if is_new:
+            self._tell(trouble)
+
+
 def listen(host: str, port: int) -> socket.socket:
     """A socket that listens there; any free port for 0. OSError if that cannot be."""
     family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
@@ -69,12 +93,11 @@ def serve_page(
 
     Raises SensorError and MemoryFileError as they arise before it is ready.
     """
-    feed = Feed()
+    feed, told = Feed(), ToldOnce(terminal.trouble)
 
     def tell_of_camera(trouble: str) -> None:
         feed.publish({"type": "camera", "text": trouble})
-        if trouble:
-            terminal.trouble(trouble)
+        told.tell("picture", trouble)
 
     with ExitStack() as closing:
         picture = LivePicture(tell_of_camera)
@@ -85,7 +108,7 @@ def serve_page(
             robot = RobotThread(
                 lambda watch: make(picture.share(opened), watch),
                 feed,
-                terminal.trouble,
+                lambda trouble: told.tell("robot", trouble),
                 terminal.unforeseen,
                 insight,
             )

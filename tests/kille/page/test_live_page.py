@@ -471,6 +471,36 @@ def test_a_camera_that_goes_is_told_and_so_is_its_return(
         sensor.gone = False
         assert browser.until("camera")["text"] == ""
         assert browser.say("What is this?")["said"]
+        assert page.troubles == ["the Kinect is gone: plug it in again", ""]
+
+
+def test_a_restart_before_a_camera_that_is_gone_is_a_restart(
+    camera: tuple[Unplugged, Page],
+) -> None:
+    sensor, page = camera
+    with page.connect() as browser:
+        browser.say("Hello.")
+        sensor.gone = True
+        browser.ask(do="restart", ref="blind")
+        browser.until("restarted", ref="blind")
+        assert browser.until("failed", ref="blind")["seen"]
+        assert browser.say("What did you say?")["said"] != "Hello."
+
+
+def test_what_is_asked_again_is_done_once(page: Page) -> None:
+    with page.connect() as browser:
+        for _ in range(2):
+            browser.ask(do="say", text="Hello.", ref="asked twice")
+        browser.until("view", ref="asked twice")
+        browser.say("Thank you.")
+        heard = [it["ref"] for it in browser.events if it["type"] == "heard"]
+    assert heard.count("asked twice") == 1
+
+
+def test_whoever_asks_is_told_that_the_server_is_there(page: Page) -> None:
+    with page.connect() as browser:
+        browser.ask(do="ping")
+        assert browser.until("pong")
 
 
 def test_who_comes_after_the_look_sees_what_a_recording_showed(tmp_path: Path) -> None:
