@@ -202,5 +202,7 @@ export class Lab {
 /** What the robot's library has drawn, which has no script and escapes every word. */
 function matrix(html) {
   const parsed = new DOMParser().parseFromString(html, "text/html");
-  return document.adoptNode(parsed.body.firstElementChild);
+  const made = document.adoptNode(parsed.body.firstElementChild);
+  made.tabIndex = 0; // so that keys scroll what is wide
+  return made;
 }

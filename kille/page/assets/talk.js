@@ -28,12 +28,12 @@ export class Talk {
   }
 
   notice(text) {
-    this.add(el("li", { class: "turn" }, el("p", { class: "notice" }, text)));
+    this.add(el("div", { class: "turn" }, el("p", { class: "notice" }, text)));
   }
 
   /** What the tutor has said or done. */
   heard({ ref, says, id, perhaps }) {
-    const turn = el("li", { class: "turn turn--waiting" }, this.bubble("tutor", says));
+    const turn = el("div", { class: "turn turn--waiting" }, this.bubble("tutor", says));
     this.waiting.set(ref || id, turn);
     this.endLatest();
     this.undo = "";
@@ -101,7 +101,7 @@ export class Talk {
 
   /** The turn that waits for this event, or a new one. */
   take({ ref }) {
-    const turn = this.waiting.get(ref) ?? el("li", { class: "turn" });
+    const turn = this.waiting.get(ref) ?? el("div", { class: "turn" });
     this.waiting.delete(ref);
     turn.classList.remove("turn--waiting");
     this.endLatest();
