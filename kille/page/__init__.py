@@ -21,7 +21,7 @@ the page is sent the events after the last one that they have, and the newest pi
 | `browser_requests` | what a browser may ask for, checked |
 | `guard` | who may reach the page: hosts, origins, tokens; and safe headers |
 | `certificates` | the certificate of this host, for TLS |
-| `microphone`, `spoken_answers` | whose microphone is heard, and the voice of the robot |
+| `microphone`, `spoken_answers` | whose microphone is heard; the robot's voice |
 | `app`, `server` | the page over HTTP and WebSocket, and its process |
 | `assets/` | the page itself: HTML, CSS and modules of JavaScript as they are written |
 """

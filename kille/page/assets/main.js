@@ -90,7 +90,8 @@ const connection = new Connection({
   table: (event) => table.show(event),
   pointed: (event) => replay.live(event) && things.point(event),
   camera: ({ text }) => {
-    byId("trouble").textContent = text;
+    // What a sensor complains of is English, whatever the page speaks.
+    byId("trouble").replaceChildren(t("noPicture"), el("span", { lang: "en" }, text));
     byId("trouble").hidden = !text;
     byId("stage").classList.toggle("stage--stale", Boolean(text));
   },

@@ -94,7 +94,7 @@ export class Talk {
     // That the camera is gone is told over the picture, too: once is enough.
     if (event.seen && !this.waiting.has(event.ref)) return;
     const turn = this.take(event);
-    turn.append(el("p", { class: "bubble bubble--wrong" }, event.text));
+    turn.append(el("p", { class: "bubble bubble--wrong" }, t("notDone"), el("span", { lang: "en" }, event.text)));
     if (!turn.isConnected) this.add(turn);
     this.scroll();
   }

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 import pytest
 
@@ -333,7 +334,32 @@ def test_every_thing_and_control_has_a_name_and_a_phone_has_room(
 def test_it_comes_back_after_ten_seconds_of_silence(start: Start, tab: Tab) -> None:
     program = start(*EMPTY)
     visit(tab, program, things=0)
+    status = tab.get_by_role("status")
     os.kill(program.process.pid, signal.SIGSTOP)
+    field = tab.get_by_role("textbox", name="Say something")
+    field.fill("Hello.")
+    field.press("Enter")
+    playwright.expect(status).to_contain_text("Lost")
     tab.wait_for_timeout(10_000)
     os.kill(program.process.pid, signal.SIGCONT)
-    say(tab, "Hello.", "Hello")
+    playwright.expect(status).to_contain_text("Connected")
+    # What was said into the silence is heard, and once.
+    playwright.expect(tab.locator(".bubble--robot")).to_contain_text("Hello")
+    say(tab, "Thank you.", "welcome")
+    assert tab.locator(".bubble--tutor").count() == 2
+
+
+@pytest.mark.deep
+def test_a_page_with_an_old_token_says_to_open_the_new_address(
+    start: Start, chromium: Any
+) -> None:
+    program = start(*EMPTY, "--host", "0.0.0.0")
+    with chromium.new_context(ignore_https_errors=True) as context:
+        tab = context.new_page()
+        visit(tab, program, things=0)
+        program.process.kill()
+        program.process.wait()
+        port = urlsplit(program.address).port
+        start(*EMPTY, "--host", "0.0.0.0", "--port", str(port))
+        status = tab.get_by_role("status")
+        playwright.expect(status).to_contain_text("open the address")
