@@ -61,10 +61,17 @@ def compact(text: str) -> str:
     '<ul>\\n<li>one</li></ul><pre>  as it is</pre>'
     """
     text = _UNUSED.sub("", text)
+    text = text.replace("#svg-sun-with-moon", "#svg-sun")
+    text = text.replace("#svg-moon-with-sun", "#svg-moon")
+    text = text.replace(' xmlns="http://www.w3.org/2000/svg"', "")
     parts = re.split(r"(<pre\b.*?</pre>)", text, flags=re.S)
     return "".join(
         it if i % 2 else re.sub(r"\s*\n\s*", "\n", it) for i, it in enumerate(parts)
     )
 
 
-_UNUSED = re.compile(r'<symbol id="svg-(?:pencil|eye)".*?</symbol>', flags=re.S)
+_UNUSED = re.compile(
+    r'<symbol id="svg-(?:pencil|eye|sun-with-moon|moon-with-sun)".*?</symbol>'
+    r"|<!--.*?-->|<title>[A-Z][a-z ]*</title>(?=\s*<svg)",
+    flags=re.S,
+)
