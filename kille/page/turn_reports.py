@@ -10,7 +10,7 @@ from kille.agent.exchanges import Exchange
 from kille.dialogue.games.clarifying import REFERENTS
 from kille.dialogue.games.referring import differing_things
 from kille.dialogue.language_files import plain
-from kille.dialogue.meanings import predicate_at
+from kille.dialogue.meanings import is_denial, predicate_at
 from kille.page.phrases import Phrases, phrases
 from kille.perception.outlines import polygon_of
 from kille.scene import Percept
@@ -85,7 +85,7 @@ def turn_report(robot: Agent, turns: Iterable[Exchange]) -> Json:
         "rules": [{"name": it.rule.name, "does": _first_line(it)} for it in steps],
         "answers": answers_to(robot),
         "words": len(robot.state.private.nouns),
-        "undo": text.undo if any(it["sign"] == "+" for it in lessons) else "",
+        "undo": text.undo if any(it["learned"] for it in lessons) else "",
         "why": text.why if robot.state.shared.pending else "",
     }
 
@@ -97,14 +97,19 @@ def _first_line(step: Any) -> str:
 def _changed_lessons(
     before: Sequence[Record], after: Sequence[Record]
 ) -> Iterator[Json]:
-    """The lessons that were learned (+) and those that were taken back (−)."""
-    for sign, ours, others in (("+", after, before), ("−", before, after)):
+    """The lessons that were learned, and those that were taken back.
+
+    `holds` is whether a lesson says that its word is true of the thing, or is not.
+    """
+    for learned, ours, others in ((True, after, before), (False, before, after)):
         known = {str(it.key) for it in others}
         for lesson in ours:
             if str(lesson.key) not in known:
                 yield {
-                    "sign": sign,
+                    "learned": learned,
+                    "holds": not is_denial(lesson.content),
                     "word": lesson.sign.form,
+                    "phrase": _with_article(lesson.sign),
                     "content": notation(lesson.content),
                 }
 
@@ -150,5 +155,9 @@ def _answers_to_own_question(robot: Agent, text: Phrases) -> Iterator[Json]:
             continue
         if predicate_at(judgement.type, "e").name == "ask_which":
             for sign in judgement.sit.signs:
-                word = f"{sign.article} {sign.form}".strip()
-                yield {"says": text.call.format(a_word=word)}
+                yield {"says": text.call.format(a_word=_with_article(sign))}
+
+
+def _with_article(sign: Record) -> str:
+    """A word as it is called: "a cup", "red"."""
+    return f"{sign.article} {sign.form}".strip()

@@ -85,7 +85,7 @@ export class Shelf {
 function example({ key, holds, day }, form) {
   const name = t(holds ? "isOne" : "isNone", { word: form, day });
   const picture = el("img", { src: `/example/${key}`, alt: name, title: name, loading: "lazy", width: 64, height: 64 });
-  picture.addEventListener("error", () => picture.replaceWith(el("span", { class: "example__none", title: name }, t("noPicture"))));
+  picture.addEventListener("error", () => picture.replaceWith(el("span", { class: "example__none", title: name }, t("noExample"))));
   return el("figure", { class: `example example--${holds ? "for" : "against"}` }, picture, el("figcaption", { "aria-hidden": "true" }, holds ? "+" : "−"));
 }
 

@@ -114,14 +114,14 @@ export class Talk {
   }
 
   chips(event) {
-    const made = event.lessons.map(({ sign, word, content }) => {
-      const learned = sign === "+";
-      const title = t(learned ? "learned" : "unlearned", { word });
+    const made = event.lessons.map(({ holds, learned, word, phrase, content }) => {
+      const told = `${learned ? "learned" : "takenBack"}${holds ? "" : "Not"}`;
+      const kind = !learned ? "taken" : holds ? "for" : "against";
       return el(
         "span",
-        { class: `chip chip--${learned ? "learned" : "unlearned"}`, title: content },
-        el("span", { "aria-hidden": "true" }, `${sign} ${word}`),
-        el("span", { class: "unseen" }, title),
+        { class: `chip chip--${kind}`, title: content },
+        el(learned ? "span" : "s", { "aria-hidden": "true" }, `${holds ? "+" : "−"} ${word}`),
+        el("span", { class: "unseen" }, t(told, { word: phrase })),
       );
     });
     if (event.thing && event.said) {

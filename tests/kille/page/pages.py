@@ -52,7 +52,8 @@ class Page(NamedTuple):
     troubles: list[str]
 
     def connect(self, **settings: Any) -> Browser:
-        """A client that is told what happens from now on."""
+        """A client that is told what happens from now on: nothing is under way."""
+        self.robot.read(lambda _: None).result(PATIENCE)
         now = {"run": self.feed.run, "after": self.feed.last}
         return Browser.connect(f"http://{self.host}", **(now | settings))
 
@@ -87,6 +88,12 @@ class Browser:
 
     def ask(self, **message: Any) -> None:
         self.socket.send(json.dumps(message))
+
+    def ask_for(self, kind: str, **message: Any) -> dict[str, Any]:
+        """Ask for something; the event of a kind that came of it."""
+        ref = fresh_ref()
+        self.ask(**message, ref=ref)
+        return self.until(kind, ref=ref)
 
     def next(self) -> dict[str, Any]:
         """The next event; pictures before it are kept."""

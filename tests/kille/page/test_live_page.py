@@ -7,6 +7,7 @@ import struct
 from collections.abc import Iterator
 from pathlib import Path
 from threading import Event
+from typing import Any
 from urllib.error import HTTPError
 from urllib.request import urlopen
 
@@ -44,10 +45,13 @@ HOSTILE = [
 def taught(page: Page) -> Page:
     """A page on which a cup has been shown."""
     with page.connect() as browser:
-        shown = fresh_ref()
-        browser.ask(do="show", thing="cup", ref=shown)
-        browser.until("view", ref=shown)
+        browser.ask_for("view", do="show", thing="cup")
     return page
+
+
+def changed(turn: dict[str, Any]) -> list[tuple[bool, bool, str]]:
+    """The lessons of a turn: learned or taken back, for or against which word."""
+    return [(it["learned"], it["holds"], it["phrase"]) for it in turn["lessons"]]
 
 
 def test_a_lesson_is_heard_answered_and_seen(taught: Page) -> None:
@@ -56,15 +60,14 @@ def test_a_lesson_is_heard_answered_and_seen(taught: Page) -> None:
         assert hello["type"] == "hello"
         assert hello["sensor"] == "synthetic:empty?seed=7"
         assert "cup" in hello["table"]["things"]
-        browser.ask(do="point", thing=1, ref="p")
-        assert browser.until("pointed")["thing"] == 1
-        browser.ask(do="say", text="This  is a cup.", ref="s")
-        assert browser.until("heard", ref="s")["says"] == "This is a cup."
-        turn = browser.until("turn", ref="s")
+        assert browser.ask_for("pointed", do="point", thing=1)["thing"] == 1
+        heard = browser.ask_for("heard", do="say", text="This  is a cup.")
+        assert heard["says"] == "This is a cup."
+        turn = browser.until("turn", ref=heard["ref"])
         assert turn["said"].startswith("OK, ")
-        assert [(it["sign"], it["word"]) for it in turn["lessons"]] == [("+", "cup")]
+        assert changed(turn) == [(True, True, "a cup")]
         assert (turn["thing"], turn["words"], turn["undo"]) == (1, 1, "Forget that.")
-        (thing,) = browser.until("view", ref="s")["things"]
+        (thing,) = browser.until("view", ref=heard["ref"])["things"]
         assert (thing["number"], thing["name"]) == (1, "cup")
         assert thing["names"][0] == {"word": "cup", "degree": 1.0}
         assert len(thing["outline"]) > 3
@@ -75,7 +78,10 @@ def test_a_lesson_is_heard_answered_and_seen(taught: Page) -> None:
         ]
         assert browser.say(asked["why"])["said"].startswith("Because")
         undone = browser.say(turn["undo"])
-        assert [(it["sign"], it["word"]) for it in undone["lessons"]] == [("−", "cup")]
+        assert changed(undone) == [(False, True, "a cup")]
+        denied = browser.say("This is not a cup.")
+        assert changed(denied) == [(True, False, "a cup")]
+        assert changed(browser.say(denied["undo"])) == [(False, False, "a cup")]
 
 
 def test_a_question_which_one_has_an_answer_for_each_thing(page: Page) -> None:
@@ -83,8 +89,8 @@ def test_a_question_which_one_has_an_answer_for_each_thing(page: Page) -> None:
         browser.ask(do="show", thing="cup")
         browser.ask(do="place", thing="cup", right=-0.15, away=0)
         browser.ask(do="place", thing="book", right=0.15, away=0.1)
-        browser.ask(do="place", thing="apple", right=0, away=-0.15, turn=30, ref="all")
-        assert len(browser.until("view", ref="all")["things"]) == 3
+        apple = {"thing": "apple", "right": 0, "away": -0.15, "turn": 30}
+        assert len(browser.ask_for("view", do="place", **apple)["things"]) == 3
         turn = browser.say("This is a cup.")
         assert sorted(it["thing"] for it in turn["answers"]) == [1, 2, 3]
         meant = turn["answers"][1]
@@ -98,35 +104,33 @@ def test_a_question_which_one_has_an_answer_for_each_thing(page: Page) -> None:
 def test_a_second_thing_is_that(page: Page) -> None:
     with page.connect() as browser:
         browser.ask(do="show", thing="cup")
-        browser.ask(do="place", thing="book", right=0.2, away=0.1, ref="two")
-        assert len(browser.until("view", ref="two")["things"]) == 2
+        book = {"thing": "book", "right": 0.2, "away": 0.1}
+        assert len(browser.ask_for("view", do="place", **book)["things"]) == 2
         browser.ask(do="point", thing=2)
-        browser.ask(do="point", thing=1, **{"as": "that"}, ref="that")
-        assert browser.until("pointed", ref="that")["as"] == "that"
+        second = {"do": "point", "as": "that"}
+        assert browser.ask_for("pointed", thing=1, **second)["as"] == "that"
         assert browser.say("That is a mug.")["thing"] == 1
         browser.ask(do="point", thing=2)
-        browser.ask(do="point", thing=2, **{"as": "that"}, ref="same")
-        assert "already" in browser.until("failed", ref="same")["text"]
+        assert "already" in browser.ask_for("failed", thing=2, **second)["text"]
 
 
 def test_the_table_is_arranged_by_hand(page: Page) -> None:
     with page.connect() as browser:
         browser.ask(do="show", thing="cup")
         browser.ask(do="place", thing="cup", right=-0.1, away=-0.1)
-        browser.ask(do="add", thing="book", ref="add")
-        (cup, book) = browser.until("table", ref="add")["plan"]["placed"]
+        (cup, book) = browser.ask_for("table", do="add", thing="book")["plan"]["placed"]
         assert (cup["name"], book["name"]) == ("cup", "book")
         assert len(book["outline"]) >= 3
-        browser.ask(do="place", thing="book", right=0.3, away=0.1, turn=90, ref="moved")
-        moved = browser.until("table", ref="moved")["plan"]["placed"][1]
+        spot = {"do": "place", "thing": "book", "away": 0.1, "turn": 90}
+        moved = browser.ask_for("table", **spot, right=0.3)["plan"]["placed"][1]
         assert [moved[it] for it in ("right", "away", "turn")] == [0.3, 0.1, 90.0]
-        browser.ask(do="place", thing="book", right=9, away=0.1, ref="off")
-        assert "would not stand" in browser.until("failed", ref="off")["text"]
-        again = browser.until("table", ref="off")["plan"]["placed"][1]
+        off = browser.ask_for("failed", **spot, right=9)
+        assert "would not stand" in off["text"]
+        again = browser.until("table", ref=off["ref"])["plan"]["placed"][1]
         assert again == moved
-        browser.ask(do="remove", thing="book", ref="gone")
-        assert len(browser.until("view", ref="gone")["things"]) == 1
-        assert len(browser.until("table", ref="gone")["plan"]["placed"]) == 1
+        gone = browser.ask_for("view", do="remove", thing="book")
+        assert len(gone["things"]) == 1
+        assert len(browser.until("table", ref=gone["ref"])["plan"]["placed"]) == 1
 
 
 def test_a_recording_is_wound(tmp_path: Path) -> None:
@@ -138,11 +142,10 @@ def test_a_recording_is_wound(tmp_path: Path) -> None:
         hello = browser.next()
         length = hello["table"]["recording"]["length"]
         assert length > 0.5
-        browser.ask(do="seek", at=length / 2, ref="wound")
-        at = browser.until("table", ref="wound")["recording"]["at"]
+        at = browser.ask_for("table", do="seek", at=length / 2)["recording"]["at"]
         assert length / 2 <= at <= length
-        browser.ask(do="seek", at=length + 1, ref="beyond")
-        assert "from 0 to" in browser.until("failed", ref="beyond")["text"]
+        beyond = browser.ask_for("failed", do="seek", at=length + 1)
+        assert "from 0 to" in beyond["text"]
 
 
 def get(page: Page, address: str) -> bytes:
@@ -192,8 +195,7 @@ def test_a_turn_can_be_looked_into_and_saved(taught: Page) -> None:
 def test_words_are_on_the_shelf_with_what_they_were_learned_from(page: Page) -> None:
     with page.connect() as browser:
         browser.ask(do="show", thing="cup")
-        browser.ask(do="place", thing="book", right=0.2, away=0.1, ref="two")
-        browser.until("view", ref="two")
+        browser.ask_for("view", do="place", thing="book", right=0.2, away=0.1)
         browser.say("#1 This is a beaker.")
         browser.say("#2 This is not a beaker.")
         browser.say("#1 #2 This is to the left of that.")
@@ -222,18 +224,19 @@ def test_a_turn_waits_before_each_rule_until_it_may_go_on(page: Page) -> None:
     with page.connect() as one, page.connect() as other:
         one.ask(do="stepping", on=True)
         assert other.until("stepping")["on"] is True
-        one.ask(do="say", text="Hello.", ref="slow")
+        slow, closed = fresh_ref(), fresh_ref()
+        one.ask(do="say", text="Hello.", ref=slow)
         first = other.until("step")
         assert (first["rule"], bool(first["does"])) == ("hear", True)
         other.ask(do="step")
         second = one.until("step", rule="GreetBack to Greet")
         assert any("agenda" in it for it in second["changes"])
         one.ask(do="step", rest=True)
-        assert "Hello" in one.until("turn", ref="slow")["said"]
-        one.ask(do="say", text="Thank you.", ref="closed")
+        assert "Hello" in one.until("turn", ref=slow)["said"]
+        one.ask(do="say", text="Thank you.", ref=closed)
         one.until("step")
         other.ask(do="stepping", on=False)
-        assert one.until("turn", ref="closed")["said"]
+        assert one.until("turn", ref=closed)["said"]
         assert one.say("Hello.")["said"]
         assert one.events[-3]["type"] == "heard"
 
@@ -284,9 +287,9 @@ def test_who_has_another_run_begins_anew(page: Page, run: str, after: int) -> No
 
 def test_two_browsers_see_the_same_dialogue(page: Page) -> None:
     with page.connect() as one, page.connect() as other:
-        one.say("Hello.", ref="one")
-        other.say("Thank you.", ref="thanks")
-        one.until("view", ref="thanks")
+        one.say("Hello.")
+        thanks = other.say("Thank you.")
+        one.until("view", ref=thanks["ref"])
         heard = [[it for it in who.events if "id" in it] for who in (one, other)]
     turns = [it["heard"] for it in heard[0] if it["type"] == "turn"]
     assert turns == ["Hello.", "Thank you."]
@@ -309,16 +312,15 @@ def test_pictures_come_as_fast_as_they_are_drawn(page: Page) -> None:
 
 def test_who_draws_no_pictures_is_sent_no_more_and_delays_nobody(page: Page) -> None:
     with page.connect() as slow, page.connect() as quick:
-        quick.say("Hello.", ref="quick")
+        hello = quick.say("Hello.")
         for _ in quick.pictures:
             quick.ask(do="shown")
         for _ in range(20):
             while not isinstance(quick.socket.recv(timeout=60), bytes):
                 pass
             quick.ask(do="shown")
-        slow.until("turn", ref="quick")
-        slow.ask(do="look", ref="end")
-        slow.until("turn", ref="end")
+        slow.until("turn", ref=hello["ref"])
+        slow.ask_for("turn", do="look")
         assert len(slow.pictures) <= UNDER_WAY
 
 
@@ -336,16 +338,16 @@ def test_who_does_not_look_is_sent_no_pictures(page: Page) -> None:
 def test_a_new_dialogue_is_told_to_all(page: Page) -> None:
     with page.connect() as one, page.connect() as other:
         one.say("Hello.")
-        other.ask(do="restart", ref="anew")
-        one.until("restarted", ref="anew")
-        one.until("view", ref="anew")
+        anew = other.ask_for("restarted", do="restart")
+        one.until("restarted", ref=anew["ref"])
+        one.until("view", ref=anew["ref"])
         assert one.say("What did you say?")["said"]
 
 
 @pytest.mark.parametrize("words", HOSTILE, ids=range(len(HOSTILE)))
 def test_hostile_words_are_words(page: Page, words: str) -> None:
     with page.connect() as browser:
-        ref = f"hostile {HOSTILE.index(words)}"
+        ref = fresh_ref()
         browser.ask(do="say", text=words, ref=ref)
         while browser.next()["type"] not in ("turn", "failed", "refused"):
             pass
@@ -383,8 +385,8 @@ def test_what_cannot_be_asked_is_refused(
 @pytest.mark.parametrize("name", ["/etc/passwd", "../x.obj", "~/cup.obj", "unicorn"])
 def test_a_browser_names_no_files(page: Page, name: str) -> None:
     with page.connect() as browser:
-        browser.ask(do="show", thing=name, ref=name)
-        assert "there is no" in browser.until("failed", ref=name)["text"]
+        failed = browser.ask_for("failed", do="show", thing=name)
+        assert "there is no" in failed["text"]
 
 
 def test_a_message_that_is_too_large_ends_the_connection(page: Page) -> None:
@@ -413,11 +415,12 @@ def test_more_browsers_than_fit_are_sent_away(page: Page) -> None:
 def test_more_requests_than_can_wait_are_refused(page: Page) -> None:
     going = Event()
     stopped = parse_request({"do": "look"})._replace(act=lambda _: str(going.wait(60)))
-    page.robot.read(lambda _: None).result(PATIENCE)  # nothing waits any more
+
+    refs = [fresh_ref() for _ in range(WAITING + 1)]
 
     def ask_too_often() -> None:
-        for number in range(WAITING + 1):
-            page.robot.ask(stopped._replace(ref=f"wait {number}"))
+        for ref in refs:
+            page.robot.ask(stopped._replace(ref=ref))
 
     with page.connect() as browser:
         try:
@@ -425,8 +428,8 @@ def test_more_requests_than_can_wait_are_refused(page: Page) -> None:
                 ask_too_often()
         finally:
             going.set()
-        for number in range(WAITING):
-            browser.until("view", ref=f"wait {number}")
+        for ref in refs[:WAITING]:
+            browser.until("view", ref=ref)
         browser.say("Hello.")
 
 
@@ -461,12 +464,11 @@ def test_a_camera_that_goes_is_told_and_so_is_its_return(
     sensor, page = camera
     with page.connect() as browser:
         browser.draws = True
-        browser.ask(do="look", ref="before")
-        browser.until("view", ref="before")
+        browser.ask_for("view", do="look")
         sensor.gone = True
         assert "is gone" in browser.until("camera")["text"]
-        browser.ask(do="say", text="What is this?", ref="blind")
-        assert "is gone" in browser.until("failed", ref="blind")["text"]
+        blind = browser.ask_for("failed", do="say", text="What is this?")
+        assert "is gone" in blind["text"]
         assert page.troubles == ["the Kinect is gone: plug it in again"]
         sensor.gone = False
         assert browser.until("camera")["text"] == ""
@@ -481,20 +483,20 @@ def test_a_restart_before_a_camera_that_is_gone_is_a_restart(
     with page.connect() as browser:
         browser.say("Hello.")
         sensor.gone = True
-        browser.ask(do="restart", ref="blind")
-        browser.until("restarted", ref="blind")
-        assert browser.until("failed", ref="blind")["seen"]
+        anew = browser.ask_for("restarted", do="restart")
+        assert browser.until("failed", ref=anew["ref"])["seen"]
         assert browser.say("What did you say?")["said"] != "Hello."
 
 
 def test_what_is_asked_again_is_done_once(page: Page) -> None:
     with page.connect() as browser:
+        twice = fresh_ref()
         for _ in range(2):
-            browser.ask(do="say", text="Hello.", ref="asked twice")
-        browser.until("view", ref="asked twice")
+            browser.ask(do="say", text="Hello.", ref=twice)
+        browser.until("view", ref=twice)
         browser.say("Thank you.")
         heard = [it["ref"] for it in browser.events if it["type"] == "heard"]
-    assert heard.count("asked twice") == 1
+    assert heard.count(twice) == 1
 
 
 def test_whoever_asks_is_told_that_the_server_is_there(page: Page) -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import stat
 from contextlib import suppress
+from importlib.resources import files
 from pathlib import Path
 from threading import Event, Thread
 from typing import Any
@@ -207,6 +209,15 @@ def test_what_buttons_say_is_understood(language: str) -> None:
     for sentence in phrases(language):
         (heard,) = understand(sentence.format(a_word="cup"), language)
         assert heard.readings, sentence
+
+
+def test_the_page_has_each_of_its_texts_once_in_each_language() -> None:
+    source = files("kille.page").joinpath("assets", "texts.js").read_text()
+    languages = re.findall(r"^const [A-Z]+ = \{$(.*?)^\};$", source, re.M | re.S)
+    names = [re.findall(r"(\w+): \"", re.sub(r'"[^"]*"', '""', it)) for it in languages]
+    assert len(names) == len(PHRASES)
+    for it in names:
+        assert sorted(it) == sorted({*names[0]})
 
 
 # --- certificates --------------------------------------------------------------------
