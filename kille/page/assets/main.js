@@ -102,6 +102,7 @@ label("en");
 byId("old").remove();
 
 function hello(event, before) {
+  if (event.language !== language) label(event.language);
   byId("facts").replaceChildren(
     ...[
       ["sensor", event.sensor],
@@ -114,7 +115,6 @@ function hello(event, before) {
       el("div", {}, el("dt", {}, t(name)), el("dd", { title: String(value), id: `fact-${name}` }, String(value))),
     ),
   );
-  if (event.language !== language) label(event.language);
   voice.hello(event);
   table.show(event.table);
   old = event.last;

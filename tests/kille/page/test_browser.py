@@ -319,6 +319,7 @@ def test_every_thing_and_control_has_a_name_and_a_phone_has_room(
         assert all(labels)
         assert {f"#{n}, inget ord för den än" for n in (1, 2, 3)} <= {*labels}
         assert tab.locator("html").get_attribute("lang") == "sv"
+        playwright.expect(tab.locator("#facts")).to_contain_text("Kända ord")
         wide = tab.locator("body").bounding_box()
         assert wide["width"] == 390
         for it in ("#stage", "#say", "#tools", "#turns"):
