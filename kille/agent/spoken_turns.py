@@ -3,13 +3,17 @@ answer was uttered before somebody spoke over it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 
 from kille.agent.agent import Agent
 from kille.dialogue.language import understand
 from kille.dialogue.reading_weights import SURE
+from kille.dialogue.robust_reading.text_hearing import hear_text
 from kille.speech.expectations import speech
 from kille.speech.recognition import Hypothesis
+
+_POINTING = re.compile(r"#\d+")
 
 
 def answer_hypotheses(
@@ -45,10 +49,32 @@ def tell_uttered(robot: Agent, uttered: str, turns: int) -> bool:
 
     Returns whether it was cut off.
     """
+    if is_cut_off(robot, uttered, turns):
+        robot.interrupt(" ".join(uttered.split()))
+        return True
+    robot.do("spoken")
+    return False
+
+
+def is_cut_off(robot: Agent, uttered: str, turns: int) -> bool:
+    """Whether this is less than its answer, in a turn after so many."""
     answered = [it.answer for it in robot.exchanges[turns:] if it.said]
-    spoken = uttered.split()
-    if not answered or len(spoken) >= len(answered[-1].split()):
-        robot.do("spoken")
-        return False
-    robot.interrupt(" ".join(spoken))
-    return True
+    return bool(answered) and len(uttered.split()) < len(answered[-1].split())
+
+
+def is_understood(robot: Agent, texts: Iterable[str]) -> bool:
+    """Whether the robot understands one of these, as a sentence or by its parts.
+
+    To point at things, as in "#2", is understood, too.
+    """
+    words = [(text, _POINTING.sub(" ", text)) for text in texts]
+    return any(
+        (text != rest and not rest.strip())
+        or any(
+            it.readings
+            for it in hear_text(
+                rest, robot.state, robot.language, types=robot.types
+            ).moves
+        )
+        for text, rest in words
+    )

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 
 from kille.agent.agent import Agent
 from kille.agent.attention import THAT
-from kille.agent.spoken_turns import answer_hypotheses, tell_uttered
+from kille.agent.spoken_turns import answer_hypotheses, is_cut_off, tell_uttered
 from kille.page.table import add_thing
 from kille.sensors.sensor import SensorError, Stage
 from kille.speech.recognition import Hypothesis
@@ -70,8 +70,12 @@ class BrowserRequest(NamedTuple):
     """Whether it changes the scene: that it cannot is the tutor's concern alone."""
     perhaps: tuple[Hypothesis, ...] = ()
     """What was perhaps said, if it was spoken."""
+    says: tuple[str, ...] = ()
+    """The texts one of which was said, if any was."""
     uttered: int = 0
     """The number of the turn whose answer was uttered, if that is told."""
+    cuts: Callable[[Agent], bool] = lambda _: False
+    """Whether not all of that answer was uttered."""
 
 
 def parse_message(text: str) -> dict[str, Any]:
@@ -105,7 +109,9 @@ def _read_request(message: dict[str, Any], ref: str) -> BrowserRequest:
     match message.get("do"):
         case "say":
             text = _utterance(message.get("text"))
-            return BrowserRequest(ref, text, lambda robot: robot.hear(text))
+            return BrowserRequest(
+                ref, text, lambda robot: robot.hear(text), says=(text,)
+            )
         case "point" if "box" in message:
             box = _box(message["box"])
             return _point_request(ref, " ".join(map(str, box)), {"box": box})
@@ -155,6 +161,7 @@ def spoken_request(
         perhaps[0].text if perhaps else "…",
         lambda robot: answer_hypotheses(robot, perhaps, language),
         perhaps=perhaps,
+        says=tuple(it.text for it in perhaps) or ("",),
     )
 
 
@@ -181,7 +188,10 @@ def uttered_request(
             tell_uttered(robot, uttered, first)
         return uttered
 
-    return BrowserRequest("", "", tell, uttered=int(turn["id"]))
+    def cuts(robot: Agent) -> bool:
+        return len(robot.exchanges) == last and is_cut_off(robot, uttered, first)
+
+    return BrowserRequest("", uttered, tell, uttered=int(turn["id"]), cuts=cuts)
 
 
 def _point_request(ref: str, target: str, pointed: dict[str, Any]) -> BrowserRequest:

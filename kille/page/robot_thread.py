@@ -36,6 +36,7 @@ from typing import NamedTuple, TypeVar
 
 from kille.agent.agent import Agent
 from kille.agent.exchanges import Event
+from kille.agent.spoken_turns import is_understood
 from kille.memory import MemoryFileError
 from kille.page.browser_requests import BrowserRequest
 from kille.page.feed import Feed
@@ -106,6 +107,7 @@ class RobotThread:
         self._trouble = ""
         self._table: Json = {}
         self._known: deque[str] = deque(maxlen=_KNOWN)
+        self._cut: BrowserRequest | None = None  # an answer that was not all uttered
 
     def ask(self, request: BrowserRequest) -> None:
         """Have a request done when it is its turn. BusyError if too many wait.
@@ -156,6 +158,10 @@ class RobotThread:
 
     def _take_turn(self, request: BrowserRequest) -> None:
         robot = self.robot
+        if request.uttered:
+            self._take_uttered(request)
+            return
+        self._take_interruption(request)
         if request.shown:
             perhaps = [[it.text, round(it.p, 3)] for it in request.perhaps]
             about = {"perhaps": perhaps} if request.perhaps else {}
@@ -180,9 +186,6 @@ class RobotThread:
         if request.pointed is not None:
             self._publish("pointed", request, **request.pointed)
             return
-        if request.uttered:
-            self._tell_uttered(request, answer, turns)
-            return
         report = turn_report(robot, robot.exchanges[turns:])
         report["said"] = report["said"] or answer
         taken = [turns, len(robot.exchanges)]
@@ -199,15 +202,29 @@ class RobotThread:
             self._table = table
             self._publish("table", request, **table)
 
-    def _tell_uttered(self, request: BrowserRequest, text: str, turns: int) -> None:
-        """Tell how much of an answer was uttered, and what that did to the state."""
-        taken = [turns, len(self.robot.exchanges)]
-        is_whole = taken[0] == taken[1]
-        about = {"turn": request.uttered, "text": text, "whole": is_whole}
+    def _take_uttered(self, request: BrowserRequest) -> None:
+        """Tell how much of an answer was uttered. If not all of it was, the robot was
+        interrupted, unless what was said over it is not understood."""
+        if is_cut := request.cuts(self.robot):
+            self._cut = request
+        else:
+            request.act(self.robot)
+        about = {"turn": request.uttered, "text": request.shown, "whole": not is_cut}
         self._publish("uttered", request, **about)
-        if not is_whole:
-            report = turn_report(self.robot, self.robot.exchanges[turns:])
-            self._publish("turn", request, ms=0, turns=taken, **report)
+
+    def _take_interruption(self, request: BrowserRequest) -> None:
+        """Let what was cut off be unsaid, if this request is what interrupted it."""
+        cut = self._cut
+        if cut is None or request.pointed is not None:
+            return
+        self._cut = None
+        if request.says and not is_understood(self.robot, request.says):
+            return
+        turns = len(self.robot.exchanges)
+        cut.act(self.robot)
+        taken = [turns, len(self.robot.exchanges)]
+        report = turn_report(self.robot, self.robot.exchanges[turns:])
+        self._publish("turn", cut, ms=0, turns=taken, **report)
 
     def _publish(self, kind: str, request: BrowserRequest, **about: object) -> None:
         self._feed.publish({"type": kind, "ref": request.ref, **about})

@@ -20,7 +20,9 @@ from .pages import Browser, Start
 EMPTY = "--sensor", "synthetic:empty?seed=7"
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    "ending", [signal.SIGTERM, pytest.param(signal.SIGINT, marks=pytest.mark.deep)]
+)
 def test_it_ends_cleanly(start: Start, ending: int) -> None:
     program = start(*EMPTY)
     assert "know no words for things" in program.said

@@ -218,13 +218,33 @@ def test_what_was_cut_off_is_not_said(heard_page: Page) -> None:
             browser.ask(do="uttered", turn=turn["id"], line=0, share=share)
         uttered = browser.until("uttered")
         assert (uttered["text"], uttered["whole"]) == ("This is", False)
-        browser.until("turn")
         assert "uttered" not in expect_nothing_more(browser)  # it is told once
         again = browser.say("Go on.")
         assert again["said"] == "This is a cup."
         browser.ask(do="uttered", turn=again["id"], line=1, share=0)
         assert browser.until("uttered")["whole"]
         browser.say("Forget that.")
+
+
+@pytest.mark.parametrize(
+    ("over", "then"),
+    [
+        ("Glimp frotz the.", "OK, "),
+        ("Hello.", "I have not said anything that you could confirm."),
+    ],
+    ids=["no sentence", "sentence"],
+)
+def test_only_who_is_understood_interrupts(
+    heard_page: Page, over: str, then: str
+) -> None:
+    with heard_page.connect() as browser:
+        taught = browser.say("This is a cup.")
+        turn = browser.say("What is this?")
+        browser.ask(do="uttered", turn=turn["id"], line=0, share=0.6)
+        assert not browser.until("uttered")["whole"]
+        browser.say(over)
+        assert browser.say("That is correct.")["said"].startswith(then)
+        browser.say(taught["undo"])
 
 
 @pytest.mark.parametrize(

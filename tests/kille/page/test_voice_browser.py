@@ -89,7 +89,7 @@ def test_a_lesson_by_voice(
     tab = speaking("This is a cup.", "What is this?")
     visit(tab, program.address)
     tab.get_by_text("Change what is on the table").click()
-    tab.get_by_role("button", name="Show only the cup").click()
+    tab.get_by_role("button", name="Put the cup on the table").click()
     playwright.expect(tab.locator(".thing")).to_have_count(1)
     tab.get_by_role("button", name="Open microphone").click()
     expect_answer(tab, "I learned a cup")
