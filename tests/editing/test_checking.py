@@ -162,6 +162,13 @@ class Watching:
         return found
 
 
+def replace_text(path: Path, text: str) -> None:
+    """Give a file another text at once, so that nobody reads half of it."""
+    new = path.with_suffix(".new")
+    new.write_text(text)
+    new.replace(path)
+
+
 def test_files_are_checked_again_when_what_they_import_changes(folder: Path) -> None:
     watching = Watching("--format", "gcc", "park.ttr")
     try:
@@ -170,11 +177,11 @@ def test_files_are_checked_again_when_what_they_import_changes(folder: Path) -> 
             "ttr: checking park.ttr",
             "ttr: watching 2 files (Ctrl-C ends)",
         ]
-        (folder / "kennel.ttr").write_text("basic Ind\n")
+        replace_text(folder / "kennel.ttr", "basic Ind\n")
         assert "park.ttr:2:22: error: there is no predicate dog" in watching.up_to(
             "ttr: watching"
         )
-        (folder / "kennel.ttr").write_text(KENNEL)
+        replace_text(folder / "kennel.ttr", KENNEL)
         assert watching.up_to("ttr: watching") == first
         watching.process.send_signal(signal.SIGINT)
         assert watching.up_to("the end") == ["the end"]

@@ -80,6 +80,7 @@ export class Connection {
     if (event.id) this.last = event.id;
     if (ANSWERS.has(event.type)) this.unanswered.delete(event.ref);
     this.on[event.type]?.(event);
+    this.on.shown(this.last);
   }
 
   greet(event) {
@@ -90,6 +91,7 @@ export class Connection {
     this.last = event.after;
     this.on.state("open");
     this.on.hello(event, before);
+    this.on.shown(this.last);
     this.watch();
     if (before !== event.run) this.unanswered.clear();
     for (const message of this.unanswered.values()) this.send(message);

@@ -41,6 +41,10 @@ const connection = new Connection({
     link.textContent = t(state);
   },
   hello,
+  /** Up to this event all is shown. */
+  shown: (last) => {
+    if (last >= old) document.documentElement.dataset.ready = "yes";
+  },
   picture: (jpeg, done) => (frozen ? done() : picture.draw(jpeg, done)),
   voice: (turn, wav) => voice.playback.play(turn, wav),
   microphone: (event) => voice.microphone(event),
@@ -133,7 +137,6 @@ function hello(event, before) {
     }
     unconfirmed = null;
   }
-  document.documentElement.dataset.ready = "yes";
 }
 
 function count(fact, number) {

@@ -34,10 +34,15 @@ def desk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Program]:
         yield begin(*DESK)
 
 
-def visit(tab: Tab, program: Program, things: int = 3) -> None:
-    """Open the page, and wait until it shows so many things."""
+def open_page(tab: Tab, program: Program) -> None:
+    """Open the page, and wait until it shows all that has happened."""
     tab.goto(program.address)
     playwright.expect(tab.locator("html[data-ready]")).to_have_count(1)
+
+
+def visit(tab: Tab, program: Program, things: int = 3) -> None:
+    """Open the page, and wait until it shows so many things."""
+    open_page(tab, program)
     expect_things(tab, things)
 
 
@@ -157,7 +162,7 @@ def test_a_region_of_ones_own_is_drawn_over_nothing_in_particular(
 
 
 def test_hostile_words_stay_words(desk: Program, tab: Tab) -> None:
-    tab.goto(desk.address)
+    open_page(tab, desk)
     words = "<img src=x onerror=alert(1)></p><script>alert(2)</script>"
     say(tab, words, "I did not understand")
     playwright.expect(tab.locator(".bubble--tutor").last).to_contain_text(words)
@@ -165,7 +170,7 @@ def test_hostile_words_stay_words(desk: Program, tab: Tab) -> None:
 
 
 def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
-    tab.goto(desk.address)
+    open_page(tab, desk)
     say(tab, "Hello.", "Hello")
     tab.get_by_role("button", name="Look inside", exact=True).click()
     title = tab.locator("#lab-title")
@@ -203,7 +208,7 @@ def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
 
 
 def test_a_turn_is_stepped_through(desk: Program, tab: Tab) -> None:
-    tab.goto(desk.address)
+    open_page(tab, desk)
     playwright.expect(thing(tab, 1)).to_be_visible()  # it has looked
     tab.get_by_role("button", name="Look inside", exact=True).click()
     toggle = tab.get_by_role("button", name="Step before every rule")
