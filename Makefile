@@ -86,7 +86,7 @@ oracles: ## install the Debian packages that optional tests need
 	fi
 
 clean: ## remove all that was made here, .venv too
-	rm -rf .venv build dist site *.egg-info .*_cache .hypothesis kille-demo*
+	rm -rf .venv build dist site jupyter_execute *.egg-info .*_cache .hypothesis kille-demo*
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(INSTALLED): pyproject.toml
