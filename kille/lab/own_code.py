@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 from traceback import extract_tb
 from typing import Any
@@ -54,6 +55,21 @@ def load_object(
         what = name or "object without a name"
         raise OwnCodeError(f"{where} has no {what}: {suggest_name(name, own)}")
     return getattr(module, name)
+
+
+def load_maker(
+    reference: str, folder: Path, prefix: str, consent: Consent | None, what: str
+) -> Callable[..., Any]:
+    """The class or function of this name that makes a `what`, as `load_object` has it.
+
+    Raises `OwnCodeError` also where it cannot be called.
+    """
+    made = load_object(reference, folder, prefix, consent)
+    if not callable(made):
+        where, _, name = reference.rpartition(":")
+        raise OwnCodeError(f"{name} of {where} makes no {what}: name a class")
+    make: Callable[..., Any] = made
+    return make
 
 
 def _is_missing(path: str, error: BaseException) -> bool:

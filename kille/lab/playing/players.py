@@ -19,11 +19,11 @@ from kille.lab.theories import agent_of, game_of, language_of
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.tutors import SETTINGS
 from kille.lab.tutors.beliefs import Manner
-from kille.lab.tutors.own import load_maker
+from kille.lab.tutors.own import load_tutor_maker
 from kille.lab.tutors.scripted import read_script
 from kille.lab.tutors.several import Several
 from kille.lab.tutors.simulated import SimulatedTutor as SimulatedTutor
-from kille.lab.tutors.spatial_judges import Placing, Speaker, draw_speaker, read_ratings
+from kille.lab.tutors.spatial_judges import Person, Placing, Speaker, read_ratings
 from kille.lab.tutors.tutor import Tutor
 from kille.lab.tutors.words import Words
 from kille.lab.worlds.worlds import COLOURS
@@ -56,7 +56,7 @@ def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
             return read_script(name, study.path(set_["file"]))
         case "own":
             words = Words(theory.language)
-            make = load_maker(set_["make"], study.folder, study.consent)
+            make = load_tutor_maker(set_["make"], study.folder, study.consent)
             return make(name=name, words=words, **set_["settings"])
         case "keyboard":
             return Keyboard(name, theory.language)
@@ -103,4 +103,5 @@ def _simulated_tutor(
 def _placing_of(study: Study, set_: Mapping[str, Any], chance: Random) -> Placing:
     if "folder" in set_:
         return read_ratings(study.path(set_["folder"]))
-    return draw_speaker(set_["inside"], set_["outside"], set_["habit"], chance)
+    usual = Person(set_["inside"], set_["outside"])
+    return usual.shift(set_["habit"] * chance.gauss(0, 1))

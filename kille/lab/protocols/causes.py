@@ -15,12 +15,13 @@ from math import cos, pi, sin
 import numpy as np
 
 from kille.lab.measures.statistics import kappa
+from kille.lab.scenes.places import ring_places
 from kille.lab.tutors.spatial_judges import (
     ACCEPTED,
     Person,
     Place,
-    draw_person,
     likeliest_word,
+    mix_chances,
 )
 from kille.perception.learners import Learner
 from kille.scene import Configuration
@@ -113,7 +114,7 @@ def play_protocol(
     chance: np.random.Generator,
 ) -> RunScores:
     """Play one run of the protocol: 48 lessons and 32 questions."""
-    tutor, other = draw_person(cause.habit, chance), draw_person(cause.habit, chance)
+    tutor, other = (Person().shift(cause.habit * chance.normal()) for _ in range(2))
     learner = make()
     for key, scene in enumerate(placements(cause, ROUNDS, chance, 0.0)):
         word = _word_said(tutor, scene.true, cause.tutor, chance)
@@ -159,11 +160,9 @@ def placements(
 
 
 def places_around(rings: Sequence[float], points: int) -> Iterator[Place]:
-    """Evenly spaced places on each of some rings around the landmark."""
-    for distance in rings:
-        for point in range(points):
-            bearing = 2 * pi * point / points
-            yield distance * cos(bearing), distance * sin(bearing)
+    """Places on rings around the landmark: metres to the right, and away."""
+    for distance, bearing in ring_places(rings, points):
+        yield distance * cos(bearing), distance * sin(bearing)
 
 
 def configuration_at(right: float, away: float) -> Configuration:
@@ -185,5 +184,5 @@ def _word_said(
 
 def _word_chance(person: Person, place: Place, own: float, word: str) -> float:
     """How likely the person says the word there, in either frame."""
-    viewed, headed = person.chances(place), person.chances(place, _FRONT)
-    return (1 - own) * viewed.get(word, 0.0) + own * headed.get(word, 0.0)
+    chances = person.chances(place), person.chances(place, _FRONT)
+    return mix_chances(*chances, own).get(word, 0.0)

@@ -15,19 +15,17 @@ import numpy as np
 from kille.lab.measures.statistics import kappa
 from kille.lab.protocols.causes import Placement, places_around
 from kille.lab.results import Cell, Progress, Table
+from kille.lab.scenes.rendered import LANDMARK_PLACE, POINTS, RINGS, TRIES, TURN
+from kille.lab.scenes.stills import place_in_outline
 from kille.lab.tutors.spatial_judges import ACCEPTED, Person, Place, likeliest_word
 from kille.perception.relations.configurations import configuration
 from kille.perception.segment import segment
-from kille.scene import Frame, Region
+from kille.scene import Frame
 from kille.sensors.sensor import At, SensorError
 from kille.sensors.synthetic.sensor import Synthetic, open_synthetic
 
 _TARGET, _LANDMARK = "book", "car"
-_MIDDLE = At(0.0, 0.05, 0.0)  # the car, so that all around it is in view
-_RINGS = (0.24, 0.30)  # metres: nearer the book would stand in the car
-_POINTS = 8
-_TURN = 20  # degrees
-_TRIES = 6
+_MIDDLE = At(*LANDMARK_PLACE, 0.0)
 
 
 def play_rendered_scenes(
@@ -75,7 +73,7 @@ def _answers(
 
 def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[Placement]:
     """The book at each of 16 places, if there is room and the robot sees both."""
-    for place in places_around(_RINGS, _POINTS):
+    for place in places_around(RINGS, POINTS):
         seen = _place_book(stage, place, chance)
         if seen is not None:
             yield seen
@@ -84,7 +82,7 @@ def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[Placement]
 def _place_book(
     stage: Synthetic, place: Place, chance: np.random.Generator
 ) -> Placement | None:
-    for _ in range(_TRIES):
+    for _ in range(TRIES):
         right = place[0] + chance.normal(0, 0.01)
         away = place[1] + chance.normal(0, 0.01)
         try:
@@ -95,7 +93,7 @@ def _place_book(
                 At(
                     _MIDDLE.right + right,
                     _MIDDLE.away + away,
-                    chance.uniform(-_TURN, _TURN),
+                    chance.uniform(-TURN, TURN),
                 ),
             )
         except SensorError:
@@ -106,22 +104,14 @@ def _place_book(
 
 def _look(frame: Frame, true: Place) -> Placement | None:
     scene = segment(frame)
-    target = _region_pointed_at(frame, scene.regions, _TARGET)
-    landmark = _region_pointed_at(frame, scene.regions, _LANDMARK)
-    if target is None or landmark is None or target is landmark:
+    x = place_in_outline(scene.regions, frame.outlines[_TARGET])
+    y = place_in_outline(scene.regions, frame.outlines[_LANDMARK])
+    if x is None or y is None or x == y:
         return None
+    target, landmark = scene.regions[x], scene.regions[y]
     others = [it for it in scene.regions if it is not target and it is not landmark]
     seen = configuration(frame, target, landmark, others, scene.up)
     return None if seen is None else Placement(true, seen)
-
-
-def _region_pointed_at(
-    frame: Frame, regions: tuple[Region, ...], name: str
-) -> Region | None:
-    """The region that a finger on the thing would point at."""
-    outline = frame.outlines[name]
-    shared = [int((it.mask & outline).sum()) for it in regions]
-    return regions[int(np.argmax(shared))] if any(shared) else None
 
 
 def _median_error(seen: list[Placement]) -> float:

@@ -6,7 +6,7 @@ Source: Dobnik and de Graaf 2017, section 4.2.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
@@ -18,6 +18,7 @@ from kille.lab.scenes.places import (
     occasion_alone,
     place_beside,
     relation_occasion,
+    ring_places,
     round_place,
 )
 from kille.lab.worlds.worlds import FRONTS, STEP, Thing, World
@@ -42,14 +43,10 @@ class Around(Scene):
         """The two things, one by one; or the target at each of the places."""
         if kind == "relation":
             return [
-                self._target_occasion(*place, new, chance) for place in self._places()
+                self._target_occasion(*place, new, chance)
+                for place in ring_places(self.rings, self.points)
             ]
         return [occasion_alone(self.start, kind, x) for x in (1, 2)]
-
-    def _places(self) -> Iterator[tuple[float, float]]:
-        for ring in self.rings:
-            for point in range(self.points):
-                yield ring, 2 * math.pi * point / self.points
 
     def _target_occasion(
         self, ring: float, bearing: float, new: bool, chance: Random

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from random import Random
 
@@ -59,6 +59,19 @@ def place_beside(place: Place, far: float, bearing: float) -> Place:
     steps = far / STEP
     right, away = steps * math.cos(bearing), steps * math.sin(bearing)
     return round_place(place[0] + right, place[1] + away)
+
+
+def ring_places(rings: Sequence[float], points: int) -> Iterator[tuple[float, float]]:
+    """Evenly spaced places on each of some rings around a landmark.
+
+    Each is a distance and a bearing, in radians counter-clockwise from right.
+
+    >>> [(ring, round(bearing, 2)) for ring, bearing in ring_places([0.1], 2)]
+    [(0.1, 0.0), (0.1, 3.14)]
+    """
+    for ring in rings:
+        for point in range(points):
+            yield ring, 2 * math.pi * point / points
 
 
 BEARINGS = {side: math.atan2(away, right) for side, (right, away) in SIDES.items()}

@@ -11,16 +11,24 @@ from typing import Any
 from urllib.parse import quote
 
 from kille.lab.scenes.occasions import Occasion, Scene
-from kille.lab.scenes.places import MIDDLE, round_place, side_of
+from kille.lab.scenes.places import MIDDLE, ring_places, round_place, side_of
 from kille.lab.scenes.theatre import Staged, Stand, Theatre, lay_table
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.catalogue import TOY_NAMES
 
-_RINGS = (0.24, 0.30)  # metres: nearer the target would stand in the landmark
-_POINTS = 8
-_LANDMARK = (0.0, 0.05)  # so that all around it is in view
-_TRIES = 6
+RINGS, POINTS = (0.24, 0.30), 8
+"""Where a target is put: metres from the landmark, in which it would stand if nearer;
+and at how many places on each ring."""
+
+LANDMARK_PLACE = (0.0, 0.05)
+"""Metres right and away of the middle of the table, so that all around is in view."""
+
+TURN = 20
+"""Degrees by which the target is turned at most."""
+
+TRIES = 6
+"""How often it is tried to put the target near a place."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +47,7 @@ class Rendered(Scene):
     def round(self, kind: str, new: bool, chance: Random) -> Sequence[Occasion]:
         """Every specimen of each kind, or the target at each place where it can be."""
         if kind == "relation":
-            places = [(ring, point) for ring in _RINGS for point in range(_POINTS)]
+            places = ring_places(RINGS, POINTS)
             found = (self._target_occasion(*place, chance) for place in places)
             return [it for it in found if it is not None]
         first, count = (self.each, self.new) if new else (0, self.each)
@@ -60,17 +68,17 @@ class Rendered(Scene):
         return Occasion(kind, world, x, view=view, group=name)
 
     def _target_occasion(
-        self, ring: float, point: int, chance: Random
+        self, ring: float, bearing: float, chance: Random
     ) -> Occasion | None:
         """The target near a place; None if it cannot stand there."""
         target, landmark = self.pair
-        for _ in range(_TRIES):
-            bearing = 2 * math.pi * point / _POINTS
-            right = _LANDMARK[0] + ring * math.cos(bearing) + chance.gauss(0, 0.01)
-            away = _LANDMARK[1] + ring * math.sin(bearing) + chance.gauss(0, 0.01)
+        middle, off = LANDMARK_PLACE
+        for _ in range(TRIES):
+            right = middle + ring * math.cos(bearing) + chance.gauss(0, 0.01)
+            away = off + ring * math.sin(bearing) + chance.gauss(0, 0.01)
             stands = (
-                Stand(landmark, *_LANDMARK, 0.0),
-                Stand(target, right, away, chance.uniform(-20, 20)),
+                Stand(landmark, *LANDMARK_PLACE, 0.0),
+                Stand(target, right, away, chance.uniform(-TURN, TURN)),
             )
             if _fits(self.source, stands):
                 return self._relation_occasion(stands)

@@ -6,13 +6,14 @@ functions, so that a protocol and a study are shown the same things.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from kille.perception.look import look
-from kille.scene import Frame, Look, Percept
+from kille.scene import Frame, Look, Mask, Percept, Region
 from kille.sensors.pictures import read_colour, shrink_to_fit
 
 Lesson = tuple[Percept, str]
@@ -44,6 +45,15 @@ def look_at_picture(path: Path) -> Look:
     if seen.percepts:
         return seen
     return look(still, scans=1, pointed=np.ones(colour.shape[:2], bool))
+
+
+def place_in_outline(regions: Sequence[Region], outline: Mask) -> int | None:
+    """The place of the region that a finger on what is outlined would point at.
+
+    It shares most pixels with the outline; None if none shares any.
+    """
+    shared = [int((it.mask & outline).sum()) for it in regions]
+    return int(np.argmax(shared)) if any(shared) else None
 
 
 def look_at_outlined(frame: Frame, name: str) -> Look:

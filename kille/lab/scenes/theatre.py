@@ -13,12 +13,14 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from kille.agent.attention import Attention, NumberedLook
 from kille.lab.errors import StudyError
 from kille.lab.scenes.occasions import Occasion
-from kille.lab.scenes.stills import look_at_outlined, look_at_picture
+from kille.lab.scenes.stills import (
+    look_at_outlined,
+    look_at_picture,
+    place_in_outline,
+)
 from kille.perception.look import Sighting
 from kille.perception.segment import overlap
 from kille.scene import Frame, Look
@@ -118,8 +120,8 @@ class Theatre:
         outline = view.look.frame.outlines.get(name)
         if outline is None:
             return view.focus if number == occasion.x else None
-        shared = [int((it.region.mask & outline).sum()) for it in view.look.percepts]
-        return int(np.argmax(shared)) + 1 if any(shared) else None
+        place = place_in_outline([it.region for it in view.look.percepts], outline)
+        return None if place is None else place + 1
 
     def close(self) -> None:
         """There is nothing to release."""

@@ -18,7 +18,7 @@ from kille.lab.own_code import (
     WRITTEN,
     OwnCodeError,
     describe_exception,
-    load_object,
+    load_maker,
 )
 from kille.lab.results import ExperimentError
 from kille.lab.settings import suggest_name
@@ -64,14 +64,9 @@ def _maker(name: str, known: Methods, consent: Consent | None) -> Make:
         told = f"there is no method {name}: {hint}{'' if hint.endswith('?') else '.'}"
         raise ExperimentError(f"{told} Your own is named {WRITTEN}")
     try:
-        made = load_object(name, Path(), "_measured_", consent)
+        return load_maker(name, Path(), "_measured_", consent, "learner")
     except OwnCodeError as error:
         raise ExperimentError(error.message) from (error.__cause__ or error)
-    if not callable(made):
-        path, _, thing = name.rpartition(":")
-        raise ExperimentError(f"{thing} of {path} makes no learner: name a class")
-    make: Make = made
-    return make
 
 
 # --- the guard -----------------------------------------------------------------------

@@ -23,7 +23,7 @@ from kille.lab.settings import (
     why_no_folder,
 )
 from kille.lab.study import Named, Study
-from kille.lab.tutors.own import describe_error, load_maker
+from kille.lab.tutors.own import describe_error, load_tutor_maker
 from kille.lab.tutors.scripted import script_lines, unplayable_lines
 from kille.lab.tutors.simulated import FEEDBACK
 from kille.lab.tutors.spatial_judges import SIDES, read_ratings
@@ -179,7 +179,7 @@ def _own_problems(named: Named, study: Study) -> Iterator[Problem]:
 
 def _maker_problems(make: str, given: Mapping[str, Any], study: Study) -> Iterator[str]:
     try:
-        maker = load_maker(make, study.folder, study.consent)
+        maker = load_tutor_maker(make, study.folder, study.consent)
     except StudyError as error:
         yield from error.faults
         return

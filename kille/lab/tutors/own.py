@@ -18,7 +18,7 @@ from kille.lab.own_code import (
     OwnCodeError,
     describe_exception,
     failing_line,
-    load_object,
+    load_maker,
 )
 from kille.lab.tutors.tutor import Tutor
 from ttr.safety.consent import Consent
@@ -26,25 +26,22 @@ from ttr.safety.consent import Consent
 MakeTutor = Callable[..., Tutor]
 
 
-def load_maker(name: str, folder: Path, consent: Consent | None = None) -> MakeTutor:
+def load_tutor_maker(
+    name: str, folder: Path, consent: Consent | None = None
+) -> MakeTutor:
     """What makes a tutor: `FILE.py:NAME`, from a folder, or `MODULE:NAME`.
 
     The caller chose this name; for one that was found in a file, `consent` says which
     Python may be run. Raises `StudyError` where there is none.
     """
-    where, colon, what = name.rpartition(":")
-    if not colon:
+    if ":" not in name:
         raise StudyError([f"{name} names no tutor: write {WRITTEN}"])
     try:
-        made = load_object(name, folder, "_tutor_", consent)
+        return load_maker(name, folder, "_tutor_", consent, "tutor")
     except OwnCodeError as error:
         line = f" (line {error.line})" if error.line else ""
         is_told = isinstance(error.__cause__, SyntaxError)
         raise StudyError([f"{error}{'' if is_told else line}"]) from error
-    if not callable(made):
-        raise StudyError([f"{what} of {where} makes no tutor: name a class"])
-    make: MakeTutor = made
-    return make
 
 
 def describe_error(name: str, folder: Path, error: BaseException) -> str:

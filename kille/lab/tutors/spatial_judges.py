@@ -64,13 +64,8 @@ class Person:
         >>> [f"{p:.2f}" for p in Person().chances((0.28, 0.0)).values()]
         ['0.90', '0.00', '0.00', '0.00', '0.05', '0.05']
         """
-        right, away = place
-        bearing = math.atan2(away, right)
-        if front is not None:
-            # Seen from the viewer right follows front counter-clockwise, and by the
-            # landmark's own front it follows clockwise.
-            bearing = front - bearing - math.pi / 2
-        close = self.inside if math.hypot(right, away) < _BORDER else self.outside
+        bearing = _bearing(place, front)
+        close = self.inside if math.hypot(*place) < _BORDER else self.outside
         fits = [max(0.0, math.cos(bearing - way)) ** 2 for way in _SIDES.values()]
         sides = [(1 - close) * fit / sum(fits) for fit in fits]
         return dict(zip(WORDS, [*sides, close / 2, close / 2], strict=True))
@@ -92,14 +87,31 @@ def _shift_share(share: float, by: float) -> float:
     return 1 / (1 + math.exp(-(math.log(share / (1 - share)) + by)))
 
 
-def draw_person(habit: float, chance: np.random.Generator) -> Person:
-    """A person whose habit differs from the usual by this deviation of log-odds."""
-    return Person().shift(habit * chance.normal())
+def _bearing(place: Place, front: float | None) -> float:
+    """The bearing of a place, radians counter-clockwise from right; see `Person`."""
+    right, away = place
+    bearing = math.atan2(away, right)
+    if front is None:
+        return bearing
+    # Seen from the viewer right follows front counter-clockwise, and by the landmark's
+    # own front it follows clockwise.
+    return front - bearing - math.pi / 2
 
 
-def draw_speaker(inside: float, outside: float, habit: float, chance: Random) -> Person:
-    """A person who speaks of closeness so often, with a deviation of log-odds."""
-    return Person(inside, outside).shift(habit * chance.gauss(0, 1))
+def mix_chances(
+    viewed: Mapping[str, float], headed: Mapping[str, float], own: float
+) -> dict[str, float]:
+    """The chances of words where the frame is the landmark's own in a share of cases.
+
+    p(w) = (1 - own) p(w | viewer's frame) + own p(w | landmark's frame).
+
+    >>> mix_chances({"behind": 1.0}, {"behind": 0.5, "near": 0.5}, 0.5)
+    {'behind': 0.75, 'near': 0.25}
+    """
+    return {
+        word: (1 - own) * viewed.get(word, 0.0) + own * headed.get(word, 0.0)
+        for word in (*viewed, *headed)
+    }
 
 
 def likeliest_word(degrees: Mapping[str, float]) -> str:
@@ -152,25 +164,15 @@ class RatedWords:
 
     def chances(self, place: Place, front: float | None = None) -> dict[str, float]:
         """By the square of the rating at the nearest place that was rated."""
-        place = _in_landmark_frame(place, front)
+        if front is not None:
+            far, bearing = math.hypot(*place), _bearing(place, front)
+            place = far * math.cos(bearing), far * math.sin(bearing)
         weights = {
             word: min((math.dist(at, place), it) for at, it in rated)[1] ** 2
             for word, rated in self.words.items()
         }
         whole = math.fsum(weights.values())
         return {word: weight / whole for word, weight in weights.items()}
-
-
-def _in_landmark_frame(place: Place, front: float | None) -> Place:
-    """A place as the landmark itself has it, right and ahead: see `Person.chances`."""
-    if front is None:
-        return place
-    right, away = place
-    bearing, far = (
-        front - math.atan2(away, right) - math.pi / 2,
-        math.hypot(right, away),
-    )
-    return far * math.cos(bearing), far * math.sin(bearing)
 
 
 @lru_cache(8)
@@ -222,15 +224,11 @@ class Speaker:
 
     def accepts(self, place: Place, front: str) -> frozenset[str]:
         """The words that they may well say there: with a chance of .15 or more."""
-        viewed = self._chances(place)
-        if front not in HEADINGS:
-            return frozenset(it for it, p in viewed.items() if p >= ACCEPTED)
-        headed = self._chances(place, HEADINGS[front])
-        mixed = {
-            it: (1 - self.own) * viewed.get(it, 0.0) + self.own * headed.get(it, 0.0)
-            for it in (*viewed, *headed)
-        }
-        return frozenset(it for it, p in mixed.items() if p >= ACCEPTED)
+        chances = self._chances(place)
+        if front in HEADINGS:
+            headed = self._chances(place, HEADINGS[front])
+            chances = mix_chances(chances, headed, self.own)
+        return frozenset(it for it, p in chances.items() if p >= ACCEPTED)
 
     def _chances(self, place: Place, front: float | None = None) -> dict[str, float]:
         """The chances of their own words, as these are called here."""
