@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-import math
 import os
-import platform
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from shlex import join
 from typing import Any, NamedTuple
 
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
 
 from kille.interfaces.grids import print_result, results_console
-from kille.interfaces.terminal import FAILED, FINE, complain, console, print_json
+from kille.interfaces.terminal import (
+    FAILED,
+    FINE,
+    complain,
+    console,
+    print_json,
+    transient_bar,
+)
 from kille.lab.protocols.plans import (
     OBJECTS,
     RELATIONS,
@@ -29,13 +33,13 @@ from kille.lab.reports.drawing import MISSING, can_draw
 from kille.lab.reports.result_pages import page
 from kille.lab.results import ExperimentError, Result
 from kille.lab.theories.candidates import MethodFailedError, Methods, candidates
+from kille.lab.versions import versions
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
 from ttr.safety.files import check_outputs, why_unread, write_whole
 
 _PAGES = (".html", ".htm")  # so that no picture of the data is overwritten
 _USUAL = {"objects": ("default", "kille"), "relations": ("default", "kille", "angle")}
-_PACKAGES = ("kille", "numpy", "opencv-contrib-python-headless", "scikit-learn")
 
 
 @dataclass(frozen=True)
@@ -75,7 +79,7 @@ def _print_json(
 ) -> None:
     results = [_as_object(name, result) for name, result in found.items()]
     report = {**about, "failed": list(failures), "results": results}
-    print_json(_plain(report), allow_nan=False)
+    print_json(report)
 
 
 as_tables = Printer(
@@ -157,15 +161,12 @@ def _measure(
     failed: Callable[[MethodFailedError], None],
 ) -> tuple[Result | None, Methods]:
     """Run a protocol; on a terminal a bar shows the progress."""
-    err = console(stderr=True)
-    bar = Progress(
+    bar = transient_bar(
+        console(stderr=True),
         BarColumn(bar_width=24),
         TextColumn("{task.percentage:>3.0f} %"),
         TimeElapsedColumn(),
         TextColumn("{task.description}", markup=False),
-        console=err,
-        transient=True,
-        disable=not err.is_terminal,
     )
     with bar:
         task = bar.add_task(plan.name, total=1.0)
@@ -203,18 +204,8 @@ def _about(request: EvaluationRequest, plans: Sequence[Plan]) -> dict[str, Any]:
         "data": request.data or "simulated",
         "seed": request.seed,
         "methods": list(took_part),
-        "versions": {"python": platform.python_version(), **_versions(_PACKAGES)},
+        "versions": versions(),
     }
-
-
-def _versions(packages: Iterable[str]) -> dict[str, str]:
-    found = {}
-    for package in packages:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            continue
-    return found
 
 
 def _format_line(value: Any) -> str:
@@ -244,17 +235,3 @@ def _as_object(name: str, result: Result) -> dict[str, Any]:
         ],
         "facts": result.facts,
     }
-
-
-def _plain(value: Any) -> Any:
-    """The value as JSON has it; NaN and infinity become null."""
-    match value:
-        case None | str() | bool() | int():
-            return value
-        case float():
-            return value if math.isfinite(value) else None
-        case Mapping():
-            return {str(key): _plain(it) for key, it in value.items()}
-        case Iterable():
-            return [_plain(it) for it in value]
-    return _plain(value.item()) if hasattr(value, "item") else str(value)

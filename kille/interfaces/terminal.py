@@ -6,17 +6,24 @@ word, file or device can send escape codes or rich's markup to the terminal.
 
 from __future__ import annotations
 
+import math
 import re
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.highlighter import JSONHighlighter
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    Progress,
+    ProgressColumn,
+    TextColumn,
+    TimeRemainingColumn,
+)
 from rich.segment import Segment
 from rich.text import Text
 
@@ -59,22 +66,44 @@ def console(*, stderr: bool = False) -> Console:
     )
 
 
-def print_json(value: Any, **settings: Any) -> None:
-    """Print a value for machines; the settings are those of `json.dumps`."""
-    text = Text(json_text(value, indent=2, **settings))
+def print_json(value: Any) -> None:
+    """Print a value for machines, which have null for what is no finite number."""
+    text = Text(json_text(_plain_value(value), indent=2, allow_nan=False))
     console().print(JSONHighlighter()(text))
+
+
+def _plain_value(value: Any) -> Any:
+    """The value as JSON has it; NaN and infinity become null."""
+    match value:
+        case None | str() | bool() | int():
+            return value
+        case float():
+            return value if math.isfinite(value) else None
+        case Mapping():
+            return {str(key): _plain_value(it) for key, it in value.items()}
+        case Iterable():
+            return [_plain_value(it) for it in value]
+    return _plain_value(value.item()) if hasattr(value, "item") else str(value)
+
+
+def transient_bar(out: Console, *columns: ProgressColumn, **settings: Any) -> Progress:
+    """A bar of these columns on a terminal, which is gone at the end; else nothing.
+
+    The settings are those of rich's `Progress`.
+    """
+    return Progress(
+        *columns, console=out, transient=True, disable=not out.is_terminal, **settings
+    )
 
 
 def labelled_bar(out: Console) -> Progress:
     """A bar on a terminal, with its label in front and the time left behind."""
-    return Progress(
+    return transient_bar(
+        out,
         TextColumn("{task.description}", style="progress.description", markup=False),
         BarColumn(),
         TextColumn("{task.percentage:>3.0f}%", style="progress.percentage"),
         TimeRemainingColumn(),
-        console=out,
-        transient=True,
-        disable=not out.is_terminal,
     )
 
 

@@ -141,9 +141,31 @@ class Study:
         """The file or folder that a setting names, from the folder of the study."""
         return self.folder / os.path.expanduser(name)
 
+    def in_numbers(self, played: int | None = None) -> str:
+        """What it combines, in numbers; `played` says of how many there are results.
+
+        >>> study = Study("", {"a": Theory("a")}, {}, {}, (), (1, 2))
+        >>> study.in_numbers()
+        '0 dialogues: 1 theory × 0 tutors × 0 scenes × 2 seeds'
+        """
+        parts = (
+            _count_of(len(self.theories), "theory", "theories"),
+            _count_of(len(self.tutors), "tutor", "tutors"),
+            _count_of(len(self.scenes), "scene", "scenes"),
+            _count_of(len(self.seeds), "seed", "seeds"),
+        )
+        planned = sum(1 for _ in self.runs())
+        some = "" if played is None or played == planned else f"{played:,} of "
+        dialogues = _count_of(planned, "dialogue", "dialogues")
+        return f"{some}{dialogues}: {' × '.join(parts)}"
+
     def runs(self) -> Iterator[Run]:
         """All dialogues; those that are compared with each other stand in a row."""
         for seed, scene, tutor, theory in product(
             self.seeds, self.scenes, self.tutors, self.theories
         ):
             yield Run(theory, tutor, scene, seed)
+
+
+def _count_of(count: int, one: str, many: str) -> str:
+    return f"{count:,} {one if count == 1 else many}"

@@ -6,9 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
-from rich.progress import Progress as Bar
 
-from kille.interfaces.terminal import console
+from kille.interfaces.terminal import console, transient_bar
 from kille.lab.running import Progress
 
 PACE_SECONDS = 300
@@ -18,8 +17,8 @@ PACE_SECONDS = 300
 @contextmanager
 def bar() -> Iterator[Callable[[Progress], None]]:
     """On a terminal, show a bar with the progress and the time left."""
-    err = console(stderr=True)
-    shown = Bar(
+    shown = transient_bar(
+        console(stderr=True),
         BarColumn(bar_width=24),
         TextColumn(
             "{task.completed:,.0f} of {task.total:,.0f}{task.description}",
@@ -27,9 +26,6 @@ def bar() -> Iterator[Callable[[Progress], None]]:
         ),
         TimeRemainingColumn(),
         TextColumn("left"),
-        console=err,
-        transient=True,
-        disable=not err.is_terminal,
         speed_estimate_period=PACE_SECONDS,
         refresh_per_second=4,
     )

@@ -30,7 +30,7 @@ def _check_file(path: Path, consent: Consent) -> int:
     except MISTAKES as error:
         return complain_all(error)
     tell_doubts(study)
-    line = f"{path}: fine, {in_numbers(study)}{people_summary(study)}"
+    line = f"{path}: fine, {study.in_numbers()}{people_summary(study)}"
     console().print(line, markup=False)
     return FINE
 
@@ -39,24 +39,3 @@ def tell_doubts(study: Study) -> None:
     """Warn of what is no mistake, but probably not intended."""
     for it in warnings_of(study):
         complain(f"{it} (this can be played)")
-
-
-def in_numbers(study: Study) -> str:
-    """Summarise in numbers what a study combines.
-
-    >>> from kille.lab.study import Named, Theory
-    >>> in_numbers(Study("", {"a": Theory("a")}, {}, {}, (), (1, 2)))
-    '0 dialogues: 1 theory × 0 tutors × 0 scenes × 2 seeds'
-    """
-    parts = (
-        _count_of(len(study.theories), "theory", "theories"),
-        _count_of(len(study.tutors), "tutor", "tutors"),
-        _count_of(len(study.scenes), "scene", "scenes"),
-        _count_of(len(study.seeds), "seed", "seeds"),
-    )
-    count = sum(1 for _ in study.runs())
-    return f"{_count_of(count, 'dialogue', 'dialogues')}: {' × '.join(parts)}"
-
-
-def _count_of(count: int, one: str, many: str) -> str:
-    return f"{count:,} {one if count == 1 else many}"

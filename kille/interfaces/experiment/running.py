@@ -12,7 +12,6 @@ from typing import TypeAlias
 from kille.interfaces.experiment.bars import bar
 from kille.interfaces.experiment.checking import (
     MISTAKES,
-    in_numbers,
     tell_doubts,
 )
 from kille.interfaces.experiment.logs import study_of_log
@@ -87,7 +86,7 @@ def study_for_folder(folder: Path, request: StudyRequest) -> Study:
 
 
 def _run(study: Study, folder: Path, request: StudyRequest) -> int:
-    console().print(f"{study.title}: {in_numbers(study)}", markup=False)
+    console().print(f"{study.title}: {study.in_numbers()}", markup=False)
     by = crew_for(study, request.workers, request.scheduler)
     shown = nullcontext(_show_nothing) if has_people(study) else bar()
     with shown as show_progress, stoppable() as stop:

@@ -98,14 +98,9 @@ def as_json(it: Outcome) -> None:
                 "lessons": played.lessons,
                 "facts": dict(played.facts),
                 "turns": [turn._asdict() for turn in played.turns],
-                "answers": [_plain(answer) for answer in played.answers],
+                "answers": [answer._asdict() for answer in played.answers],
             }
-    print_json(shown, allow_nan=False)
-
-
-def _plain(answer: Answer) -> dict[str, Any]:
-    found = answer._asdict()
-    return found | {"degree": None if math.isnan(answer.degree) else answer.degree}
+    print_json(shown)
 
 
 def as_text(it: Outcome) -> None:

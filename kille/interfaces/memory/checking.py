@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-import json
 import shlex
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
 from kille.interfaces.memory.moving import list_amounts
-from kille.interfaces.terminal import FAILED, FINE, complain, console, memory_path
+from kille.interfaces.terminal import (
+    FAILED,
+    FINE,
+    complain,
+    console,
+    memory_path,
+    print_json,
+)
 from kille.memory import MemoryFileError
 from kille.memory.checking import MemoryCheck, check
 from kille.memory.salvaging import Salvage, salvage
@@ -58,7 +64,7 @@ def as_json(
     if saved is not None:
         facts["salvaged"] = {"file": str(target), **_saved_counts(saved)}
         facts["losses"] = saved.losses
-    console().print_json(json.dumps(facts))
+    print_json(facts)
 
 
 def as_text(

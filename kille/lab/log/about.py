@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import platform
 import sqlite3
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from kille.lab.log.outcomes import RunError
 from kille.lab.log.schema import check_ours
 from kille.lab.log.sources import changed_sources, sources
 from kille.lab.study import Study
+from kille.lab.versions import versions
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,6 @@ def about_rows(study: Study, folder: Path) -> dict[str, str]:
         "versions": json.dumps(versions()),
         "sources": json.dumps(sources(study)),
     }
-
-
-def versions() -> dict[str, str]:
-    """The versions of the software that plays dialogues here."""
-    packages = ("kille", "numpy", "scikit-learn", "opencv-contrib-python-headless")
-    return {"python": platform.python_version(), **{it: version(it) for it in packages}}
 
 
 def about_in(connection: sqlite3.Connection, folder: Path) -> About:

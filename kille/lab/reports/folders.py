@@ -91,7 +91,7 @@ def _subject(folder: Path, command: str, study: Study) -> Subject:
         _about(folder, study, command, len(dialogues)),
         main=MAIN_MEASURES[study.main],
         lead=study.about,
-        numbers=_summarise_numbers(study, len(dialogues), log.about(folder).planned),
+        numbers=study.in_numbers(played=len(dialogues)),
         source=study.source,
         broken=[(str(it.run), it.reason) for it in log.broken_runs(folder)],
         warnings=[
@@ -122,20 +122,6 @@ def _cut_short_lines(
         for name, count in counts.items()
         if count
     ]
-
-
-def _summarise_numbers(study: Study, played: int, planned: int) -> str:
-    """How many dialogues there are, and of what."""
-    of = (
-        (study.theories, "theory", "theories"),
-        (study.tutors, "tutor", "tutors"),
-        (study.scenes, "scene", "scenes"),
-        (study.seeds, "seed", "seeds"),
-    )
-    parts = (f"{len(it):,} {one if len(it) == 1 else many}" for it, one, many in of)
-    some = f"{played:,} of " if played < planned else ""
-    many = f"{planned:,} dialogue{'s' if planned != 1 else ''}"
-    return f"{some}{many}: {' × '.join(parts)}"
 
 
 def _describe_theories(study: Study, names: Iterable[str]) -> dict[str, Described]:
