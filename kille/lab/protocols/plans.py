@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Protocol as Shape
 
 from kille.lab.results import ExperimentError, Progress, Result
+from kille.lab.settings import nearest_name, why_no_folder
 from kille.lab.theories.candidates import Make, MethodFailedError, Methods
-from ttr.misspellings import nearest_names
 
 
 class RunProtocol(Shape):
@@ -98,8 +98,8 @@ def choose_plans(
             f"the protocol {name} is for {known[name]}; "
             f"for this data there is {', '.join(here)}"
         )
-    near = nearest_names(name, here) or nearest_names(name, known)
-    hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(here)}"
+    meant = nearest_name(name, here, "{}") or nearest_name(name, known, "{}")
+    hint = f"did you mean {meant}?" if meant else f"there is {', '.join(here)}"
     raise ExperimentError(f"there is no protocol {name}: {hint}")
 
 
@@ -158,14 +158,9 @@ def _plans_for(folder: Path) -> Callable[..., tuple[Plan, ...]] | None:
 
 def _existing_folder(data: str) -> Path:
     folder = Path(data).expanduser()
-    if folder.is_dir():
-        return folder
-    if folder.exists():
-        raise ExperimentError(f"{data} is no folder; expected {_KNOWN}")
-    beside = folder.parent.iterdir() if folder.parent.is_dir() else ()
-    near = nearest_names(folder.name, [it.name for it in beside])
-    hint = f": did you mean {folder.parent / near[0]}?" if near else ""
-    raise ExperimentError(f"there is no {data}{hint}")
+    if told := why_no_folder(folder):
+        raise ExperimentError(f"{told}; expected {_KNOWN}" if folder.exists() else told)
+    return folder
 
 
 def _table_plans() -> tuple[Plan, ...]:

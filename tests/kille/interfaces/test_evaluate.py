@@ -133,8 +133,8 @@ def test_where_all_fail_there_is_no_table(kille: Run, place: Path) -> None:
 
 
 WRONG = {
-    ("photoz",): "there is no photoz: did you mean photos?",
-    ("mine.py",): "mine.py is no folder",
+    ("photoz",): "there is no folder photoz: did you mean photos?",
+    ("mine.py",): "mine.py is a file, not a folder; expected a folder category",
     ("empty",): "empty is empty; expected a folder category/picture.png",
     ("single",): "it takes pictures of two categories at least",
     (".",): ". holds several collections, name one: ./photos, ./single",
