@@ -101,17 +101,33 @@ def _summary_text(found: Sequence[Contrast], main: str) -> str:
     """
     mains = [it.differences.get(main) for it in found]
     ps = holm([float("nan") if it is None else it.p for it in mains])
-    if len(found) <= FEW:
-        sentences = [_sentence(it, p, main) for it, p in zip(found, ps, strict=True)]
-        several = np.isfinite(ps).sum() > 1
-        return "\n".join([*sentences, CORRECTED] if several else sentences)
-    with_p = zip(found, ps, strict=True)
-    seen = [_sentence(it, p, main) for it, p in with_p if p < CHANCE]
-    first = (
-        f"Of {len(found)} pairs of theories {len(seen)} differ in {main} "
-        f"(p < {CHANCE} after Holm's correction)."
-    )
-    return "\n".join([first, *seen])
+    with_p = [(_sentence(it, p, main), p) for it, p in zip(found, ps, strict=True)]
+    of = f"Of {len(found)} pairs of theories", f"differ in {main}"
+    return "\n".join(summarise_tests(with_p, of))
+
+
+def summarise_tests(
+    sentences: Sequence[tuple[str, float]], of: tuple[str, str]
+) -> Iterator[str]:
+    """Put tests into words: a few sentences with their corrected p, or how many differ.
+
+    Of more than a few only the significant ones are told, after their number, which
+    stands between the two parts of `of`.
+
+    >>> tests = [("A differs from B.", 0.01), ("A differs from C.", 0.5)]
+    >>> list(summarise_tests(tests, ("Of 2", "differ")))[1:]
+    ['A differs from C.', "Each p is after Holm's correction."]
+    >>> list(summarise_tests(2 * tests, ("Of 4", "differ")))[:2]
+    ["Of 4 2 differ (p < 0.05 after Holm's correction).", 'A differs from B.']
+    """
+    seen = sentences
+    if len(sentences) > FEW:
+        seen = [(sentence, p) for sentence, p in sentences if p < CHANCE]
+        before, after = of
+        yield f"{before} {len(seen)} {after} (p < {CHANCE} after Holm's correction)."
+    yield from (sentence for sentence, _ in seen)
+    if len(sentences) <= FEW and sum(p == p for _, p in sentences) > 1:
+        yield CORRECTED
 
 
 def _sentence(it: Contrast, p: float, measure: str) -> str:

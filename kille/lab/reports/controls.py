@@ -12,13 +12,11 @@ from kille.lab.measures.comparison import Difference, differences, in_pairs
 from kille.lab.measures.measures import Measure
 from kille.lab.measures.scored_dialogues import ScoredDialogue
 from kille.lab.reports.contrasts import (
-    CHANCE,
-    CORRECTED,
-    FEW,
     TESTED,
     correct_by_family,
     difference_cells,
     format_difference,
+    summarise_tests,
 )
 from kille.lab.reports.findings import Theories
 from kille.lab.reports.links import Places
@@ -99,16 +97,10 @@ def _summary_lines(
     what: str, names: Sequence[str], mains: Sequence[tuple[_NamedDifference, float]]
 ) -> Iterator[str]:
     """What became of the main measure: a line for each, or how many of many differ."""
-    (first, *others), seen = names, mains
-    if len(mains) > FEW:
-        seen = [(it, p) for it, p in mains if p < CHANCE]
-        yield (
-            f"Of {len(others)} {what}s {len(seen)} differ from {first} in {_MAIN} "
-            f"(p < {CHANCE} after Holm's correction)."
-        )
-    yield from (_sentence(what, first, it, p) for it, p in seen)
-    if 1 < len(mains) <= FEW:
-        yield CORRECTED
+    first, *others = names
+    sentences = [(_sentence(what, first, it, p), p) for it, p in mains]
+    of = f"Of {len(others)} {what}s", f"differ from {first} in {_MAIN}"
+    return summarise_tests(sentences, of)
 
 
 def _sentence(what: str, first: str, it: _NamedDifference, p: float) -> str:

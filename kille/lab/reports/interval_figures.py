@@ -19,19 +19,18 @@ from kille.lab.reports.figure_styles import (
     styles_of,
 )
 from kille.lab.reports.point_labels import label_points
+from kille.lab.reports.row_figures import figure_height
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
-_ROW, _SERIES = 0.2, 0.16  # inches
 _SQUARE = 4.8
 
 
 def draw_intervals(data: Mapping[str, Any]) -> Drawing:
     """A row for each label, with a mark and an interval for each series."""
     labels, series = list(data["labels"]), data["series"]
-    high = 1.1 + (_ROW + _SERIES * len(series)) * len(labels)
-    drawn, axes = blank_drawing(WIDTH, high)
+    drawn, axes = blank_drawing(WIDTH, figure_height(len(labels), len(series)))
     apart = 0.62 / max(len(series), 1)
     for number, (name, it, hue, marker) in enumerate(styles_of(series)):
         places = np.arange(len(labels)) + (number - (len(series) - 1) / 2) * apart

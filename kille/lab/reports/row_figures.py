@@ -19,6 +19,11 @@ _AROUND, _ROW, _SERIES = 1.1, 0.2, 0.16
 """Inches taken by what is around the rows, by each row, and by each series."""
 
 
+def figure_height(rows: int, series: int) -> float:
+    """The height in inches of a figure of so many rows, each of so many series."""
+    return _AROUND + (_ROW + _SERIES * series) * rows
+
+
 def interval_note(series: Iterable[Mapping[str, Any]]) -> str:
     """Say whether a figure of these series shows intervals; missing ends are NaN.
 
