@@ -24,8 +24,8 @@ from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
 from kille.dialogue.reference.resolving import taught_words
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
 from kille.dialogue.taxonomy import subsumption, without_related
+from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Record, RecordType, replace
 from ttr.updates import first, seq
 
@@ -33,12 +33,7 @@ from ttr.updates import first, seq
 @rule(answers="AskWhether")
 def miss_claimed(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks by a word that was never learned."""
-    sign = _asked_word(s)
-    if knows(words(s), sign):
-        return None
-    return plan(
-        s, f"Unknown{sign.kind.capitalize()}", sign.meaning, signs=[sign], types=types
-    )
+    return plan_first_unknown(s, [_asked_word(s)], types=types)
 
 
 @rule(answers="AskWhether")

@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.beliefs import knows
 from kille.dialogue.games.surveying import in_view
 from kille.dialogue.meanings import DialogueTypes, mentions, set_to
 from kille.dialogue.moves import content_of, number_field, plan
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
+from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Record, record
 from ttr.updates import first
 
@@ -23,13 +22,9 @@ def miss_counted(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks how many there are, or if all are, by a word never learned."""
     content = content_of(s)
     asked = [phrase_at(content, it) for it in ("counted", "among") if it in content]
-    for sign in s.shared.latest.signs:
-        if knows(words(s), sign):
-            continue
-        if any(mentions(it, sign) for it in asked):
-            act = f"Unknown{sign.kind.capitalize()}"
-            return plan(s, act, sign.meaning, signs=[sign], types=types)
-    return None
+    said = s.shared.latest.signs
+    signs = (sign for sign in said if any(mentions(it, sign) for it in asked))
+    return plan_first_unknown(s, signs, types=types)
 
 
 @rule(answers="AskCount")

@@ -45,6 +45,7 @@ from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import things_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
+from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Record, RecordType, rectype, replace
 from ttr.updates import first
 
@@ -80,12 +81,9 @@ def weigh_claimed(s: Record, *, types: DialogueTypes) -> Record | None:
 def miss_criterion_word(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is said of things, or by a quality, of which the robot knows no word."""
     content = content_of(s)
-    for label in (SUBJECT, PROPERTY):
-        sign = sign_at(content, label, s.shared.latest.signs)
-        if sign is not None and not knows(words(s), sign):
-            act = f"Unknown{sign.kind.capitalize()}"
-            return plan(s, act, sign.meaning, signs=[sign], types=types)
-    return None
+    said = s.shared.latest.signs
+    signs = (sign_at(content, label, said) for label in (SUBJECT, PROPERTY))
+    return plan_first_unknown(s, filter(None, signs), types=types)
 
 
 @rule(answers=("WeighCue", "Generalise"))

@@ -12,7 +12,6 @@ from kille.dialogue.beliefs import (
     about,
     beliefs_about,
     has_rival,
-    knows,
     special_name,
     thinks,
 )
@@ -33,6 +32,7 @@ from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from kille.dialogue.taxonomy import subsumption, without_related
+from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Rec, Record, RecordType, record
 from ttr.updates import first
 
@@ -150,18 +150,8 @@ def explain_nothing(s: Record, *, types: DialogueTypes) -> Record:
 def _plan_unknown_word(s: Record, *, types: DialogueTypes) -> Record | None:
     """The plan to say that the word of the claim that is asked about is not known."""
     content = content_of(s)
-    for sign in s.shared.latest.signs:
-        if claims(content, sign) and not knows(words(s), sign):
-            act = f"Unknown{sign.kind.capitalize()}"
-            return plan(
-                s,
-                act,
-                sign.meaning,
-                signs=[sign],
-                pending=s.shared.pending,
-                types=types,
-            )
-    return None
+    signs = (it for it in s.shared.latest.signs if claims(content, it))
+    return plan_first_unknown(s, signs, pending=s.shared.pending, types=types)
 
 
 def claim_in_question(s: Record) -> RecordType | None:

@@ -7,6 +7,7 @@ from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
+from kille.dialogue.unknown_words import plan_unknown_word
 from ttr import Record
 from ttr.updates import first
 
@@ -69,10 +70,7 @@ def miss_meaning(s: Record, *, types: DialogueTypes) -> Record:
     if not s.shared.latest.signs:
         return plan(s, "KnowNothing", types=types)
     sign = s.shared.latest.signs[0]
-    act = f"Unknown{sign.kind.capitalize()}"
-    return plan(
-        s, act, sign.meaning, signs=[sign], pending=s.shared.pending, types=types
-    )
+    return plan_unknown_word(s, sign, pending=s.shared.pending, types=types)
 
 
 @rule(answers="AskTaught")

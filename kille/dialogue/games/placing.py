@@ -14,7 +14,7 @@ from kille.dialogue.meanings import DialogueTypes, mentions, merge_of, set_to
 from kille.dialogue.moves import content_of, nouns_said, placement, plan
 from kille.dialogue.reference import PhraseJudge, phrase_at, thing_at
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
+from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Record, RecordType, record, rectype, replace
 from ttr.updates import first
 
@@ -149,11 +149,8 @@ def _plan_place(
 def miss_between(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks what is between things by a word that was never learned."""
     amid = phrase_at(content_of(s), AMID)
-    for sign in s.shared.latest.signs:
-        if mentions(amid, sign) and not knows(words(s), sign):
-            act = f"Unknown{sign.kind.capitalize()}"
-            return plan(s, act, sign.meaning, signs=[sign], types=types)
-    return None
+    signs = (it for it in s.shared.latest.signs if mentions(amid, it))
+    return plan_first_unknown(s, signs, types=types)
 
 
 @rule(answers="AskBetween")

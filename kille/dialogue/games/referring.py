@@ -42,6 +42,7 @@ from kille.dialogue.reference.salience import (
 )
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
+from kille.dialogue.unknown_words import plan_unknown_word
 from ttr import Model, Record, RecordType, rectype, replace
 from ttr.updates import first
 
@@ -118,8 +119,7 @@ def miss_word(s: Record, *, model: Model, types: DialogueTypes) -> Record | None
     for label in phrases(said.content):
         for sign in said.signs:
             if mentions(said.content[label], sign) and not _judges(s, model, sign):
-                act = f"Unknown{sign.kind.capitalize()}"
-                return plan(s, act, sign.meaning, signs=[sign], types=types)
+                return plan_unknown_word(s, sign, types=types)
     return None
 
 

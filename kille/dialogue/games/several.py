@@ -30,7 +30,7 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import content_of, issue, number_field, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at, thing_at
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
+from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Record, RecordType, RecType, record, rectype, replace
 from ttr.updates import first
 
@@ -260,11 +260,7 @@ def ask_single(
 @rule(answers="AskPlaces")
 def miss_several(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks where things are, by a word that was never learned."""
-    for sign in s.shared.latest.signs:
-        if not knows(words(s), sign):
-            act = f"Unknown{sign.kind.capitalize()}"
-            return plan(s, act, sign.meaning, signs=[sign], types=types)
-    return None
+    return plan_first_unknown(s, s.shared.latest.signs, types=types)
 
 
 @rule(answers="AskPlaces")
