@@ -55,7 +55,6 @@ __all__ = [
 
 _LEAST_AREA = 5e-4  # m², facing the camera: a marker pen has 15 cm²
 _LEAST_PIXELS = 24
-_RIM = 3  # pixels lost at the edges of a piece and given back
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,9 +17,6 @@ from kille.bus import BusError
 
 REMEDY = "pip install 'kille[ros2]'"
 
-Field = tuple[Any, Any]
-
-_NUMBERS = ("int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64")
 _PLAIN: Mapping[str, Any] = {"string": str, "bool": bool}
 
 

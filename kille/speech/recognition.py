@@ -85,10 +85,6 @@ class Recogniser:
         for word, ways in speech.pronounced.items():
             self._add(word, ways)
 
-    def pronunciation(self, word: str) -> str:
-        """How a word is expected to be pronounced."""
-        return self._pronouncing.of(word)
-
     def expect(self, what: ExpectedSpeech) -> None:
         """Listen for this from now on. The pronunciation of new words is guessed."""
         for word in sorted(what.learned):
