@@ -374,8 +374,8 @@ def _add_evaluate(commands: Any) -> None:
         objects,
         data="pictures by category, labelled scenes or captures, meshes "
         "(the ten things of the simulated table)",
-        protocols="paper, rotation, specimens, shots, even-odd, halves, scenes, "
-        "regions or growth",
+        protocols="paper, rotation, specimens, shots, degrees, even-odd, halves, "
+        "scenes, regions or growth",
         methods="default and kille",
     )
     for act in ("teach", "ask"):
