@@ -140,7 +140,7 @@ THEORIES = {
 }
 
 
-def measured(text: str, steps: str | None) -> tuple[int, float, float, str]:
+def measure_check(text: str, steps: str | None) -> tuple[int, float, float, str]:
     """The exit code, seconds and megabytes of `ttr check`, and the last it said."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "large.ttr")
@@ -161,7 +161,7 @@ def measured(text: str, steps: str | None) -> tuple[int, float, float, str]:
 
 def report(names: list[str], steps: str | None) -> Iterator[bool]:
     for name in names:
-        code, seconds, megabytes, said = measured(THEORIES[name], steps)
+        code, seconds, megabytes, said = measure_check(THEORIES[name], steps)
         holds = code in (0, 1, 2) and seconds <= SECONDS and megabytes <= MEGABYTES
         verdict = "holds" if holds else "FAILS"
         print(

@@ -127,7 +127,7 @@ def asked_of_doubled(ask: Callable[[TypeNode, TypeNode, Theory], str]) -> Task:
     return lambda: ask(one, other, theory)
 
 
-def printed_doubled() -> Task:
+def print_doubled() -> Task:
     T = doubled_type(f"p{next(_numbers)}")
 
     def ask() -> str:
@@ -366,7 +366,7 @@ QUESTIONS: dict[str, Question] = {
     "doubled <= doubled": Question(
         lambda: asked_of_doubled(lambda S, T, Θ: subtype(S, T, Θ).verdict), "yes", 100
     ),
-    "print doubled records": Question(printed_doubled, "refused", 50),
+    "print doubled records": Question(print_doubled, "refused", 50),
     "a sentence of ten words": Question(ten_words, True, 5),
     "nine joins <= wider ones": Question(joins_below(9, "themselves"), "yes", 50),
     "nine joins <= a union": Question(joins_below(9, "a union"), "yes", 50),
@@ -430,7 +430,7 @@ def steps_of(it: Question) -> int:
         return -1
 
 
-def found(names: list[str], clock: str) -> Iterator[Result]:
+def results_of(names: list[str], clock: str) -> Iterator[Result]:
     for name in names or QUESTIONS:
         it = QUESTIONS[name]
         spent, answer = milliseconds(it, getattr(time, clock))
@@ -445,7 +445,7 @@ def main() -> None:
     parser = arguments(__doc__ or "")
     parser.add_argument("names", nargs="*", metavar="NAME", choices=[*QUESTIONS, []])
     options = parser.parse_args()
-    report(found(options.names, clock_of(options)), options)
+    report(results_of(options.names, clock_of(options)), options)
 
 
 if __name__ == "__main__":

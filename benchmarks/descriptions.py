@@ -108,7 +108,7 @@ def body(name: str, pose: Pose) -> PosedToy:
     return PosedToy(specimen(kind, int(number)), pose)
 
 
-def taught(table: Table) -> Agent:
+def teach_robot(table: Table) -> Agent:
     """A robot that was taught the things and the relations."""
     robot = Agent(sensor=table, scans=SCANS)
     for kind in catalogue.TOY_NAMES:
@@ -251,7 +251,7 @@ def main() -> None:
     if options.pictures:
         pictures(table, options.pictures)
         return
-    with taught(table) as robot:
+    with teach_robot(table) as robot:
         found = {
             "own": facts(list(own(robot, table, options.scenes)), OWN_LIMIT),
             "human": facts(list(human(robot, table)), HUMAN_LIMIT),

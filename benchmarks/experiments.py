@@ -109,10 +109,10 @@ def times_of(study: Study, folder: Path, by: Crew, play: object = None) -> list[
     """When each dialogue was over, in seconds from the start."""
     start, times = time.perf_counter(), list[float]()
 
-    def told(_: object) -> None:
+    def note_time(_: object) -> None:
         times.append(time.perf_counter() - start)
 
-    run(study, folder, play, by, told)  # type: ignore[arg-type]
+    run(study, folder, play, by, note_time)  # type: ignore[arg-type]
     return times
 
 
@@ -135,7 +135,7 @@ def throughput(dialogues: int, rounds: int, folder: Path) -> Iterator[Found]:
     yield Found(f"report of {dialogues:,}", page, "s", most=30)
 
 
-def told(it: Found) -> str:
+def format_line(it: Found) -> str:
     limits = f"<= {it.most:g}" * (it.most < float("inf")) or f">= {it.least:g}"
     verdict = "holds" if it.holds else "MISSED"
     is_limited = it.most < float("inf") or it.least
@@ -154,7 +154,7 @@ def main() -> int:
     for it in measure_rounds(options.dialogues, options.rounds):
         all_found.append(it)
         if not options.json:
-            print(told(it).rstrip(), flush=True)
+            print(format_line(it).rstrip(), flush=True)
     holds = all(it.holds for it in all_found)
     if options.json:
         facts = {it.what: {"value": it.value, "unit": it.unit} for it in all_found}

@@ -155,14 +155,14 @@ def learning_times(size: int, clock: Clock) -> tuple[float, float]:
                 start = clock()
                 index.learn(view)
                 memory.learn_object(
-                    turn, view.label.replace(" ", "_"), view.label, kept(view)
+                    turn, view.label.replace(" ", "_"), view.label, sighting_of(view)
                 )
                 taken.append(1000 * (clock() - start))
         index.settled()
     return float(np.median(taken)), float(np.quantile(taken, 0.99))
 
 
-def kept(view: View) -> Sighting:
+def sighting_of(view: View) -> Sighting:
     points = np.zeros((len(view.descriptors), 3), np.float32)
     scan = Scan(view.descriptors, points)
     return Sighting("synthetic", 0.0, (scan,), None, view.traits)
@@ -242,7 +242,7 @@ def on_stage(stage: Any) -> Iterator[Shown]:
         stage.show(name)
         seen = look(stage, 1)
         outline = seen.frame.outlines[name]
-        yield from known(name, outline, seen)
+        yield from shown_things(name, outline, seen)
 
 
 def real() -> tuple[list[Shown], list[Shown]]:
@@ -254,11 +254,11 @@ def real() -> tuple[list[Shown], list[Shown]]:
         for name, outline in seen.frame.outlines.items():
             shown = look(open_sensor(folder), 1, pointed=outline).percepts[0]
             lessons.append((name, shown, middle(seen.frame, outline)))
-            asked.extend(known(name, outline, seen))
+            asked.extend(shown_things(name, outline, seen))
     return lessons, asked
 
 
-def known(name: str, outline: Mask, seen: Look) -> Iterator[Shown]:
+def shown_things(name: str, outline: Mask, seen: Look) -> Iterator[Shown]:
     """What was made out of a labelled thing, if anything was."""
     truth = region_of(seen.frame, outline)
     nearest = max(seen.percepts, key=lambda it: overlap(it.region, truth))

@@ -329,7 +329,7 @@ def play(line: Line, language: str) -> tuple[str, tuple[str, ...], bool]:
         return answer.replace("\n", " / "), changes, understood
 
 
-def allowed(line: Line, extra: Mapping[str, Sequence[str]]) -> frozenset[str]:
+def right_lessons(line: Line, extra: Mapping[str, Sequence[str]]) -> frozenset[str]:
     """The lessons that are right for a line, by `lessons_*.tsv`."""
     return frozenset(extra.get(line.number, ()))
 
@@ -350,7 +350,7 @@ def outcomes(language: str, only: str = "") -> Iterator[Outcome]:
             continue
         answer, changes, understood = play(line, language)
         new = [it for it in changes if not it.startswith("forgot ")]
-        if not all(is_right(it, allowed(line, right)) for it in new):
+        if not all(is_right(it, right_lessons(line, right)) for it in new):
             kind = "wrong"
         elif not understood:
             kind = "helpful" if helps in answer else "refused"

@@ -8,7 +8,7 @@ from pathlib import Path
 from ttr import load
 from ttr.dialogues.encounters import Participant, meeting
 from ttr.errors import UpdateError
-from ttr.judging.type_acts import Create, Query, performed
+from ttr.judging.type_acts import Create, Query, perform
 from ttr.updates import run
 
 # The theory says what there is, what happens, what an information state is, and by what
@@ -29,10 +29,10 @@ print(trace[0])
 # ask whether what it sees is of it.
 
 planned = state.agenda[0]
-made = performed(Create(planned), model)
+made = perform(Create(planned), model)
 print("\n" + str(made))
 stick = made.answer.sit
-print(performed(Query(stick, theory.Throw), made.model))
+print(perform(Query(stick, theory.Throw), made.model))
 
 # The human and the dog have a board each. Both see what happens, and each brings about
 # what it can: of what is on its agenda the dog leaves to the human what is the human's.

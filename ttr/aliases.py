@@ -117,7 +117,10 @@ FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
         "written": "format_story",
     },
     "ttr.errors": _ERRORS | _errors(" Mistakes"),
-    "ttr.probability": _errors("Contradiction Impossible"),
+    "ttr.judging.propositions": {"judged": "proposition_of"},
+    "ttr.judging.type_acts": {"performed": "perform"},
+    "ttr.probability": _errors("Contradiction Impossible")
+    | {"shown": "format_probability"},
     "ttr.semantics.fragment": _errors(" OutsideFragment")
     | {
         "Inference": "ttr.computing:Answer",
@@ -128,7 +131,7 @@ FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
         "detected": "detections",
         "individuated": "individuate",
     },
-    "ttr.semantics.quantifiers": _errors(" Undefined"),
+    "ttr.semantics.quantifiers": _errors(" Undefined") | {"judged": "judge_situation"},
     "ttr.semantics.questions": {"resolving": "find_answer"},
     "ttr.semantics.string_prediction": {"begun": "start_course"},
     "ttr.updates": {"replaced": "replace_rules"},

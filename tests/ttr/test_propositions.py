@@ -5,7 +5,7 @@ import pytest
 from ttr import Basic, Ind, Model, Pred, Record, TTRError, record, rectype
 from ttr.errors import IllFormedError
 from ttr.judging import proposition
-from ttr.judging.propositions import judged, probabilistic, probabilistic_claim
+from ttr.judging.propositions import probabilistic, probabilistic_claim, proposition_of
 from ttr.semantics.propositional_entailment import entails, equivalent
 from ttr.signature.signature import Axiom, Exclusion, Signature
 
@@ -42,15 +42,15 @@ def test_a_record_with_a_wrong_prob():
 @pytest.mark.parametrize("sit", ["a", "b", "zz"])
 def test_there_and_back_from_a_judgement(sit):
     j = M.judge(sit, A)
-    assert probabilistic_claim(judged(j)) == (j.sit, j.type, j.p)
-    assert M.true(judged(j)) == (1, 1)
+    assert probabilistic_claim(proposition_of(j)) == (j.sit, j.type, j.p)
+    assert M.true(proposition_of(j)) == (1, 1)
 
 
 def test_what_is_no_judgement():
     with pytest.raises(
         IllFormedError, match="expected a judgement, found the object 'a'"
     ):
-        judged("a")
+        proposition_of("a")
 
 
 def test_truth():

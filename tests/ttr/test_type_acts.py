@@ -4,7 +4,7 @@ import pytest
 
 from ttr import Ind, Model, Pred, TTRError, record, rectype
 from ttr.errors import RefusedError
-from ttr.judging.type_acts import Create, Judge, JudgeSome, Query, QuerySome, performed
+from ttr.judging.type_acts import Create, Judge, JudgeSome, Query, QuerySome, perform
 from ttr.probability import UNKNOWN
 
 dog, cat = Pred("dog", Ind), Pred("cat", Ind)
@@ -12,7 +12,7 @@ M = Model().given("fido", Ind).given("s1", dog("fido")).given("s2", dog("fido"),
 
 
 def test_judging_is_remembered():
-    after = performed(Judge("s3", dog("fido")), M)
+    after = perform(Judge("s3", dog("fido")), M)
     assert after.answer.holds is True
     assert after.model.judge("s3", dog("fido")).holds is True
     assert M.judge("s3", dog("fido")).p == UNKNOWN
@@ -21,23 +21,23 @@ def test_judging_is_remembered():
 def test_what_contradicts_is_refused():
     sees = M.witnessed(cat, by=lambda x: False)
     with pytest.raises(RefusedError, match="is refused by the witness function of cat"):
-        performed(Judge("s4", cat("fido")), sees)
+        perform(Judge("s4", cat("fido")), sees)
 
 
 def test_judging_that_something_is_takes_what_is_known():
-    known = performed(JudgeSome(dog("fido")), M)
+    known = perform(JudgeSome(dog("fido")), M)
     assert (known.answer.sit, known.model) == ("s1", M)
-    made = performed(JudgeSome(cat("fido")), M)
+    made = perform(JudgeSome(cat("fido")), M)
     assert made.model.judge(made.answer.sit, cat("fido")).holds is True
 
 
 def test_queries_change_nothing():
-    asked = performed(Query("s2", dog("fido")), M)
+    asked = perform(Query("s2", dog("fido")), M)
     assert (asked.answer.p, asked.model) == ((0.5, 0.5), M)
-    found = performed(QuerySome(dog("fido")), M)
+    found = perform(QuerySome(dog("fido")), M)
     assert [answer.sit for answer in found.answers] == ["s1"]
     assert found.model is M
-    nothing = performed(QuerySome(cat("fido")), M)
+    nothing = perform(QuerySome(cat("fido")), M)
     with pytest.raises(
         RefusedError, match=r"nothing known answers some : cat\(fido\)\?"
     ):
@@ -45,9 +45,9 @@ def test_queries_change_nothing():
 
 
 def test_creating_makes_something_new():
-    made = performed(Create(dog("fido")), M)
+    made = perform(Create(dog("fido")), M)
     assert made.answer.sit not in ("s1", "s2")
-    whole = performed(Create(rectype(e=dog("fido"))), made.model)
+    whole = perform(Create(rectype(e=dog("fido"))), made.model)
     assert whole.answer.sit != record(e=made.answer.sit)
 
 
@@ -66,11 +66,11 @@ def test_what_is_no_act():
     with pytest.raises(
         TTRError, match=r"an act is one of ttr\.judging\.type_acts, found"
     ):
-        performed("bark", M)
+        perform("bark", M)
 
 
 def test_outcomes_print_what_was_answered():
-    found = performed(QuerySome(dog("fido")), M)
+    found = perform(QuerySome(dog("fido")), M)
     assert str(found) == "some : dog(fido)?   s1 : dog(fido)   p = 1"
-    nothing = performed(QuerySome(cat("fido")), M)
+    nothing = perform(QuerySome(cat("fido")), M)
     assert str(nothing) == "some : cat(fido)?   nothing known"

@@ -123,7 +123,7 @@ class Playground:
 
     def play(self, name: str) -> Facts:
         """Begin a dialogue with a game of the theory."""
-        self._game, self._turns = self._named(name), []
+        self._game, self._turns = self._game_of(name), []
         return self._position()
 
     def move(self, number: int) -> Facts:
@@ -143,7 +143,7 @@ class Playground:
         from ttr.dialogues.settings import Setting
         from ttr.testing import Suite
 
-        game = self._named(name)
+        game = self._game_of(name)
         count = max(1, min(examples, DIALOGUES))
         report = Suite(game, examples=count, seed=seed).run()
         place = Setting.of(game, self._theory, f"{FILE} {name}")
@@ -156,7 +156,7 @@ class Playground:
             "coverage": report.coverage.table(),
         }
 
-    def _named(self, name: str) -> Game:
+    def _game_of(self, name: str) -> Game:
         if self._theory is None or name not in self._theory.games:
             raise TTRError(f"the theory has no game {name}: check it first")
         return self._theory.games[name]

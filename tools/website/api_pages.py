@@ -27,7 +27,7 @@ from tools.website.signatures import (
     Signature,
     annotation,
     linked_names,
-    qualified,
+    qualify_type,
     signature_of,
 )
 
@@ -92,7 +92,7 @@ def overview() -> Mapping[str, str]:
     return found
 
 
-def _said(path: str, doc: str) -> str:
+def _text_of(path: str, doc: str) -> str:
     """A docstring, or what the overview says where there is none."""
     return doc or overview().get(path, "")
 
@@ -163,14 +163,14 @@ def _directive(name: PublicName, link: _Linker) -> str:
     options, signature = [], Signature("", (), "", module)
     if name.kind == "data":
         if typed := annotation(name.source.node):
-            options.append(f":type: {qualified(typed, module)}")
+            options.append(f":type: {qualify_type(typed, module)}")
         elif shown := _value(name.source.node):
             options.append(f":value: {shown}")
     elif name.kind != "exception":
         signature = signature_of(name.value, module)
     inner = [
         _source_link(name.source),
-        docstring_as_myst(_said(name.path, name.doc), link),
+        docstring_as_myst(_text_of(name.path, name.doc), link),
         _table(signature, name.doc, name.source),
     ]
     body = "\n\n".join(it for it in inner if it)
@@ -209,10 +209,10 @@ def _member(name: PublicName, it: Member, link: _Linker) -> str:
     if it.kind in ("classmethod", "staticmethod"):
         options.append(f":{it.kind}:")
     if typed := _member_type(it):
-        options.append(f":type: {qualified(typed, module)}")
+        options.append(f":type: {qualify_type(typed, module)}")
     inner = [
         _source_link(it.source),
-        docstring_as_myst(_said(f"{name.path}.{it.name}", it.source.doc), link),
+        docstring_as_myst(_text_of(f"{name.path}.{it.name}", it.source.doc), link),
         _table(signature, it.source.doc, it.source),
     ]
     body = "\n\n".join(part for part in inner if part)
@@ -329,13 +329,13 @@ def _room_page(room: Room) -> str:
         found = [it for it in room.names if it.kind == kind]
         if found:
             parts += [f"## {_HEADINGS[kind]}\n", "| name | is |", "| --- | --- |"]
-            parts += [_listed(it, link) for it in found]
+            parts += [_table_row(it, link) for it in found]
             parts.append("")
     return "\n".join(parts)
 
 
-def _listed(name: PublicName, link: _Linker) -> str:
-    said = prose_as_myst(first_sentence(_said(name.path, name.doc)), link).replace(
+def _table_row(name: PublicName, link: _Linker) -> str:
+    said = prose_as_myst(first_sentence(_text_of(name.path, name.doc)), link).replace(
         "|", "\\|"
     )
     return f"| [`{name.name}`](/{page_of(name)}.md) | {said} |"

@@ -17,7 +17,7 @@ from tools.website.repository_pages import (
     Pages,
     first_paragraph,
     linked_pages,
-    staged,
+    page_of_file,
     title_of,
 )
 
@@ -76,7 +76,7 @@ def _repository(pages: Pages) -> Mapping[str, str]:
     files = [*others, *(it.relative_to(ROOT) for it in sorted(DOCS.rglob("*.md")))]
     found = {}
     for file in files:
-        name = staged(file)
+        name = page_of_file(file)
         assert name is not None
         text = pages.page(file)
         if name.startswith(_MADE) and not name.endswith("README"):
@@ -94,8 +94,10 @@ def _repository(pages: Pages) -> Mapping[str, str]:
 def _sections() -> Mapping[str, str]:
     """The pages that list what is in each section, in the order of the index."""
     index = (DOCS / "index.md").read_text("utf-8")
-    listed = [*dict.fromkeys(filter(None, map(staged, linked_pages(index))))]
-    every = [str(staged(it.relative_to(ROOT))) for it in sorted(DOCS.rglob("*.md"))]
+    listed = [*dict.fromkeys(filter(None, map(page_of_file, linked_pages(index))))]
+    every = [
+        str(page_of_file(it.relative_to(ROOT))) for it in sorted(DOCS.rglob("*.md"))
+    ]
     made = {}
     for section, (title, said) in SECTIONS.items():
         inside = [it for it in [*listed, *every] if it.startswith(f"{section}/")]

@@ -32,7 +32,7 @@ def prose_as_myst(text: str, link: Link = lambda _: None) -> str:
     """
     parts = _CODE.split(text)
     return "".join(
-        _code(it, link) if i % 2 else _escaped(it) for i, it in enumerate(parts)
+        _code(it, link) if i % 2 else _escape_text(it) for i, it in enumerate(parts)
     )
 
 
@@ -72,7 +72,7 @@ def _block(paragraph: str, link: Link) -> str:
     if paragraph.startswith(">>> "):
         return f"```pycon\n{_DIRECTIVE.sub('', paragraph)}\n```"
     if paragraph.startswith("    "):
-        return f"```text\n{_dedented(paragraph)}\n```"
+        return f"```text\n{_dedent(paragraph)}\n```"
     if _ITEM.match(paragraph):
         return "\n".join(_item(it, link) for it in _items(paragraph))
     return _line_start(prose_as_myst(paragraph, link))
@@ -87,7 +87,7 @@ def _item(text: str, link: Link) -> str:
     return f"{mark} {prose_as_myst(' '.join(said.split()), link)}"
 
 
-def _dedented(paragraph: str) -> str:
+def _dedent(paragraph: str) -> str:
     lines = paragraph.splitlines()
     least = min(len(it) - len(it.lstrip()) for it in lines if it.strip())
     return "\n".join(it[least:] for it in lines)
@@ -104,7 +104,7 @@ def _code(span: str, link: Link) -> str:
     return f"[{span}]({target})" if target else span
 
 
-def _escaped(text: str) -> str:
+def _escape_text(text: str) -> str:
     parts = _EMPHASIS.split(text)
     return "".join(
         it if i % 2 else _ACTIVE.sub(r"\\\1", it) for i, it in enumerate(parts)

@@ -18,13 +18,13 @@ _CODE = re.compile(r"<(script|style|svg)\b.*?</\1>", flags=re.S)
 def lost_links(folder: Path) -> Mapping[str, list[str]]:
     """The links of each page that lead to no file of the folder, or no place in it."""
     found = {
-        page.relative_to(folder).as_posix(): list(_lost(page, folder.resolve()))
+        page.relative_to(folder).as_posix(): list(_broken_links(page, folder.resolve()))
         for page in sorted(folder.rglob("*.html"))
     }
     return {page: lost for page, lost in found.items() if lost}
 
 
-def _lost(page: Path, folder: Path) -> Iterator[str]:
+def _broken_links(page: Path, folder: Path) -> Iterator[str]:
     for link in sorted(_parts(page)[0]):
         parts = urlsplit(link)
         if parts.scheme or parts.netloc:

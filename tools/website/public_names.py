@@ -168,7 +168,7 @@ def definition(module: str, name: str) -> Source:
     """Where a name of a module is defined, which may be in another module."""
     node, doc = _bindings(module).get(name, (None, ""))
     if isinstance(node, ast.ImportFrom):
-        source, original = _imported(module, node, name)
+        source, original = _import_source(module, node, name)
         if _is_ours(source) and (source, original) != (module, name):
             return definition(source, original)
     if not doc and _is_module(inner := f"{module}.{name}"):
@@ -224,10 +224,12 @@ def _tree(module: str) -> ast.Module:
 
 @cache
 def _bindings(module: str) -> Mapping[str, tuple[ast.stmt, str]]:
-    return dict(_bound(_tree(module).body))
+    return dict(_walk_bindings(_tree(module).body))
 
 
-def _bound(body: Sequence[ast.stmt]) -> Iterator[tuple[str, tuple[ast.stmt, str]]]:
+def _walk_bindings(
+    body: Sequence[ast.stmt],
+) -> Iterator[tuple[str, tuple[ast.stmt, str]]]:
     """The names that statements bind, each with its statement and its docstring."""
     for statement, after in zip(body, [*body[1:], None], strict=True):
         said = _string(after)
@@ -247,7 +249,7 @@ def _bound(body: Sequence[ast.stmt]) -> Iterator[tuple[str, tuple[ast.stmt, str]
                 for alias in names:
                     yield alias.asname or alias.name, (statement, "")
             case ast.If(body=inner, orelse=other) | ast.Try(body=inner, orelse=other):
-                yield from _bound([*other, *inner])
+                yield from _walk_bindings([*other, *inner])
 
 
 def _string(statement: ast.stmt | None) -> str:
@@ -257,7 +259,7 @@ def _string(statement: ast.stmt | None) -> str:
     return ""
 
 
-def _imported(module: str, node: ast.ImportFrom, name: str) -> tuple[str, str]:
+def _import_source(module: str, node: ast.ImportFrom, name: str) -> tuple[str, str]:
     """The module that a statement imports from, and the name that it has there."""
     original = next(it.name for it in node.names if name in (it.asname, it.name))
     base = node.module or ""
@@ -292,7 +294,7 @@ def _class_bindings(cls: type) -> Mapping[str, Source]:
         if isinstance(node, ast.ClassDef) and node.name == name:
             return {
                 bound: Source(cls.__module__, f"{cls.__qualname__}.{bound}", *what)
-                for bound, what in _bound(node.body)
+                for bound, what in _walk_bindings(node.body)
             }
     return {}
 

@@ -63,7 +63,7 @@ class Pages:
             for it in text.split("\n")
         )
         text = re.sub(r"^#.*$", lambda it: keep(it[0]), text, flags=re.M)
-        text = self._cited(text, path)
+        text = self._link_citations(text, path)
         while "\0" in text:
             text = re.sub("\0(\\d+)\0", lambda it: pieces[int(it[1])], text)
         return text
@@ -74,10 +74,10 @@ class Pages:
             return found[0]
         file, _, anchor = target.partition("#")
         there = Path(os.path.normpath(path.parent / file))
-        here = Path(staged(path) or path)
+        here = Path(page_of_file(path) or path)
         if picture:
             return f"![{text}]({os.path.relpath(_in_docs(there), here.parent)})"
-        if page := staged(there):
+        if page := page_of_file(there):
             to = os.path.relpath(page, here.parent)
             return f"[{text}]({to}.md{'#' if anchor else ''}{anchor})"
         self.files.add(there)
@@ -86,12 +86,12 @@ class Pages:
         at = anchor or _defined_name(text, there)
         return f'<a href="{href}.html{"#" if at else ""}{at}">{text}</a>'
 
-    def _cited(self, text: str, path: Path) -> str:
+    def _link_citations(self, text: str, path: Path) -> str:
         """Text in which works that are cited are links to the bibliography."""
         if not self.bibliography:
             return text
         up = os.path.relpath(
-            "reference/bibliography.html", Path(staged(path) or "").parent
+            "reference/bibliography.html", Path(page_of_file(path) or "").parent
         )
         every = "|".join(
             re.escape(it).replace(r"\ ", r"\s+")
@@ -105,7 +105,7 @@ class Pages:
         return re.sub(rf"(?<![\w(])(?:{every})(?!\w)", link, text)
 
 
-def staged(path: Path) -> str | None:
+def page_of_file(path: Path) -> str | None:
     """The page of the site that a file of the repository is, without a suffix."""
     if (name := path.as_posix()) in OTHER_PAGES:
         return OTHER_PAGES[name]
@@ -139,7 +139,7 @@ def linked_pages(text: str) -> Iterator[Path]:
     """The pages that the index of the documentation links to, in its order."""
     for found in _LINK.finditer(text):
         there = Path(os.path.normpath(Path("docs") / found["target"].partition("#")[0]))
-        if staged(there):
+        if page_of_file(there):
             yield there
 
 

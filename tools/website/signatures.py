@@ -44,8 +44,10 @@ def signature_of(value: object, module: str, *, bound: bool = False) -> Signatur
     except (TypeError, ValueError):
         return Signature("", (), "", module)
     parameters = list(found.parameters.values())[bound:]
-    returns = "" if isinstance(value, type) else _written(found.return_annotation)
-    arrow = f" -> {_qualified(returns, module)}" if returns else ""
+    returns = (
+        "" if isinstance(value, type) else _annotation_text(found.return_annotation)
+    )
+    arrow = f" -> {qualify_type(returns, module)}" if returns else ""
     text = f"({', '.join(_parts(parameters, module))}){arrow}"
     return Signature(text, tuple(map(_parameter, parameters)), returns, module)
 
@@ -59,13 +61,17 @@ def annotation(node: ast.stmt | None) -> str:
     return ast.unparse(node.annotation) if isinstance(node, ast.AnnAssign) else ""
 
 
-def qualified(text: str, module: str) -> str:
+def qualify_type(text: str, module: str) -> str:
     """A type as it is written in a module, by the names that have pages.
 
-    >>> qualified("list[TypeNode]", "ttr.judging.models")
+    >>> qualify_type("list[TypeNode]", "ttr.judging.models")
     'list[ttr.types.TypeNode]'
     """
-    return _qualified(text, module)
+    try:
+        tree = ast.parse(text, mode="eval")
+    except SyntaxError:
+        return text
+    return ast.unparse(_Qualifier(module).visit(tree))
 
 
 def linked_names(text: str, module: str) -> Iterator[tuple[str, PublicName | None]]:
@@ -108,17 +114,21 @@ def _parts(parameters: list[inspect.Parameter], module: str) -> Iterator[str]:
 
 def _part(it: inspect.Parameter, module: str) -> str:
     made = _parameter(it)
-    typed = f"{made.name}: {_qualified(made.type, module)}" if made.type else made.name
+    typed = (
+        f"{made.name}: {qualify_type(made.type, module)}" if made.type else made.name
+    )
     equals = " = " if made.type else "="
     return f"{typed}{equals}{made.default}" if made.default else typed
 
 
 def _parameter(it: inspect.Parameter) -> Parameter:
     stars = "*" * ((it.kind is it.VAR_POSITIONAL) + 2 * (it.kind is it.VAR_KEYWORD))
-    return Parameter(stars + it.name, _written(it.annotation), _default(it.default))
+    return Parameter(
+        stars + it.name, _annotation_text(it.annotation), _default(it.default)
+    )
 
 
-def _written(annotation: object) -> str:
+def _annotation_text(annotation: object) -> str:
     if annotation is inspect.Signature.empty:
         return ""
     if isinstance(annotation, str):
@@ -137,14 +147,6 @@ def _default(value: object) -> str:
     except SyntaxError:
         return "..."
     return text if len(text) <= _LONGEST_DEFAULT else "..."
-
-
-def _qualified(text: str, module: str) -> str:
-    try:
-        tree = ast.parse(text, mode="eval")
-    except SyntaxError:
-        return text
-    return ast.unparse(_Qualifier(module).visit(tree))
 
 
 class _Qualifier(ast.NodeTransformer):

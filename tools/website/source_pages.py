@@ -107,16 +107,16 @@ def _lexer(name: str) -> Lexer:
 def _definitions(file: Path, text: str) -> Iterator[tuple[str, int]]:
     """The names that a file of Python defines, each with its line."""
     if file.suffix == ".py":
-        yield from _defined(ast.parse(text).body, "")
+        yield from _walk_definitions(ast.parse(text).body, "")
 
 
-def _defined(body: list[ast.stmt], before: str) -> Iterator[tuple[str, int]]:
+def _walk_definitions(body: list[ast.stmt], before: str) -> Iterator[tuple[str, int]]:
     for it in body:
         match it:
             case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
                 yield f"{before}{name}", it.lineno
                 if isinstance(it, ast.ClassDef):
-                    yield from _defined(it.body, f"{before}{name}.")
+                    yield from _walk_definitions(it.body, f"{before}{name}.")
             case ast.Assign(targets=[ast.Name(id=name)]):
                 yield f"{before}{name}", it.lineno
             case ast.AnnAssign(target=ast.Name(id=name)):

@@ -15,7 +15,7 @@ from ttr.computing.subtyping import subtype
 from ttr.errors import TTRError, UpdateError, suggestion
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
-from ttr.judging.type_acts import Create, performed
+from ttr.judging.type_acts import Create, perform
 from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
 from ttr.types.syntax import TypeNode, as_type, kind_of
@@ -150,7 +150,7 @@ class Encounter:
     def _after_act(self, index: int, act: Create) -> Encounter:
         """After a participant has created an event and everyone has seen it."""
         by = self.participants[index]
-        made = performed(act, _with_fresh_names(self.boards, index))
+        made = perform(act, _with_fresh_names(self.boards, index))
         event, T = made.answer.sit, act.type
         boards = []
         for number, (one, board) in enumerate(

@@ -257,7 +257,7 @@ class _Editor:
         meaning = self._known.get(uri, _Known()).names.get(name)
         if meaning is None:
             return None
-        parts = [_fenced("\n".join(meaning["statements"]))]
+        parts = [_fence_notation("\n".join(meaning["statements"]))]
         parts += [_as_markdown(one) for one in (*meaning["about"], meaning["comment"])]
         return lsp.Hover(
             lsp.MarkupContent(
@@ -284,7 +284,7 @@ class _Editor:
         name = found[2]
         here = [
             lsp.Location(uri, self._range_of_span(document, vars(one.span)))
-            for one in _declared(_text_of(document))
+            for one in _declarations_in(_text_of(document))
             if one.name == name and not _is_story(uri)
         ]
         places = self._known.get(uri, _Known()).names.get(name, {}).get("places", ())
@@ -322,7 +322,7 @@ class _Editor:
         known = self._known.get(uri, _Known()).names
         details = {name: one["statements"][0] for name, one in known.items()}
         items |= {name: _ITEMS[Kind(one["kind"])] for name, one in known.items()}
-        for one in () if _is_story(uri) else _declared(text):
+        for one in () if _is_story(uri) else _declarations_in(text):
             items[one.name] = _ITEMS[one.kind]
             details[one.name] = one.statement
         words = _words_after(before, _is_story(uri))
@@ -343,7 +343,7 @@ class _Editor:
                 self._range_of(document, one.start, one.end),
                 self._range_of_span(document, vars(one.span)),
             )
-            for one in _declared(_text_of(document))
+            for one in _declarations_in(_text_of(document))
         ]
 
     def _titles(self, document: TextDocument) -> list[lsp.DocumentSymbol]:
@@ -566,7 +566,7 @@ def _line_starts(text: str) -> tuple[int, ...]:
 
 
 @lru_cache(maxsize=8)
-def _declared(text: str) -> tuple[Declaration, ...]:
+def _declarations_in(text: str) -> tuple[Declaration, ...]:
     """The declarations; none of a text that is too large to be checked."""
     return () if len(text) > THEORY.maximum else declarations(text)
 
@@ -583,7 +583,7 @@ def _tokens_of(text: str, is_story: bool) -> tuple[Token, ...]:
     return story_tokens(text) if is_story else theory_tokens(text)
 
 
-def _fenced(text: str) -> str:
+def _fence_notation(text: str) -> str:
     """A block of notation in Markdown, whatever backticks are in it."""
     ticks = max((len(it) for it in re.findall("`+", text)), default=0)
     fence = "`" * max(3, ticks + 1)
@@ -593,7 +593,9 @@ def _fenced(text: str) -> str:
 def _as_markdown(text: str) -> str:
     """Words from a file, without anything that Markdown would act on."""
     if text.startswith("computes to `"):
-        return "computes to\n" + _fenced(text.removeprefix("computes to `")[:-1])
+        return "computes to\n" + _fence_notation(
+            text.removeprefix("computes to `")[:-1]
+        )
     return re.sub(r"([\\`*_{}\[\]()#+.!<>|~-])", r"\\\1", text)
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ttr.aliases import former_names
 from ttr.errors import IllFormedError, TTRError
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
 from ttr.probability.degrees import ROUNDING, is_within
@@ -21,11 +22,14 @@ if TYPE_CHECKING:
 __all__ = [
     "borne_out",
     "claim",
-    "judged",
     "probabilistic",
     "probabilistic_claim",
     "proposition",
+    "proposition_of",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
 
 
 def proposition(sit: object, T: TypeNode) -> Record:
@@ -54,13 +58,13 @@ def probabilistic(sit: object, T: TypeNode, p: object) -> Record:
     return record(sit=sit, sit_type=as_type(T), prob=lo if lo == hi else [lo, hi])
 
 
-def judged(judgement: Judgement, /) -> Record:
+def proposition_of(judgement: Judgement, /) -> Record:
     """The probabilistic Austinian proposition that a judgement states.
 
-    Law: `probabilistic_claim(judged(j))` is (j.sit, j.type, j.p).
+    Law: `probabilistic_claim(proposition_of(j))` is (j.sit, j.type, j.p).
 
     >>> from ttr import Ind, Model
-    >>> print(judged(Model().given("fido", Ind, 0.75).judge("fido", Ind)))
+    >>> print(proposition_of(Model().given("fido", Ind, 0.75).judge("fido", Ind)))
     {prob = 0.75, sit = fido, sit_type = Ind}
     """
     try:

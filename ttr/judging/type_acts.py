@@ -3,15 +3,16 @@
 An agent judges an object to be of a type (a :ₐ T), or that something is (some :ₐ T);
 asks whether it is (a :ₐ T?), or of what something is (some :ₐ T?); or creates a
 situation of a type (:ₐ T!). To be licensed to an act is not to do it: what licenses is
-a rule's agenda, what is done is a value here, and `performed` works out what comes of
+a rule's agenda, what is done is a value here, and `perform` works out what comes of
 it in the agent's model. Source: Cooper 2023, chapter 2.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
+from ttr.aliases import former_names
 from ttr.errors import RefusedError, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
@@ -27,8 +28,11 @@ __all__ = [
     "Query",
     "QuerySome",
     "TypeAct",
-    "performed",
+    "perform",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
 
 
 @dataclass(frozen=True)
@@ -110,7 +114,7 @@ class Outcome:
         return f"{self.act}   {told}"
 
 
-def performed(act: TypeAct, model: Model) -> Outcome:
+def perform(act: TypeAct, model: Model) -> Outcome:
     """Perform an act in an agent's model.
 
     A query changes nothing, and creating never takes what there is already. Raises
@@ -119,12 +123,12 @@ def performed(act: TypeAct, model: Model) -> Outcome:
 
     >>> from ttr import Ind, Pred
     >>> dog, M = Pred("dog", Ind), Model().given("fido", Ind)
-    >>> made = performed(Create(dog("fido")), M)
+    >>> made = perform(Create(dog("fido")), M)
     >>> print(made)
     : dog(fido)!   s1 : dog(fido)   p = 1
-    >>> print(performed(QuerySome(dog("fido")), made.model).answer.sit)
+    >>> print(perform(QuerySome(dog("fido")), made.model).answer.sit)
     s1
-    >>> print(performed(Query("s1", dog("fido")), M).answer.p)
+    >>> print(perform(Query("s1", dog("fido")), M).answer.p)
     0
     """
     as_model(model)

@@ -15,7 +15,7 @@ from ttr.probability.degrees import (
     Degree,
     complement,
     degree,
-    shown,
+    format_probability,
 )
 from ttr.probability.dependence import (
     INDEPENDENT,
@@ -55,7 +55,7 @@ __all__ = [
     "complement",
     "degree",
     "feasible",
-    "shown",
+    "format_probability",
 ]
 
 if not TYPE_CHECKING:

@@ -24,11 +24,11 @@ class Degree(NamedTuple):
         0.99999
         """
         if self.lo == self.hi:
-            return shown(self.lo)
-        return f"[{shown(self.lo)}, {shown(self.hi)}]"
+            return format_probability(self.lo)
+        return f"[{format_probability(self.lo)}, {format_probability(self.hi)}]"
 
 
-def shown(x: float) -> str:
+def format_probability(x: float) -> str:
     """A number in four digits, unless they would make it certain or refuted."""
     short = f"{x:.4g}"
     return short if x in (0.0, 1.0) or 0.0 < float(short) < 1.0 else repr(x)

@@ -14,7 +14,7 @@ from ttr.errors import IllFormedError, RefusedError
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Conditions, Model, as_model, conditions
 from ttr.probability import REFUTED, Degree
-from ttr.probability.degrees import share, shown
+from ttr.probability.degrees import format_probability, share
 from ttr.types.interning import identity
 from ttr.types.objects import Object, freeze
 from ttr.types.printing import notation
@@ -168,7 +168,10 @@ def _share_in_words(
     if mine.hi == 0.0 or rest.hi == 0.0:
         return p, f"{'no' if p == REFUTED else 'every'} value that is possible"
     ends = dict.fromkeys(((mine.lo, rest.hi), (mine.hi, rest.lo)))
-    said = ", ".join(f"{shown(x)} / ({shown(x)} + {shown(y)})" for x, y in ends)
+    said = ", ".join(
+        f"{format_probability(x)} / ({format_probability(x)} + {format_probability(y)})"
+        for x, y in ends
+    )
     return p, said
 
 

@@ -227,11 +227,11 @@ def _region_plans(data: str) -> tuple[Plan, ...]:
 
     found = captures(Path(data).expanduser())
 
-    def measured(methods: Methods, *, seed: int, progress: Progress) -> Result:
+    def measure_regions(methods: Methods, *, seed: int, progress: Progress) -> Result:
         """Regions are found before any learner sees them, and without chance."""
         return regions(found, progress=progress)
 
-    return (Plan("regions", measured, compares=tuple(SEGMENTATIONS)),)
+    return (Plan("regions", measure_regions, compares=tuple(SEGMENTATIONS)),)
 
 
 def _growth_plans() -> tuple[Plan, ...]:

@@ -181,12 +181,12 @@ class _Cluster:
     def _gather(self, future: Future) -> list[list[Outcome]]:
         """The results of a batch, if any; TimeoutError if that takes too long."""
 
-        async def gathered() -> list[list[Outcome]]:
+        async def gather() -> list[list[Outcome]]:
             found = self.client.gather([future], errors="skip", asynchronous=True)
             return list(await found)
 
         try:
-            return list(self.client.sync(gathered, callback_timeout=GLANCE))
+            return list(self.client.sync(gather, callback_timeout=GLANCE))
         except TimeoutError:
             raise
         except (CancelledError, OSError):

@@ -128,11 +128,11 @@ def act_with(
 ) -> Callable[[TypeNode, Model], tuple[Record, Model]]:
     """The `act` of a robot whose new words are made by these functions."""
 
-    def acted(planned: TypeNode, model: Model) -> tuple[Record, Model]:
+    def act_and_share(planned: TypeNode, model: Model) -> tuple[Record, Model]:
         move, after = act(planned, _with_new_words(planned, model, makes))
         return move, _share_lessons(after)
 
-    return acted
+    return act_and_share
 
 
 def _with_new_words(

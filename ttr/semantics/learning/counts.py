@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, TypeVar
 from ttr.computing.subtyping import VERDICTS, consistent, subtype
 from ttr.errors import IllFormedError, RefusedError, TTRError
 from ttr.judging.judgements import Judgement
-from ttr.judging.propositions import judged, probabilistic, probabilistic_claim
+from ttr.judging.propositions import probabilistic, probabilistic_claim, proposition_of
 from ttr.persistent_maps import Map
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.probability.degrees import share
@@ -260,7 +260,7 @@ class Counts:
 def _as_evidence(one: Record | Judgement) -> Record:
     """The evidence as a probabilistic Austinian proposition."""
     if isinstance(one, Judgement):
-        return judged(one)
+        return proposition_of(one)
     return probabilistic(*probabilistic_claim(one))
 
 

@@ -1,9 +1,9 @@
 """Quantifiers by witness sets: every, most, few and the rest, in a model, with reasons.
 
 `every(P, Q)` is a type: of it is a situation {X, f} with a witness set X. `settle` asks
-whether a model has one, `judged` whether a given situation is one, and `quantify`
-counts extensions that are known already. `truth` works out types with quantifiers
-inside.
+whether a model has one, `judge_situation` whether a given situation is one, and
+`quantify` counts extensions that are known already. `truth` works out types with
+quantifiers inside.
 """
 
 from typing import TYPE_CHECKING
@@ -36,7 +36,7 @@ from ttr.semantics.quantifiers.quantified_propositions import (
     quantify,
     settle,
 )
-from ttr.semantics.quantifiers.quantified_situations import judged
+from ttr.semantics.quantifiers.quantified_situations import judge_situation
 from ttr.semantics.quantifiers.thresholds import Threshold, Thresholds, number, share
 from ttr.semantics.quantifiers.truth import absent, truth
 
@@ -62,7 +62,7 @@ __all__ = [
     "exist_pl",
     "extension",
     "few",
-    "judged",
+    "judge_situation",
     "many",
     "most",
     "no",

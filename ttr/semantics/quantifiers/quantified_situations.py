@@ -23,7 +23,7 @@ from ttr.types.syntax import Function, TypeNode, as_type
 
 
 @within_budget
-def judged(
+def judge_situation(
     M: Model, s: object, T: TypeNode, thresholds: Thresholds | None = None, /
 ) -> Judgement:
     """Is s of q(P, Q)? It is a record {X, f}, where X is a witness set and f fits.
@@ -37,7 +37,7 @@ def judged(
     >>> dog, bark = Pred("dog", Ind), Pred("bark", Ind)
     >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
     >>> M = M.given("s2", bark("fido"))
-    >>> judged(M, record(X=frozenset()), few(dog, bark)).why.rule
+    >>> judge_situation(M, record(X=frozenset()), few(dog, bark)).why.rule
     'fido is both, but not in X'
     """
     s = freeze(s)
@@ -115,7 +115,7 @@ class _Fitting:
             return identity(e) == identity(x) and self._M.judge(x, self._Q).p.hi > 0.0
         T = self._M.apply(self._Q, x)
         if determiner_of(T) is not None:
-            return judged(self._M, e, as_type(T)).p.hi > 0.0
+            return judge_situation(self._M, e, as_type(T)).p.hi > 0.0
         case = self._cases[identity(x)]
         found = identity(case.situation) == identity(e) and case in self._found.refset
         return found or self._M.judge(e, as_type(T)).p.hi > 0.0
