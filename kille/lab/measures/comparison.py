@@ -32,7 +32,7 @@ _TINY = 1e-12  # sums in another order differ by this little
 Pair = tuple[ScoredDialogue, ScoredDialogue]
 
 
-class Difference(NamedTuple):
+class PairedDifference(NamedTuple):
     """How much more `other` has than `one`, with p and the number of pairs.
 
     `spread` is the standard deviation of the differences within the pairs, `apart`
@@ -59,7 +59,7 @@ class Contrast(NamedTuple):
 
     one: str
     other: str
-    differences: Mapping[str, Difference]
+    differences: Mapping[str, PairedDifference]
     answers: McNemar
 
 
@@ -74,7 +74,7 @@ def in_pairs(
 
 def differences(
     measures: Sequence[Measure], pairs: Sequence[Pair], chance: np.random.Generator
-) -> dict[str, Difference]:
+) -> dict[str, PairedDifference]:
     """How much more of each measure the second of each pair has than the first.
 
     The 95 % confidence interval is that of resampled pairs (percentiles), p that of
@@ -92,7 +92,7 @@ def differences(
             continue
         known = np.isfinite(measure.of(first)) & np.isfinite(measure.of(second))
         first, second = first[known], second[known]
-        found[measure.name] = Difference(
+        found[measure.name] = PairedDifference(
             _difference(measure, first, second, draws[:, known]),
             permutation_p(measure, first, second, stays[:, known]),
             len(first),

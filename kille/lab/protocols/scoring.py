@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.lab.measures.statistics import kappa, spearman
-from kille.lab.protocols.word_maps import degrees_of
 from kille.lab.scenes.published_judgements import Choice, Judged, JudgementStudy
+from kille.lab.theories.candidates import degrees_of
 from kille.scene import Configuration
 
 _FOLDS = 5

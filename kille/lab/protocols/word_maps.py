@@ -5,15 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from kille.lab.results import Figure
+from kille.lab.theories.candidates import degrees_of
 from kille.perception.learners import Learner
 from kille.scene import Configuration
-
-
-def degrees_of(learner: Learner[Configuration], x: Configuration) -> dict[str, float]:
-    """How well each word fits by itself, if the learner can tell; else its share."""
-    judge = getattr(learner, "degrees", learner.predict_proba_one)
-    degrees: dict[str, float] = judge(x)
-    return degrees
 
 
 def map_figure(

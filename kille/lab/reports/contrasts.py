@@ -8,7 +8,7 @@ import numpy as np
 
 from kille.lab.measures.comparison import (
     Contrast,
-    Difference,
+    PairedDifference,
     contrasts,
     holm,
     least_p,
@@ -142,7 +142,7 @@ def _sentence(it: Contrast, p: float, measure: str) -> str:
     return f"The {measure} of {it.other} differs from that of {it.one} by {difference}."
 
 
-def format_difference(difference: Difference, p: float) -> str:
+def format_difference(difference: PairedDifference, p: float) -> str:
     """Format a difference with its confidence interval and its p, for a sentence."""
     estimate = drop_contradicting_interval(difference.estimate, p)
     return f"{format_cell(estimate)} (p = {format_p(p)})".replace("= <", "<")
@@ -225,7 +225,7 @@ def _differences_table(
     return Table("Paired differences", columns, rows, note, links)
 
 
-def difference_cells(difference: Difference, p: float) -> tuple[Cell, ...]:
+def difference_cells(difference: PairedDifference, p: float) -> tuple[Cell, ...]:
     """The cells of a difference: its estimate, its p, its corrected p, its pairs."""
     estimate = drop_contradicting_interval(difference.estimate, difference.p)
     return estimate, format_p(difference.p), format_p(p), difference.pairs
@@ -283,7 +283,7 @@ def _power_table(found: Sequence[Contrast], main: str) -> Table:
     )
 
 
-def _power_cells(d: Difference) -> tuple[Cell, ...]:
+def _power_cells(d: PairedDifference) -> tuple[Cell, ...]:
     least = least_difference(d.spread, d.pairs)
     chance = np.random.default_rng(_SEED)
     known = np.isfinite(least) and least > 0
@@ -319,7 +319,7 @@ def _figures(found: Sequence[Contrast]) -> tuple[Figure, ...]:
     return tuple(row_figures("Differences", labels, series, settings))
 
 
-def _estimate(difference: Difference | None) -> Estimate:
+def _estimate(difference: PairedDifference | None) -> Estimate:
     if difference is None:
         return UNKNOWN
     return drop_contradicting_interval(difference.estimate, difference.p)

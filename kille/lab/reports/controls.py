@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kille.lab.measures.comparison import Difference, differences, in_pairs
+from kille.lab.measures.comparison import PairedDifference, differences, in_pairs
 from kille.lab.measures.measures import Measure
 from kille.lab.measures.scored_dialogues import ScoredDialogue
 from kille.lab.reports.contrasts import (
@@ -47,7 +47,7 @@ class _NamedDifference(NamedTuple):
     measure: str
     first: str
     other: str
-    difference: Difference
+    difference: PairedDifference
     place: str
 
     @property

@@ -14,7 +14,7 @@ from kille.lab.scenes.galleries import Gallery, open_gallery
 from kille.lab.scenes.labelled import LabelledScenes, open_scenes
 from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE
-from kille.lab.scenes.theatre import Capture, Picture, Theatre
+from kille.lab.scenes.theatre import CaptureView, PictureView, Theatre
 from kille.lab.settings import suggest_name
 from kille.lab.worlds.worlds import Thing, World
 from kille.sensors.captures import Shot
@@ -88,8 +88,8 @@ def open_pictures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Capt
         paths = gallery.categories[word]
         drawn = chance.sample(paths, len(paths))
         each, new = set_["each"], set_["new"]
-        taught += ((word, Picture(it)) for it in drawn[:each])
-        kept += ((word, Picture(it)) for it in drawn[each : each + new])
+        taught += ((word, PictureView(it)) for it in drawn[:each])
+        kept += ((word, PictureView(it)) for it in drawn[each : each + new])
     return _scene_of(taught, kept, folder.name)
 
 
@@ -117,7 +117,7 @@ def open_captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Capt
             count = min(set_["each"], len(shots))
             for number in sorted(chance.sample(range(len(shots)), count)):
                 for name in _outlined_names(shots[number]):
-                    yield name, Capture(folder / scene, number, name)
+                    yield name, CaptureView(folder / scene, number, name)
 
     captured = _scene_of(list(views_of(teach)), list(views_of(new)), folder.name)
     labelled = {thing for it in (*teach, *new) for thing in scenes.things(it)}

@@ -12,7 +12,7 @@ from urllib.parse import quote
 
 from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE, ring_places, round_place, side_of
-from kille.lab.scenes.theatre import Staged, Stand, Theatre, lay_table
+from kille.lab.scenes.theatre import Stand, TableView, Theatre, lay_table
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.catalogue import TOY_NAMES
@@ -63,7 +63,7 @@ class Rendered(Scene):
         name = self.start.thing(x).kind
         right, away = chance.uniform(-0.05, 0.05), chance.uniform(-0.05, 0.05)
         stand = Stand(name, right, away, chance.uniform(-25, 25))
-        view = Staged(f"{self.source}&specimen={specimen}", (stand,))
+        view = TableView(f"{self.source}&specimen={specimen}", (stand,))
         world = self.start.move(x, _place(right, away)).point_at(x)
         return Occasion(kind, world, x, view=view, group=name)
 
@@ -89,7 +89,7 @@ class Rendered(Scene):
         y, x = 1 + self.kinds.index(landmark), 1 + self.kinds.index(target)
         world = self.start.move(y, _place(*at)).move(x, _place(*by)).point_at(x)
         group, hard = side_of(world, x, y)
-        view = Staged(self.source, stands)
+        view = TableView(self.source, stands)
         return Occasion("relation", world, x, y, view=view, group=group, hard=hard)
 
 

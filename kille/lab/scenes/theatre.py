@@ -32,7 +32,7 @@ PICTURES, FRAMES = 400, 60
 """How many looks are kept: those at pictures are small, and those at frames are not."""
 
 
-class Picture(NamedTuple):
+class PictureView(NamedTuple):
     """A picture of one thing."""
 
     path: Path
@@ -41,7 +41,7 @@ class Picture(NamedTuple):
         return f"{self.path.parent.name}/{self.path.name}"
 
 
-class Capture(NamedTuple):
+class CaptureView(NamedTuple):
     """A labelled frame of a scene, and the thing in it that is pointed at."""
 
     folder: Path
@@ -64,7 +64,7 @@ class Stand(NamedTuple):
         return f"{self.name} at {self.right:.3f} {self.away:.3f} turned {self.turn:.0f}"
 
 
-class Staged(NamedTuple):
+class TableView(NamedTuple):
     """A rendered table: what stands on it, of which the last is pointed at."""
 
     source: str
@@ -130,20 +130,20 @@ class Theatre:
 def _look_at(view: object) -> Look:
     """The look at a view: in one scan, with what is pointed at before all else."""
     match view:
-        case Picture(path):
+        case PictureView(path):
             return _look_at_kept_picture(path)
-        case Capture() | Staged():
+        case CaptureView() | TableView():
             return _look_at_frame(view)
     raise StudyError([f"nothing is shown: {view!r} is no view"])
 
 
 @lru_cache(FRAMES)
-def _look_at_frame(view: Capture | Staged) -> Look:
+def _look_at_frame(view: CaptureView | TableView) -> Look:
     """The look at a whole frame, and at a thing in it by its outline."""
     match view:
-        case Capture(folder, number, name):
+        case CaptureView(folder, number, name):
             frame = _shots(folder)[number].read()
-        case Staged(source, stands):
+        case TableView(source, stands):
             frame, name = lay_table(source, stands).frame(), stands[-1].name
     return look_at_outlined(frame, name)
 

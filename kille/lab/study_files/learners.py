@@ -9,7 +9,7 @@ from pathlib import Path
 from kille.lab.own_code import failing_line
 from kille.lab.results import ExperimentError
 from kille.lab.scenes import Occasion
-from kille.lab.scenes.theatre import Staged, Stand, Theatre
+from kille.lab.scenes.theatre import Stand, TableView, Theatre
 from kille.lab.settings import Problem, show_value, suggest_name, why_no_file
 from kille.lab.study import Theory
 from kille.lab.theories.classifiers import NAMES, learners_of, words_of
@@ -71,7 +71,7 @@ def _try_relation(relations: RelationMemory) -> None:
 def _percept() -> Percept:
     """A cup on a rendered table, as the whole robot sees it."""
     table = Theatre("a cup")
-    view = Staged("synthetic:empty", (Stand("cup", 0.0, 0.0, 0.0),))
+    view = TableView("synthetic:empty", (Stand("cup", 0.0, 0.0, 0.0),))
     table.turn_to(Occasion("noun", World(), 1, view=view))
     return table.look(1, None).percepts[0]
 

@@ -69,6 +69,13 @@ def _maker(name: str, known: Methods, consent: Consent | None) -> Make:
         raise ExperimentError(error.message) from (error.__cause__ or error)
 
 
+def degrees_of(learner: Any, x: object) -> Mapping[str, float]:
+    """How well each word fits by itself, if the learner can tell; else its share."""
+    judge = getattr(learner, "degrees", learner.predict_proba_one)
+    degrees: Mapping[str, float] = judge(x)
+    return degrees
+
+
 # --- the guard -----------------------------------------------------------------------
 
 

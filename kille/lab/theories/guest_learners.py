@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.lab.theories.candidates import Make
-from kille.lab.theories.pupils import Heard, Pupil
+from kille.lab.theories.pupils import Pupil, PupilLesson
 from kille.perception.evidence import Evidence
 from kille.perception.index import View
 from kille.perception.learners import Key
@@ -27,7 +27,7 @@ _CUE = "learner"
 """What speaks for a word where a guest judges."""
 
 
-ShownLessons = dict[Key, Heard[Percept]]
+ShownLessons = dict[Key, PupilLesson[Percept]]
 """What a robot was shown, by the keys of its lessons."""
 
 
@@ -49,13 +49,13 @@ class GuestObjects(ObjectMemory):
         """Take the percept as an instance of it; ValueError if the key is taken."""
         named = self._own_key() if key is None else key
         super().learn_one(x, label, key=named)
-        self._shown[named] = Heard(named, x, label)
+        self._shown[named] = PupilLesson(named, x, label)
 
     def deny_one(self, x: Percept, label: str, *, key: Key | None = None) -> None:
         """Take the percept as no instance of it; ValueError if the key is taken."""
         named = self._own_key() if key is None else key
         super().deny_one(x, label, key=named)
-        self._shown[named] = Heard(named, x, label, holds=False)
+        self._shown[named] = PupilLesson(named, x, label, holds=False)
 
     def evidence(self, x: Percept) -> Evidence:
         """What the pupil says of each word, as what one cue adds for it."""
@@ -79,7 +79,8 @@ class GuestRelations(RelationMemory):
     def degrees(self, x: Configuration) -> dict[str, float]:
         """How well each learned word fits x."""
         heard = [
-            Heard(key, it.x, it.label, not it.denies) for key, it in self._heard.items()
+            PupilLesson(key, it.x, it.label, not it.denies)
+            for key, it in self._heard.items()
         ]
         found = self._pupil.degrees(heard, x) if heard else {}
         return {word: min(max(found.get(word, 0.0), 0.0), 1.0) for word in self.labels}

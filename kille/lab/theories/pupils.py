@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Generic, NamedTuple, TypeVar
 
-from kille.lab.theories.candidates import Make
+from kille.lab.theories.candidates import Make, degrees_of
 from kille.perception.learners import Key
 
 X = TypeVar("X")
 
 
-class Heard(NamedTuple, Generic[X]):
+class PupilLesson(NamedTuple, Generic[X]):
     """A lesson: its key, what was seen, and the word that holds of it, or does not."""
 
     key: Key
@@ -32,28 +32,28 @@ class Pupil(Generic[X]):
     >>> class Last:
     ...     def learn_one(self, x, label, key): self.label = label
     ...     def predict_proba_one(self, x): return {self.label: 1.0}
-    >>> Pupil(Last).degrees([Heard(1, "o1", "cup"), Heard(2, "o2", "mug")], "o3")
+    >>> heard = [PupilLesson(1, "o1", "cup"), PupilLesson(2, "o2", "mug")]
+    >>> Pupil(Last).degrees(heard, "o3")
     {'mug': 1.0}
     """
 
     def __init__(self, make: Make) -> None:
         self._make = make
         self._learner = make()
-        self._taught: dict[Key, Heard[X]] = {}
-        self._followed: Sequence[Heard[X]] = ()
+        self._taught: dict[Key, PupilLesson[X]] = {}
+        self._followed: Sequence[PupilLesson[X]] = ()
         self._asked: tuple[X, Mapping[str, float]] | None = None
 
-    def degrees(self, heard: Sequence[Heard[X]], x: X) -> Mapping[str, float]:
+    def degrees(self, heard: Sequence[PupilLesson[X]], x: X) -> Mapping[str, float]:
         """The degrees of the words after these lessons, for what is seen."""
         if heard is not self._followed:
             self._follow(heard)
             self._followed = heard
         if self._asked is None or self._asked[0] != x:
-            ask = getattr(self._learner, "degrees", self._learner.predict_proba_one)
-            self._asked = x, ask(x)
+            self._asked = x, degrees_of(self._learner, x)
         return self._asked[1]
 
-    def _follow(self, heard: Sequence[Heard[X]]) -> None:
+    def _follow(self, heard: Sequence[PupilLesson[X]]) -> None:
         now = {lesson.key: lesson for lesson in heard}
         gone = [key for key, it in self._taught.items() if now.get(key) != it]
         kept = self._taught.keys() - gone
@@ -69,7 +69,7 @@ class Pupil(Generic[X]):
         self._learner, self._taught = self._make(), {}
         self._learn(heard)
 
-    def _learn(self, lessons: Sequence[Heard[X]]) -> None:
+    def _learn(self, lessons: Sequence[PupilLesson[X]]) -> None:
         for lesson in lessons:
             self._asked = None
             self._taught[lesson.key] = lesson

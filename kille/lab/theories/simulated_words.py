@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from kille.dialogue.meanings import claims, value_at, word_of
-from kille.lab.theories.pupils import Heard, Pupil
+from kille.lab.theories.pupils import Pupil, PupilLesson
 from kille.lab.worlds.games import act, learned_words, word
 from kille.lab.worlds.perception import Vector
 from kille.lab.worlds.word_learning import LearnedWord, Observation
@@ -81,7 +81,7 @@ class GuestWord(LearnedWord):
     """
 
     pupil: Pupil[Any] | None = None
-    heard: tuple[Heard[Any], ...] = ()
+    heard: tuple[PupilLesson[Any], ...] = ()
 
     def degree(self, of: Observation) -> float:
         """The degree to which it is true of what is seen."""
@@ -160,11 +160,11 @@ def _share_lessons(model: Model) -> Model:
     return model
 
 
-def _all_lessons(guests: Sequence[GuestWord]) -> tuple[Heard[Any], ...]:
+def _all_lessons(guests: Sequence[GuestWord]) -> tuple[PupilLesson[Any], ...]:
     """All lessons, in the order in which they were given."""
     given = [(it, lesson) for it in guests if not it.prior for lesson in it.lessons]
     return tuple(
-        Heard(
+        PupilLesson(
             lesson.key,
             pupil_input(it.sign.kind, lesson.of),
             word_of(it.sign).name,

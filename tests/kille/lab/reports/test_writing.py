@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from kille.lab.dialogues import Answer, Played, Turn
-from kille.lab.measures.comparison import Contrast, Difference, McNemar
+from kille.lab.measures.comparison import Contrast, McNemar, PairedDifference
 from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
 from kille.lab.reports.contrasts import unreachable_significance
 from kille.lab.reports.drawing import MISSING
@@ -336,7 +336,9 @@ def test_the_correction_for_many_theories_is_counted_among_what_is_out_of_reach(
     None
 ):
     def contrast(pairs: int) -> Contrast:
-        told = Difference(Estimate(0.1, 0.0, 0.2), 0.5, pairs, 0.1, np.zeros(pairs))
+        told = PairedDifference(
+            Estimate(0.1, 0.0, 0.2), 0.5, pairs, 0.1, np.zeros(pairs)
+        )
         return Contrast("a", "b", {"accuracy": told}, McNemar(0, 0, 1.0))
 
     (line,) = unreachable_significance([contrast(6), contrast(6), contrast(5)])

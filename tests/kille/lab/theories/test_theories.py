@@ -31,7 +31,7 @@ from kille.lab.theories.classifiers import learners_of
 from kille.lab.theories.descriptions import describe, rules_apart
 from kille.lab.theories.guest_learners import GuestRelations, logits
 from kille.lab.theories.meanings import meanings_of
-from kille.lab.theories.pupils import Heard, Pupil
+from kille.lab.theories.pupils import Pupil, PupilLesson
 from kille.lab.theories.rules import algorithm_of, without_rules
 from kille.lab.theories.simulated_words import PrototypeWord
 from kille.lab.worlds.games import learned_words
@@ -323,15 +323,15 @@ def test_a_pupil_knows_what_was_heard(
 ) -> None:
     pupil: Pupil[str] = Pupil(make)
     for keys in lists:
-        heard = [Heard(key, "x", "cup" if key % 2 else "mug") for key in keys]
+        heard = [PupilLesson(key, "x", "cup" if key % 2 else "mug") for key in keys]
         new: Pupil[str] = Pupil(make)
         assert pupil.degrees(heard, "y") == new.degrees(heard, "y")
 
 
 def test_a_pupil_knows_a_lesson_by_all_of_it() -> None:
     pupil: Pupil[str] = Pupil(Forgetful)
-    assert pupil.degrees([Heard(1, "x", "cup")], "y") == {"cup": 1.0}
-    assert pupil.degrees([Heard(1, "x", "mug")], "y") == {"mug": 1.0}
+    assert pupil.degrees([PupilLesson(1, "x", "cup")], "y") == {"cup": 1.0}
+    assert pupil.degrees([PupilLesson(1, "x", "mug")], "y") == {"mug": 1.0}
 
 
 OWN = """\
