@@ -77,9 +77,16 @@ class ToldOnce:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """A socket that listens there; any free port for 0. OSError if that cannot be."""
+    """A socket that listens there; any free port for 0. OSError if that cannot be.
+
+    What is sent is on its way at once: the second of two short messages would wait for
+    the browser to confirm the first, for 40 ms. Connections have that from the socket;
+    asyncio sees to it only for sockets that name their protocol, as these do not.
+    """
     family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
-    return socket.create_server((host, port), family=family)
+    listener = socket.create_server((host, port), family=family)
+    listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return listener
 
 
 def serve_page(

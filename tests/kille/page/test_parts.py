@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import socket
 import stat
 from contextlib import suppress
 from importlib.resources import files
@@ -20,10 +21,21 @@ from kille.page.browser_requests import RequestError, parse_message, parse_reque
 from kille.page.feed import Feed
 from kille.page.live_picture import LivePicture, SharedSensor, Watcher
 from kille.page.phrases import PHRASES, phrases
+from kille.page.server import listen
 from kille.perception.outlines import polygon_of
 from kille.scene import Frame
 from kille.sensors.sensor import Stage
 from kille.sensors.sources import open_sensor
+
+# --- the socket ----------------------------------------------------------------------
+
+
+def test_what_is_sent_does_not_wait_until_what_was_sent_before_is_confirmed() -> None:
+    with listen("127.0.0.1", 0) as listener:
+        here = listener.getsockname()
+        with socket.create_connection(here), listener.accept()[0] as connection:
+            assert connection.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+
 
 # --- the feed ------------------------------------------------------------------------
 
