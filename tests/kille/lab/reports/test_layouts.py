@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.lab.reports.layouts import mark_differences, omit_common_fields, side_by_side
+from kille.lab.reports.layouts import side_by_side
 from ttr import Ind, Pred, Record, record, rectype, this
+from ttr.display.differences import mark_differences, omit_common_fields
 from ttr.display.layout import Layout, Matrix, layout_of
 
 RECORDS = st.recursive(
