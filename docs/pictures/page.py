@@ -9,6 +9,8 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -16,13 +18,27 @@ from typing import Any
 from playwright.sync_api import sync_playwright
 
 HERE = Path(__file__).parent
+DESK = ["--sensor", "synthetic:desk?seed=7", "--memory", "memory.db"]
+PATIENCE = 120_000
 LESSON = [(1, "This is a cup."), (2, "This is a car."), (2, "What is this?")]
+STUDY = """\
+title = "How sure does it sound?"
+seeds = 1
+[theories.four-bands]
+wording = "four"
+[tutors.Ann]
+kind = "simulated"
+[scenes.table]
+kind = "around"
+[[phases]]
+do = "teach"
+"""
 SERVE = [sys.executable, "-m", "kille.interfaces.cli", "serve", "--port", "0"]
 
 
-def hold_lesson(tab: Any) -> None:
-    """Teach two words, and ask for one."""
-    for number, text in LESSON:
+def hold_lesson(tab: Any, lesson: list[tuple[int, str]] = LESSON) -> None:
+    """Teach words, and ask for one."""
+    for number, text in lesson:
         answers = tab.locator(".bubble--robot")
         before = answers.count()
         tab.get_by_role("button", name=f"#{number}, ").click()
@@ -33,14 +49,23 @@ def hold_lesson(tab: Any) -> None:
     tab.wait_for_timeout(3_000)
 
 
-def take_pictures(address: str) -> None:
-    """Take one of the lesson, and one of the lab."""
+@contextmanager
+def open_tab(address: str, width: int, height: int) -> Iterator[Any]:
+    """The page in a browser of this size."""
     with sync_playwright() as driver:
         browser = driver.chromium.launch(
             executable_path="/usr/bin/chromium", args=["--no-sandbox"]
         )
-        tab = browser.new_page(viewport={"width": 1180, "height": 720})
+        tab = browser.new_page(viewport={"width": width, "height": height})
+        tab.set_default_timeout(PATIENCE)
         tab.goto(address)
+        yield tab
+        browser.close()
+
+
+def take_pictures(address: str) -> None:
+    """Take one of the lesson, and one of the lab."""
+    with open_tab(address, 1180, 720) as tab:
         hold_lesson(tab)
         tab.screenshot(path=HERE / "page.png")
         tab.set_viewport_size({"width": 1480, "height": 800})
@@ -51,15 +76,29 @@ def take_pictures(address: str) -> None:
         tab.locator("#lab-body").evaluate("it => it.scrollTop = 330")
         tab.wait_for_timeout(500)
         tab.screenshot(path=HERE / "page_lab.png")
-        browser.close()
+
+
+def take_picture_of_two(address: str) -> None:
+    """Take one of two robots side by side."""
+    with open_tab(address, 1480, 860) as tab:
+        tab.get_by_role("button", name="Look inside", exact=True).click()
+        hold_lesson(tab, [(1, "This is a cup."), (2, "What is this?")])
+        tab.locator(".beside__row--differs").first.wait_for()
+        tab.screenshot(path=HERE / "page_beside.png")
 
 
 def main() -> None:
     """Serve the page, and take its pictures."""
+    serve_for(take_pictures)
+    serve_for(take_picture_of_two, "--against", "study.toml:four-bands")
+
+
+def serve_for(take: Callable[[str], None], *words: str) -> None:
+    """Serve the page of a robot that knows nothing, for its pictures to be taken."""
     with TemporaryDirectory() as folder:
-        words = ["--sensor", "synthetic:desk?seed=7", "--memory", "memory.db"]
+        Path(folder, "study.toml").write_text(STUDY)
         server = subprocess.Popen(
-            [*SERVE, *words],
+            [*SERVE, *DESK, *words],
             stdout=subprocess.PIPE,
             text=True,
             cwd=folder,
@@ -68,7 +107,7 @@ def main() -> None:
         assert server.stdout is not None
         for line in server.stdout:
             if found := re.search(r"http://\S+", line):
-                take_pictures(found[0])
+                take(found[0])
                 break
         server.terminate()
         server.wait()

@@ -31,6 +31,10 @@ from ttr.safety.interruptions import keep_interruptions
 
 if TYPE_CHECKING:
     from kille.interfaces.experiment.running import StudyRequest
+    from kille.interfaces.serve import Against
+
+PACKAGED = "packaged"
+"""The name of the theory that a robot has unless another is named."""
 
 FAILED, WRONG_USE, INTERRUPTED, PIPE_CLOSED = 1, 2, 130, 141
 
@@ -178,6 +182,19 @@ def _add_serve(commands: Any) -> None:
         help="the port; 0 for any that is free (8765)",
     )
     serve.add_argument("--open", action="store_true", help="open the page in a browser")
+    serve.add_argument(
+        "--against",
+        metavar="T",
+        help="another theory, as for --theory, or `packaged`: a second robot has it, "
+        "hears and sees the same, and stands beside the first",
+    )
+    serve.add_argument(
+        "--against-memory",
+        type=Path,
+        metavar="FILE",
+        help="where the second robot keeps what it learns (it begins with a copy of "
+        "the first one's memory, and keeps nothing)",
+    )
     serve.set_defaults(run=_serve)
 
 
@@ -569,7 +586,7 @@ def _talk(options: argparse.Namespace) -> int:
     from kille.interfaces.talk import talk
 
     account = ACCOUNTS[options.trace or "none"]
-    settings = _robot_settings(options)
+    settings = _robot_settings(options, options.theory)
     if settings is None:
         return WRONG_USE
     return talk(
@@ -588,26 +605,77 @@ def _talk(options: argparse.Namespace) -> int:
 def _serve(options: argparse.Namespace) -> int:
     from kille.interfaces.serve import serve
 
-    settings = _robot_settings(options)
+    settings = _robot_settings(options, options.theory)
     if settings is None:
         return WRONG_USE
+    against = None
+    if options.against or options.against_memory:
+        against = _against(options, settings["language"])
+        if against is None:
+            return WRONG_USE
     return serve(
         options.sensor,
         options.memory,
         host=options.host,
         port=options.port,
         show=options.open,
+        against=against,
         **settings,
     )
 
 
-def _robot_settings(options: argparse.Namespace) -> dict[str, Any] | None:
-    """The language and strategy of the robot, and what makes it of a theory.
+def _against(options: argparse.Namespace, language: str) -> Against | None:
+    """The robot that stands beside the first; None if there can be none, which is
+    complained of."""
+    from kille.agent.agent import Agent
+    from kille.dialogue.language_files import plain
+    from kille.interfaces.serve import Against
+    from kille.interfaces.terminal import complain
+
+    if not options.against:
+        complain("--against-memory is of a second robot: name its theory by --against")
+        return None
+    same = options.against == (options.theory or PACKAGED)
+    if same and options.against_memory is None:
+        complain(
+            f"both robots would have the theory {options.against}: name another by "
+            "--theory or --against, or give the second a memory by --against-memory"
+        )
+        return None
+    settings = _robot_settings(options, options.against)
+    if settings is None:
+        return None
+    if plain(settings["language"]) != plain(language):
+        complain(
+            f"{options.against} speaks {plain(settings['language'])}, and the first "
+            f"robot {plain(language)}: they are to hear the same sentences"
+        )
+        return None
+    make = settings.pop("make", Agent)
+    memory = options.against_memory
+    ours, theirs = _short_theory(options.theory), _short_theory(options.against)
+    if ours == theirs:
+        ours, theirs = (options.theory or ours), options.against
+    if ours == theirs:
+        theirs = f"{theirs}, {memory.name}"
+    return Against(make, settings, (ours, theirs), memory)
+
+
+def _short_theory(named: str | None) -> str:
+    """What a theory is called beside another: its file, or its name in a study."""
+    return Path((named or PACKAGED).rpartition(":")[2]).name
+
+
+def _robot_settings(
+    options: argparse.Namespace, named: str | None
+) -> dict[str, Any] | None:
+    """The language and strategy of a robot, and what makes it of the theory that is
+    so named.
 
     None if the theory cannot be used, which is complained of.
     """
     settings = {"mode": options.mode, "wording": options.wording}
-    if not options.theory:
+    if not named or named == PACKAGED:
         return {"language": options.lang, **settings}
     from functools import partial
 
@@ -618,7 +686,7 @@ def _robot_settings(options: argparse.Namespace) -> dict[str, Any] | None:
 
     try:
         theory = theory_named(
-            options.theory, options.lang, **settings, consent=consent_of(options)
+            named, options.lang, **settings, consent=consent_of(options)
         )
     except MISTAKES as error:
         complain_all(error)

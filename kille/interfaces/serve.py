@@ -7,21 +7,22 @@ import io
 import secrets
 import socket
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from datetime import datetime
 from pathlib import Path
 from threading import Thread
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from kille.agent.agent import Agent
 from kille.interfaces.formatting import derivation, in_short, introduction
 from kille.interfaces.terminal import FINE, complain, console, memory_path
-from kille.memory import MemoryFileError, default_path
+from kille.memory import Memory, MemoryFileError, default_path
 from kille.sensors.sensor import Sensor, SensorError
 from ttr.safety.unforeseen_errors import report_unforeseen
 
 if TYPE_CHECKING:
     from kille.page.robot_thread import Watch
-    from kille.page.server import PageSettings
+    from kille.page.server import PageSettings, Second
 
 MISSING = (
     "the page needs Starlette, uvicorn and websockets: "
@@ -39,6 +40,17 @@ DEAF = {
 _TAKEN = (errno.EADDRINUSE, getattr(errno, "WSAEACCES", errno.EADDRINUSE))
 
 
+class Against(NamedTuple):
+    """A robot that stands beside the first: what makes it, with which language, mode
+    and wording; the file of its memory, if it has any; what the theories of the two
+    are called."""
+
+    make: Callable[..., Agent]
+    settings: Mapping[str, str]
+    names: tuple[str, str]
+    memory: Path | None = None
+
+
 def serve(
     sensor: str,
     memory: Path | None,
@@ -50,11 +62,13 @@ def serve(
     mode: str = "",
     wording: str = "",
     make: Callable[..., Agent] = Agent,
+    against: Against | None = None,
 ) -> int:
     """Serve the robot's page until Ctrl-C; returns the exit code.
 
     Where others than this machine reach the `host`, the page speaks TLS and needs a
-    token. With `show` it is opened in a browser; `make` makes the robot.
+    token. With `show` it is opened in a browser; `make` makes the robot, `against` the
+    one that stands beside it.
     """
     try:
         from kille.page.inside import Insight
@@ -81,16 +95,34 @@ def serve(
         return complain(_why_no_page(host, port, error))
     with settings.listener:
         terminal = Terminal(
-            lambda woken: _welcome(woken, settings, show, why_deaf(woken.language)),
+            lambda woken: _welcome(
+                woken, settings, show, why_deaf(woken.language), against
+            ),
             complain,
             lambda error: report_unforeseen("kille", error),
         )
         try:
+            second = None if against is None else _second(against, place)
             insight = Insight(derivation, in_short)
-            serve_page(sensor, robot, settings, terminal, insight)
+            serve_page(sensor, robot, settings, terminal, insight, second)
         except (SensorError, MemoryFileError) as error:
             return complain(error)
     return FINE
+
+
+def _second(against: Against, place: Path) -> Second:
+    """The robot that stands beside the first, whose memory is at this place.
+
+    Unless it has a file of its own, it begins with a copy of that, which it does not
+    keep.
+    """
+    from kille.page.server import Second
+
+    def robot(sensor: Sensor, now: Callable[[], datetime]) -> Agent:
+        memory = against.memory or Memory.copy_of(place)
+        return against.make(sensor, memory, now=now, **against.settings)
+
+    return Second(robot, against.names)
 
 
 def _settings(host: str, port: int) -> PageSettings:
@@ -126,11 +158,24 @@ def _why_no_page(host: str, port: int, error: OSError) -> str:
     return f"the page cannot listen on {host}, port {port}: {error.strerror or error}"
 
 
-def _welcome(robot: Agent, settings: PageSettings, show: bool, why_deaf: str) -> None:
+def _welcome(
+    robot: Agent,
+    settings: PageSettings,
+    show: bool,
+    why_deaf: str,
+    against: Against | None,
+) -> None:
     """Print where the page is, and open it in a browser if that is wanted."""
     address = _address(settings)
     out = console()
     out.print(introduction(robot))
+    if against is not None:
+        ours, theirs = against.names
+        out.print(
+            f"My theory is {ours}. Beside me stands a robot with the theory {theirs}: "
+            f"it hears and sees the same, and keeps what it learns "
+            f"{f'in {against.memory}' if against.memory else 'until the end'}."
+        )
     if deaf := DEAF.get(why_deaf):
         out.print(deaf)
     out.print(f"The page is ready: {address}\nCtrl-C ends it.")

@@ -57,11 +57,10 @@ def robot_of(
     """The robot of a theory; its language, mode and wording are those of that.
 
     Of the other settings those count that are no part of a theory: when it takes turns,
-    its clock, and who is told of its events.
+    its clock, who is told of its events, and what watches its game.
     """
-    own = {
-        it: settings[it] for it in ("turns", "now", "record_event") if it in settings
-    }
+    kept = ("turns", "now", "record_event", "change")
+    own = {it: settings[it] for it in kept if it in settings}
     return agent_of(theory, sensor, memory=memory, **own)
 
 

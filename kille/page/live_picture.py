@@ -16,7 +16,9 @@ from typing import NamedTuple
 
 import cv2
 
-from kille.scene import Colour, Frame
+from kille.agent.attention import LookingSensor
+from kille.perception.look import Sighting, look
+from kille.scene import Colour, Frame, Look
 from kille.sensors.sensor import (
     At,
     Beside,
@@ -52,6 +54,13 @@ class Watcher(NamedTuple):
 
     wake: Callable[[], object]
     can_take: Callable[[], bool] = lambda: True
+
+
+class Glance(NamedTuple):
+    """A look of the robot's, and what the tutor pointed at in it."""
+
+    look: Look
+    pointed: Sighting | None
 
 
 class Picture(NamedTuple):
@@ -167,7 +176,7 @@ class LivePicture:
                 self._encode(frame)
             if sensor is None:
                 return 0.0
-            sensor.frame()
+            sensor.show_next()
         except Exception as error:
             if not self._closed:
                 self._complain(_line_about(error))
@@ -201,11 +210,17 @@ def _line_about(error: Exception) -> str:
 
 
 class SharedSensor:
-    """A sensor that is read by one at a time, and shows what was read."""
+    """A sensor that is read by one at a time, and shows what was read.
+
+    `latest` is the frame that the robot has read last; `keep_glance`, if it is set, is
+    given each look of the robot's.
+    """
 
     def __init__(self, sensor: Sensor, picture: LivePicture) -> None:
         self._sensor, self._picture = sensor, picture
         self._reading = Lock()
+        self.latest: Frame | None = None
+        self.keep_glance: Callable[[Glance], object] | None = None
         kind = re.split(r"[:?]", sensor.name, maxsplit=1)[0]
         self.runs_by_itself = kind in _ON_ITS_OWN
 
@@ -215,11 +230,29 @@ class SharedSensor:
         return self._sensor.name
 
     def frame(self) -> Frame:
-        """The next frame. SensorError as the sensor raises it."""
+        """The next frame, for the robot. SensorError as the sensor raises it."""
+        self.latest = self.show_next()
+        return self.latest
+
+    def show_next(self) -> Frame:
+        """The next frame, to be shown alone. SensorError as the sensor raises it."""
         with self._reading:
             frame = self._sensor.frame()
         self._picture.show(frame)
         return frame
+
+    def look(self, scans: int, pointed: Sighting | None) -> Look:
+        """A look of the robot's. SensorError as the sensor raises it."""
+        sensor = self._sensor
+        if isinstance(sensor, LookingSensor):
+            seen = sensor.look(scans, pointed)
+            self.latest = seen.frame
+            self._picture.show(seen.frame)
+        else:
+            seen = look(self, scans, pointed)
+        if self.keep_glance is not None:
+            self.keep_glance(Glance(seen, pointed))
+        return seen
 
     def close(self) -> None:
         """Let go of the source."""

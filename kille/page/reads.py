@@ -3,6 +3,7 @@
 | address | has |
 | --- | --- |
 | `/inside/F/L` | what the exchanges from F to before L did |
+| `/beside/F/L` | what the two robots made of them, side by side |
 | `/unfired/F/L` | the rules that did not fire in them, and why |
 | `/picture/F.jpg` | what was in view in the turn that began with F |
 | `/words/N` | the words that were taught, from number N on |
@@ -27,9 +28,10 @@ from starlette.routing import Route
 from kille.agent.agent import Agent
 from kille.memory.pictures import JPEG
 from kille.page.exports import FORMATS, file_name, log_text, state_as_latex, story_text
-from kille.page.inside import inside_report
+from kille.page.inside import Json, inside_report
 from kille.page.robot_thread import RobotThread
 from kille.page.shelf import example_picture, shelf_page, word_report
+from kille.page.side_by_side import comparison_report
 from kille.page.unfired import unfired_report
 from ttr import TTRError
 
@@ -46,6 +48,7 @@ def read_routes(robot: RobotThread) -> list[Route]:
     reads = _Reads(robot)
     return [
         Route("/inside/{first:int}/{last:int}", reads.inside),
+        Route("/beside/{first:int}/{last:int}", reads.beside),
         Route("/unfired/{first:int}/{last:int}", reads.unfired),
         Route("/picture/{first:int}.jpg", reads.picture),
         Route("/words/{start:int}", reads.words),
@@ -77,6 +80,20 @@ class _Reads:
         except TTRError as error:
             found = {"lines": [["", str(error)]], "state": []}
         return JSONResponse(found) if found["lines"] or found["state"] else _MISSING
+
+    async def beside(self, request: Request) -> Response:
+        second, insight = self._robot.second, self._robot.insight
+        if second is None or (span := _span(request)) is None:
+            return _MISSING
+
+        def compare(robot: Agent) -> Json:
+            turns = robot.exchanges[slice(*span)]
+            return comparison_report(turns, second.turns(span[0]), insight)
+
+        try:
+            return JSONResponse(await self._read(compare))
+        except TTRError as error:
+            return JSONResponse({"error": str(error)})
 
     async def unfired(self, request: Request) -> Response:
         if (span := _span(request)) is None:

@@ -20,6 +20,8 @@ number, `text`; `whole`, whether it was all of it |
 | `microphone` | who has the microphone: `browser`, its number, 0 for nobody; `who` |
 | `stepping` | whether turns wait before each rule: `on` |
 | `step` | before which the turn waits now: `rule`, what it `does`, its `changes` |
+| `beside` | what came of it for the second robot, if there is one: `said`, `lessons`, \
+`names` of the things in view, `turns`, `ref`; `failed`, why it took no turn |
 | `camera` | what is wrong with the camera: `text`, empty when it is well again |
 | `restarted` | a new dialogue has begun |
 """
@@ -29,6 +31,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import replace
 from threading import Lock
 from time import perf_counter
@@ -42,6 +45,7 @@ from kille.page.browser_requests import BrowserRequest
 from kille.page.feed import Feed
 from kille.page.history import History
 from kille.page.inside import PLAIN, Insight, Json
+from kille.page.second_robot import MakeSecond, SecondRobot
 from kille.page.stepping import Stepper
 from kille.page.table import table_report
 from kille.page.turn_reports import turn_report, view_report
@@ -80,7 +84,8 @@ class RobotThread:
     """A robot whose turns are serialised, and told to a feed.
 
     `tell` is given what goes wrong with the camera or the memory, and an empty text
-    when that is over; `report` what nobody foresaw.
+    when that is over; `report` what nobody foresaw. `make_second` makes a robot that
+    stands beside it.
     """
 
     def __init__(
@@ -90,7 +95,9 @@ class RobotThread:
         tell: Callable[[str], object] = lambda _: None,
         report: Callable[[Exception], object] = lambda _: None,
         insight: Insight = PLAIN,
+        make_second: MakeSecond | None = None,
     ) -> None:
+        self.second: SecondRobot | None = None
         self.insight, self.history = insight, History()
         self.stepper = Stepper(feed.publish, insight)
         self._feed, self._tell, self._report = feed, tell, report
@@ -100,6 +107,10 @@ class RobotThread:
         try:
             watch = Watch(self._keep_event, self.stepper)
             self.robot = self._thread.submit(make, watch).result()
+            if make_second is not None:
+                self.second = self._thread.submit(
+                    self._wake_second, make_second
+                ).result()
         except BaseException:
             self._thread.shutdown()
             raise
@@ -134,16 +145,30 @@ class RobotThread:
         """
         return self._thread.submit(lambda: work(self.robot))
 
+    def _wake_second(self, make: MakeSecond) -> SecondRobot:
+        try:
+            return SecondRobot(make, self.robot)
+        except BaseException:
+            self.robot.close()
+            raise
+
     def _keep_event(self, event: Event) -> None:
         self.history.keep_event(event, self._turns)
+        if self.second is not None:
+            self.second.note(event)
 
     def close(self) -> None:
         """End the turn that is taken now, drop those that wait, and let go of all."""
         self._closed = True
         self.stepper.ask("off")
-        closing = self._thread.submit(self.robot.close)
+        ended = self._thread.submit(self._close_robots)
         self._thread.shutdown()
-        closing.result()
+        ended.result()
+
+    def _close_robots(self) -> None:
+        with closing(self.robot):
+            if self.second is not None:
+                self.second.close()
 
     def _do(self, request: BrowserRequest) -> None:
         try:
@@ -152,6 +177,10 @@ class RobotThread:
         except Exception as error:
             self._report(error)
             self._fail(request, "something went wrong that nobody foresaw")
+        try:
+            self._follow(request)
+        except Exception as error:
+            self._report(error)
         finally:
             with self._counting:
                 self._waiting -= 1
@@ -194,6 +223,14 @@ class RobotThread:
         self._publish("turn", request, ms=took, turns=taken, **report)
         self._publish("view", request, **view_report(robot))
         self._tell_of_table(request)
+
+    def _follow(self, request: BrowserRequest) -> None:
+        """Have the second robot live through what has happened to the first."""
+        if self.second is None or self._closed:
+            return
+        taken = [self._turns, len(self.robot.exchanges)]
+        if report := self.second.follow(self._turns):
+            self._publish("beside", request, turns=taken, **report)
 
     def _tell_of_table(self, request: BrowserRequest, again: bool = False) -> None:
         """Tell how the scene is arranged, if that is new, or not as somebody wanted."""

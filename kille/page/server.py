@@ -24,6 +24,7 @@ from kille.page.live_picture import LivePicture
 from kille.page.microphone import Listening, Microphone
 from kille.page.reads import read_routes
 from kille.page.robot_thread import RobotThread, Watch
+from kille.page.second_robot import MakeSecond
 from kille.page.spoken_answers import SpokenAnswers
 from kille.page.table import table_report
 from kille.sensors.sensor import Sensor
@@ -42,6 +43,14 @@ class PageSettings(NamedTuple):
     listener: socket.socket
     access: Access
     certificate: Path | None = None
+
+
+class Second(NamedTuple):
+    """A robot that stands beside the first: what makes it, and what the theories of
+    the two are called."""
+
+    make: MakeSecond
+    names: tuple[str, str]
 
 
 class Terminal(NamedTuple):
@@ -95,10 +104,12 @@ def serve_page(
     settings: PageSettings,
     terminal: Terminal,
     insight: Insight = PLAIN,
+    second: Second | None = None,
 ) -> None:
     """Serve the page of the robot that `make` makes of the sensor until Ctrl-C.
 
-    Raises SensorError and MemoryFileError as they arise before it is ready.
+    A `second` robot hears and sees the same. Raises SensorError and MemoryFileError as
+    they arise before it is ready.
     """
     feed, told = Feed(), ToldOnce(terminal.trouble)
 
@@ -118,6 +129,7 @@ def serve_page(
                 lambda trouble: told.tell("robot", trouble),
                 terminal.unforeseen,
                 insight,
+                None if second is None else second.make,
             )
             failing.pop_all()
         closing.callback(robot.close)
@@ -129,7 +141,7 @@ def serve_page(
             feed,
             picture,
             robot.ask,
-            lambda: _greeting(robot.robot),
+            lambda: _greeting(robot.robot, second),
             read_routes(robot),
             voice,
         )
@@ -154,7 +166,7 @@ def open_voice(
     return Voice(microphone, SpokenAnswers(feed, plain(language), trouble))
 
 
-def _greeting(robot: Agent) -> Event:
+def _greeting(robot: Agent, second: Second | None = None) -> Event:
     """What a browser is told of the robot first."""
     sensor = robot.gaze.sensor
     return {
@@ -164,6 +176,7 @@ def _greeting(robot: Agent) -> Event:
         "mode": robot.state.private.strategy.mode,
         "words": len(robot.state.private.nouns),
         "table": table_report(sensor),
+        "theories": [] if second is None else list(second.names),
     }
 
 

@@ -50,14 +50,26 @@ def view_report(robot: Agent) -> Json:
     }
 
 
+def names_report(robot: Agent) -> list[Json]:
+    """What each thing in view may be called, by their numbers."""
+    seen = zip(robot.names_in_view(), robot.beliefs_in_view(), strict=True)
+    return [_names(*it, robot) for it in seen]
+
+
 def _thing(
     number: int, percept: Percept, name: str, beliefs: Sequence[Record], robot: Agent
 ) -> Json:
-    least = robot.state.private.strategy.bands.unlikely
     return {
         "number": number,
         "box": list(percept.region.box),
         "outline": polygon_of(percept.region.mask),
+        **_names(name, beliefs, robot),
+    }
+
+
+def _names(name: str, beliefs: Sequence[Record], robot: Agent) -> Json:
+    least = robot.state.private.strategy.bands.unlikely
+    return {
         "name": name,
         "names": [
             {"word": it.sign.form, "degree": round(float(it.p), 3)}
@@ -72,10 +84,7 @@ def turn_report(robot: Agent, turns: Iterable[Exchange]) -> Json:
     turns = tuple(turns)
     said = [it for turn in turns for it in turn.said]
     steps = [step for turn in turns for step in turn.steps]
-    lessons: list[Json] = []
-    if steps:
-        before, after = steps[0].before.private, steps[-1].after.private
-        lessons = [*_changed_lessons(before.lessons, after.lessons)]
+    lessons = lessons_of(turns)
     text = phrases(plain(robot.language))
     return {
         "heard": " ".join(turn.text for turn in turns if turn.text),
@@ -88,6 +97,15 @@ def turn_report(robot: Agent, turns: Iterable[Exchange]) -> Json:
         "undo": text.undo if any(it["learned"] for it in lessons) else "",
         "why": text.why if robot.state.shared.pending else "",
     }
+
+
+def lessons_of(turns: Iterable[Exchange]) -> list[Json]:
+    """What was learned and taken back in these turns."""
+    steps = [step for turn in turns for step in turn.steps]
+    if not steps:
+        return []
+    before, after = steps[0].before.private, steps[-1].after.private
+    return [*_changed_lessons(before.lessons, after.lessons)]
 
 
 def _first_line(step: Any) -> str:

@@ -6,8 +6,7 @@ In what two theories differ is in the value of each, a `Theory`; all else is the
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping
-from functools import partial
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from kille.agent.agent import Agent
@@ -65,11 +64,23 @@ def game_of(
     return change_game(game, theory)
 
 
-def agent_of(theory: Theory, sensor: str | Sensor, **settings: Any) -> Agent:
+def agent_of(
+    theory: Theory,
+    sensor: str | Sensor,
+    *,
+    change: Callable[[Game], Game] | None = None,
+    **settings: Any,
+) -> Agent:
     """The whole robot with this theory, looking through a sensor.
 
-    `settings` are those of `Agent`; errors as it raises them, and `TheoryError`.
+    `settings` are those of `Agent`, and so is `change`, which is given the game of the
+    theory; errors as it raises them, and `TheoryError`.
     """
+
+    def game_to_play(game: Game) -> Game:
+        own = change_game(game, theory)
+        return own if change is None else change(own)
+
     return Agent(
         sensor,
         language=language_of(theory),
@@ -77,7 +88,7 @@ def agent_of(theory: Theory, sensor: str | Sensor, **settings: Any) -> Agent:
         wording=theory.wording,
         learners=learners_of(theory),
         theory=meanings_of(theory),
-        change=partial(change_game, theory=theory),
+        change=game_to_play,
         **settings,
     )
 

@@ -27,3 +27,11 @@ export function bar(degree) {
   filled.style.width = `${Math.round(degree * 100)}%`;
   return el("span", { class: "degree" }, filled);
 }
+
+/** What the robot's library has drawn, which has no script and escapes every word. */
+export function matrix(html) {
+  const parsed = new DOMParser().parseFromString(html, "text/html");
+  const made = document.adoptNode(parsed.body.firstElementChild);
+  made.tabIndex = 0; // so that keys scroll what is wide
+  return made;
+}

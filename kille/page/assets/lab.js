@@ -1,6 +1,7 @@
 // The lab: what each turn did to the information state, chosen on a timeline.
 
-import { byId, el } from "./dom.js";
+import { Beside } from "./beside.js";
+import { byId, el, matrix } from "./dom.js";
 import { Shelf } from "./shelf.js";
 import { brief, t } from "./texts.js";
 import { unfired } from "./unfired.js";
@@ -17,6 +18,7 @@ export class Lab {
     this.dropped = 0;
     this.views = new Map();
     this.shelf = new Shelf(byId("shelf"));
+    this.beside = new Beside();
     this.shown = -1;
     this.folded = new Map();
     this.toggle = byId("lab-toggle");
@@ -81,9 +83,19 @@ export class Lab {
     if (turn && turn.ref === event.ref) this.views.set(turn, event);
   }
 
+  /** What came of it for the second robot. */
+  addBeside(event) {
+    this.beside.add(event);
+    const turn = this.turns[this.shown];
+    const shown = byId("lab-body").querySelector(".beside");
+    if (shown && turn?.turns[0] === event.turns[0]) this.beside.fill(shown, turn, this.views.get(turn));
+  }
+
   /** Forget the earliest turn. */
   drop() {
-    this.views.delete(this.turns.shift());
+    const first = this.turns.shift();
+    this.beside.forget(first);
+    this.views.delete(first);
     this.dropped += 1;
     if (this.shown > 0) this.shown -= 1;
     this.timeline.value = this.shown + 1;
@@ -141,7 +153,8 @@ export class Lab {
     if (!answer.ok || this.shown !== index) return;
     const { lines, steps, state } = await answer.json();
     if (this.shown !== index) return;
-    byId("lab-body").replaceChildren(this.account(lines, steps), unfired(turn), ...state.map((part) => this.part(part)));
+    const parts = [this.beside.section(turn, this.views.get(turn)), this.account(lines, steps), unfired(turn), ...state.map((part) => this.part(part))];
+    byId("lab-body").replaceChildren(...parts.filter(Boolean));
   }
 
   /** The derivation: what was heard, each rule with its changes, what was judged and said. */
@@ -197,12 +210,4 @@ export class Lab {
     made.querySelector("summary").addEventListener("click", () => this.folded.set(key, !made.open));
     return made;
   }
-}
-
-/** What the robot's library has drawn, which has no script and escapes every word. */
-function matrix(html) {
-  const parsed = new DOMParser().parseFromString(html, "text/html");
-  const made = document.adoptNode(parsed.body.firstElementChild);
-  made.tabIndex = 0; // so that keys scroll what is wide
-  return made;
 }

@@ -84,6 +84,10 @@ const connection = new Connection({
     confirm(event.ref);
     talk.failed(event);
   },
+  beside: (event) => {
+    lab.addBeside(event);
+    talk.beside(event);
+  },
   view: (event) => {
     lab.addView(event);
     if (!replay.live(event)) return;
@@ -120,11 +124,13 @@ function hello(event, before) {
     ),
   );
   voice.hello(event);
+  talk.name(event.theories);
   table.show(event.table);
   old = event.last;
   if (event.after === 0) {
     talk.clear();
     lab.clear();
+    lab.beside.begin(event.theories);
     stepping.switched({ on: false });
     byId("trouble").hidden = true;
     byId("stage").classList.remove("stage--stale");

@@ -18,7 +18,13 @@ export class Talk {
     this.list = byId("turns");
     this.waiting = new Map();
     this.answers = [];
+    this.theories = [];
     new ResizeObserver(() => this.scroll()).observe(this.list);
+  }
+
+  /** What the theories of two robots are called; none where there is one robot. */
+  name(theories) {
+    this.theories = theories;
   }
 
   clear() {
@@ -80,6 +86,7 @@ export class Talk {
   turn(event) {
     const turn = this.take(event);
     if (event.said) turn.dataset.event = event.id;
+    turn.dataset.turn = event.turns[0];
     this.undo = event.undo;
     for (const line of paragraphs(event.said)) turn.append(this.bubble("robot", line));
     const chips = this.chips(event);
@@ -87,6 +94,35 @@ export class Talk {
     if (event.rules.length) turn.append(this.rules(event));
     if (turn.childElementCount && !turn.isConnected && (event.said || event.lessons.length)) this.add(turn);
     this.offer(event.answers);
+    this.scroll();
+  }
+
+  /** What came of it for the second robot: what it says, if that is not the same. */
+  beside({ turns, said, lessons, failed }) {
+    const name = this.theories[1];
+    let turn = [...this.list.querySelectorAll(`[data-turn="${turns[0]}"]`)].at(-1);
+    const ours = turn?.querySelectorAll(".bubble--robot") ?? [];
+    const same = [...ours].map((it) => it.dataset.said).join("\n") === paragraphs(said).join("\n");
+    if (same && !failed && (!turn || !said)) return;
+    turn ??= el("div", { class: "turn", "data-turn": turns[0] });
+    let made;
+    if (failed) made = el("p", { class: "bubble bubble--wrong" }, `${name}: ${t("besideFailed")}`, el("span", { lang: "en" }, failed));
+    else if (same) made = el("span", { class: "chip chip--plain" }, t("besideSame", { name }));
+    else {
+      const learned = lessons.map(({ holds, learned, word }) => `${learned ? "" : "↶ "}${holds ? "+" : "−"} ${word}`).join("  ");
+      made = el(
+        "p",
+        { class: "bubble bubble--second" },
+        el("b", { class: "bubble__name" }, name, learned ? el("span", {}, learned) : null),
+        paragraphs(said).join("\n") || t("besideSilent"),
+      );
+    }
+    const last = [...ours].at(-1) ?? turn.querySelector(".bubble");
+    const chips = turn.querySelector(".chips:not(.chips--heard)");
+    if (same && !failed && chips) chips.append(made);
+    else if (last) last.after(made);
+    else turn.append(made);
+    if (!turn.isConnected) this.add(turn);
     this.scroll();
   }
 
@@ -110,7 +146,7 @@ export class Talk {
 
   bubble(who, text) {
     const speaker = t(who === "tutor" ? "you" : "robot");
-    return el("p", { class: `bubble bubble--${who}` }, el("span", { class: "unseen" }, `${speaker}: `), text);
+    return el("p", { class: `bubble bubble--${who}`, "data-said": text }, el("span", { class: "unseen" }, `${speaker}: `), text);
   }
 
   chips(event) {

@@ -59,6 +59,9 @@ const EN = {
   rulesCount: "({count})",
   save: "Save as a file", saveTurn: "This turn", saveAll: "The dialogue", dlg: "story (.dlg)", log: "log", tex: "state (LaTeX)",
   derivation: "Derivation", shared: "Shared", view: "In view", private: "Private", empties: "Empty: {names}",
+  beside: "Side by side", besideNothing: "Nothing differs in this turn.", besideSays: "Says", besideSilent: "(nothing)", besideFailed: "took no turn: ",
+  besideSame: "{name}: the same", besideNames: "Would call the things", besideLines: "Heard, judged, said", besideLinesBoth: "the same in both ({count})",
+  besideRules: "Rules that fired", besideAlike: "The same in both: {names}",
   begin: "Click on a thing and say what it is: “This is a cup.” Or ask: “What is this?” “Help.” says what else.",
 };
 
@@ -121,6 +124,9 @@ const SV = {
   rulesCount: "({count})",
   save: "Spara som fil", saveTurn: "Den här turen", saveAll: "Dialogen", dlg: "berättelse (.dlg)", log: "logg", tex: "tillstånd (LaTeX)",
   derivation: "Härledning", shared: "Gemensamt", view: "I bild", private: "Privat", empties: "Tomma: {names}",
+  beside: "Sida vid sida", besideNothing: "Ingenting skiljer i den här turen.", besideSays: "Säger", besideSilent: "(ingenting)", besideFailed: "tog ingen tur: ",
+  besideSame: "{name}: detsamma", besideNames: "Skulle kalla sakerna", besideLines: "Hört, bedömt, sagt", besideLinesBoth: "detsamma hos båda ({count})",
+  besideRules: "Regler som användes", besideAlike: "Detsamma hos båda: {names}",
   begin: "Klicka på en sak och säg vad den är: ”Det här är en kopp.” Eller fråga: ”Vad är det här?” ”Hjälp.” säger vad mer.",
 };
 

@@ -13,6 +13,8 @@ from itertools import count
 from pathlib import Path
 from threading import Thread
 from typing import Any, NamedTuple
+from urllib.error import HTTPError
+from urllib.request import urlopen
 
 import pytest
 from websockets.sync.client import ClientConnection, connect
@@ -26,7 +28,13 @@ from kille.page.inside import Insight
 from kille.page.live_picture import LivePicture
 from kille.page.reads import read_routes
 from kille.page.robot_thread import RobotThread
-from kille.page.server import _greeting, listen, open_voice, uvicorn_server
+from kille.page.server import (
+    Second,
+    _greeting,
+    listen,
+    open_voice,
+    uvicorn_server,
+)
 from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
 from kille.speech.hearing import HearingProcess
@@ -129,12 +137,15 @@ def page_of(
     memory: Path | None = None,
     access: Access | None = None,
     hearing: Callable[..., Any] = HearingProcess,
+    make: Callable[..., Agent] = Agent,
+    second: Second | None = None,
 ) -> Iterator[Page]:
-    """A page of a robot that looks through this sensor, and hears by that."""
+    """A page of a robot that looks through this sensor, and hears by that, with a
+    second one beside it or without."""
     feed, troubles = Feed(), []
     picture = LivePicture(lambda text: feed.publish({"type": "camera", "text": text}))
     robot = RobotThread(
-        lambda watch: Agent(
+        lambda watch: make(
             picture.share(sensor),
             memory,
             record_event=watch.record_event,
@@ -143,6 +154,7 @@ def page_of(
         feed,
         troubles.append,
         insight=Insight(derivation, in_short),
+        make_second=None if second is None else second.make,
     )
     voice = open_voice(feed, robot, troubles.append, hearing)
     listener = listen("127.0.0.1", 0)
@@ -150,7 +162,7 @@ def page_of(
         feed,
         picture,
         robot.ask,
-        lambda: _greeting(robot.robot),
+        lambda: _greeting(robot.robot, second),
         read_routes(robot),
         voice,
     )
@@ -167,6 +179,16 @@ def page_of(
         robot.close()
         picture.close()
         listener.close()
+
+
+def fetch_text(page: Page, address: str) -> bytes:
+    """What the page has at an address; empty if there is nothing."""
+    try:
+        with urlopen(f"http://{page.host}{address}", timeout=PATIENCE) as answer:
+            return bytes(answer.read())
+    except HTTPError as error:
+        error.close()
+        return b"" if error.code == 404 else str(error).encode()
 
 
 @pytest.fixture(scope="module")

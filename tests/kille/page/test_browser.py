@@ -369,3 +369,32 @@ def test_a_page_with_an_old_token_says_to_open_the_new_address(
         start(*EMPTY, "--host", "0.0.0.0", "--port", str(port))
         status = tab.get_by_role("status")
         playwright.expect(status).to_contain_text("open the address")
+
+
+@pytest.mark.deep
+def test_two_theories_stand_side_by_side(
+    start: Start, tab: Tab, tmp_path: Path
+) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(
+        'title = "Greetings"\nseeds = 1\n[theories.curt]\n'
+        'without = ["GreetBack to Greet"]\n[tutors.Ann]\nkind = "simulated"\n'
+        '[scenes.table]\nkind = "around"\n[[phases]]\ndo = "teach"\n'
+    )
+    visit(tab, start(*DESK, "--against", f"{study}:curt"))
+    tab.get_by_role("button", name="Look inside", exact=True).click()
+    say(tab, "#2 This is a car.", "is a car")
+    latest = tab.locator(".turns .turn").last
+    playwright.expect(latest).to_contain_text("curt: the same")
+    beside = tab.get_by_role("region", name="Side by side")
+    playwright.expect(beside).to_contain_text("Nothing differs in this turn.")
+    say(tab, "Hello.", "Hello.")
+    second = tab.locator(".turns .turn").last.locator(".bubble--second")
+    playwright.expect(second).to_have_text("curt(nothing)")
+    differs = beside.locator(".beside__row--differs")
+    playwright.expect(differs.first).to_have_text("Hello.(nothing)")
+    fired = differs.filter(has_text="GreetBack to Greet")
+    playwright.expect(fired.locator(".beside__cell--first")).to_contain_text("say")
+    assert beside.locator(".ttr-changed").count() > 0
+    tab.get_by_role("slider", name="Turn").press("ArrowLeft")
+    playwright.expect(beside).to_contain_text("Nothing differs in this turn.")

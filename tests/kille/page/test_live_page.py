@@ -8,8 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from threading import Event
 from typing import Any
-from urllib.error import HTTPError
-from urllib.request import urlopen
 
 import cv2
 import numpy as np
@@ -28,7 +26,7 @@ from kille.scene import Frame
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
 
-from .pages import PATIENCE, Page, fresh_ref, page_of
+from .pages import Page, fetch_text, fresh_ref, page_of
 
 HOSTILE = [
     "<img src=x onerror=alert(1)>",
@@ -148,40 +146,34 @@ def test_a_recording_is_wound(tmp_path: Path) -> None:
         assert "from 0 to" in beyond["text"]
 
 
-def get(page: Page, address: str) -> bytes:
-    """What the page has at an address; empty if there is nothing."""
-    try:
-        with urlopen(f"http://{page.host}{address}", timeout=PATIENCE) as answer:
-            return bytes(answer.read())
-    except HTTPError as error:
-        error.close()
-        return b"" if error.code == 404 else str(error).encode()
-
-
 def test_a_turn_can_be_looked_into_and_saved(taught: Page) -> None:
     with taught.connect() as browser:
         first, last = browser.say("What is this?")["turns"]
     span = f"{first}/{last}"
-    inside = json.loads(get(taught, f"/inside/{span}"))
+    inside = json.loads(fetch_text(taught, f"/inside/{span}"))
     rules = [text for kind, text in inside["lines"] if kind == "rule"]
     assert len(rules) == len(inside["steps"]) > 2
     assert any("shared" in it["when"] for it in inside["steps"])
-    (event, *_) = unfired = json.loads(get(taught, f"/unfired/{span}"))["events"]
+    (event, *_) = unfired = json.loads(fetch_text(taught, f"/unfired/{span}"))["events"]
     assert event["others"] > 0
     fired = {name for it in unfired for name in it["fired"]}
     reasons = {it["why"]: it["rules"] for seen in unfired for it in seen["reasons"]}
     assert {"found nothing"} < reasons.keys()
     assert any(": ask_place(tutor, robot)" in why for why in reasons)
     assert fired <= {it.name for it in taught.robot.robot.game.rules}
-    picture = cv2.imdecode(np.frombuffer(get(taught, f"/picture/{first}.jpg"), "u1"), 1)
+    picture = cv2.imdecode(
+        np.frombuffer(fetch_text(taught, f"/picture/{first}.jpg"), "u1"), 1
+    )
     assert picture is not None
     assert picture.shape == (480, 640, 3)
-    story = get(taught, f"/export/{span}/dlg").decode()
+    story = fetch_text(taught, f"/export/{span}/dlg").decode()
     assert "\nU> What is this?\nS> " in story
-    assert story in get(taught, "/export/dlg").decode() or "@ show cup" not in story
-    assert "@ show cup" in get(taught, "/export/dlg").decode()
-    assert "rule  hear" in get(taught, f"/export/{span}/log").decode()
-    assert "\\mathrm{shared}" in get(taught, f"/export/{span}/tex").decode()
+    assert (
+        story in fetch_text(taught, "/export/dlg").decode() or "@ show cup" not in story
+    )
+    assert "@ show cup" in fetch_text(taught, "/export/dlg").decode()
+    assert "rule  hear" in fetch_text(taught, f"/export/{span}/log").decode()
+    assert "\\mathrm{shared}" in fetch_text(taught, f"/export/{span}/tex").decode()
     for missing in (
         "/inside/5/5",
         "/unfired/0/99",
@@ -189,7 +181,7 @@ def test_a_turn_can_be_looked_into_and_saved(taught: Page) -> None:
         f"/export/{span}/exe",
         "/inside/9998/9999",
     ):
-        assert get(taught, missing) == b""
+        assert fetch_text(taught, missing) == b""
 
 
 def test_words_are_on_the_shelf_with_what_they_were_learned_from(page: Page) -> None:
@@ -199,25 +191,25 @@ def test_words_are_on_the_shelf_with_what_they_were_learned_from(page: Page) -> 
         browser.say("#1 This is a beaker.")
         browser.say("#2 This is not a beaker.")
         browser.say("#1 #2 This is to the left of that.")
-    shelf = json.loads(get(page, "/words/0"))
+    shelf = json.loads(fetch_text(page, "/words/0"))
     words = {it["form"]: it for it in shelf["words"]}
     assert words["beaker"]["lessons"] == 1
-    beaker = json.loads(get(page, "/word/object/beaker"))
+    beaker = json.loads(fetch_text(page, "/word/object/beaker"))
     assert [it["holds"] for it in beaker["examples"]] == [False, True]
     assert beaker["curve"]["for"][-1] == beaker["curve"]["against"][-1] == 1
-    example = get(page, f"/example/{beaker['examples'][0]['key']}")
+    example = fetch_text(page, f"/example/{beaker['examples'][0]['key']}")
     assert cv2.imdecode(np.frombuffer(example, np.uint8), 1) is not None
-    left = json.loads(get(page, "/word/relation/to_the_left_of"))["template"]
+    left = json.loads(fetch_text(page, "/word/relation/to_the_left_of"))["template"]
     middle = left[len(left) // 2]
     assert middle[2] > 0.3 > middle[-3]
-    assert json.loads(get(page, "/words/9999"))["words"] == []
+    assert json.loads(fetch_text(page, "/words/9999"))["words"] == []
     for missing in (
         "/word/object/none",
         "/word/x/y",
         "/example/9999",
         f"/example/{9**30}",
     ):
-        assert get(page, missing) == b""
+        assert fetch_text(page, missing) == b""
 
 
 def test_a_turn_waits_before_each_rule_until_it_may_go_on(page: Page) -> None:

@@ -124,6 +124,9 @@ def test_a_memory_in_use_is_one_line(
         (["--sensor", "/nowhere/at/all"], "/nowhere/at/all"),
         (["--host", "no.such.host.invalid"], "no host no.such.host.invalid"),
         (["--theory", "nothing.txt"], "is no theory"),
+        (["--against", "nothing.txt"], "is no theory"),
+        (["--against", "packaged"], "both robots would have the theory packaged"),
+        (["--against-memory", "other.db"], "name its theory by --against"),
     ],
 )
 def test_what_cannot_be_served_is_one_line(
