@@ -116,7 +116,11 @@ def page_app(
 
     routes: list[BaseRoute] = [WebSocketRoute("/live", live)]
     routes += [_file_route(*it) for it in _page_files()]
-    return Starlette(routes=[*routes, *reads])
+    return Starlette(routes=[*routes, *reads], exception_handlers={BusyError: _busy})
+
+
+async def _busy(_: Request, error: Exception) -> Response:
+    return Response(f"{error}\n", 503, {"Retry-After": "1"}, "text/plain")
 
 
 def _page_files() -> list[tuple[str, bytes]]:

@@ -12,7 +12,8 @@
 | `/export/F/L/dlg` `log` `tex` | the turn as a file |
 | `/export/dlg` `log` `tex` | the dialogue as a file |
 
-All but pictures is worked out in the robot's thread, when it is its turn.
+All but pictures is worked out in the robot's thread, when nothing is to be answered. If
+too much of it waits, the status is 503.
 """
 
 from __future__ import annotations

@@ -72,6 +72,9 @@ class Watch(NamedTuple):
 WAITING = 8
 """How many requests may wait for their turn; more are refused."""
 
+READING = 32
+"""How many may wait to look into the robot; more are refused."""
+
 _KNOWN = 1_000
 """How many requests are remembered, so that none is done twice."""
 
@@ -118,6 +121,8 @@ class RobotThread:
         self._trouble = ""
         self._table: Json = {}
         self._known: deque[str] = deque(maxlen=_KNOWN)
+        self._asked: deque[BrowserRequest] = deque()
+        self._reads: deque[Callable[[], None]] = deque()
         self._cut: BrowserRequest | None = None  # an answer that was not all uttered
 
     def ask(self, request: BrowserRequest) -> None:
@@ -136,14 +141,42 @@ class RobotThread:
                 raise BusyError("too much waits to be answered: say it again later")
             self._waiting += 1
             self._known.append(request.ref)
-        self._thread.submit(self._do, request)
+            self._asked.append(request)
+        self._thread.submit(self._do_next)
 
     def read(self, work: Callable[[Agent], T]) -> Future[T]:
-        """What is worked out of the robot, and changes nothing in it.
+        """What is worked out of the robot, and changes nothing in it. BusyError if too
+        much of it waits.
 
-        It is done when it is its turn: the types of a robot are one thread's.
+        It is done when no request waits: the types of a robot are one thread's, and
+        whoever looks inside keeps nobody waiting who speaks.
         """
-        return self._thread.submit(lambda: work(self.robot))
+        found: Future[T] = Future()
+
+        def find() -> None:
+            if not found.set_running_or_notify_cancel():
+                return
+            try:
+                found.set_result(work(self.robot))
+            except BaseException as error:
+                found.set_exception(error)
+
+        with self._counting:
+            if len(self._reads) >= READING:
+                raise BusyError("too many look inside at this moment: try again later")
+            self._reads.append(find)
+        self._thread.submit(self._do_next)
+        return found
+
+    def _do_next(self) -> None:
+        """Do what has waited longest: a request, or else a look inside."""
+        with self._counting:
+            request = self._asked.popleft() if self._asked else None
+            find = None if request is not None else self._reads.popleft()
+        if request is not None:
+            self._do(request)
+        elif find is not None:
+            find()
 
     def _wake_second(self, make: MakeSecond) -> SecondRobot:
         try:

@@ -1,6 +1,7 @@
 // Two robots side by side: what each made of a turn, with what differs marked.
 
 import { el, matrix } from "./dom.js";
+import { lookUp } from "./look_up.js";
 import { brief, percent, t } from "./texts.js";
 
 const ROBOTS = ["first", "second"];
@@ -35,7 +36,7 @@ export class Beside {
   }
 
   async fill(made, turn, view) {
-    const answer = await fetch(`/beside/${turn.turns.join("/")}`);
+    const answer = await lookUp(`/beside/${turn.turns.join("/")}`);
     if (!answer.ok) return;
     const report = await answer.json();
     const told = this.told.get(turn.turns[0]);

@@ -2,6 +2,7 @@
 
 import { Beside } from "./beside.js";
 import { byId, el, matrix } from "./dom.js";
+import { lookUp } from "./look_up.js";
 import { Shelf } from "./shelf.js";
 import { brief, t } from "./texts.js";
 import { unfired } from "./unfired.js";
@@ -149,7 +150,7 @@ export class Lab {
     this.showView(turn, this.title());
     byId("lab-tools").replaceChildren(...this.tools, this.now, this.saving());
     if (!turn || byId("lab").hidden) return;
-    const answer = await fetch(`/inside/${turn.turns.join("/")}`);
+    const answer = await lookUp(`/inside/${turn.turns.join("/")}`);
     if (!answer.ok || this.shown !== index) return;
     const { lines, steps, state } = await answer.json();
     if (this.shown !== index) return;

@@ -1,6 +1,7 @@
 // The word shelf: every word that was taught, its examples, and what was learned from them.
 
 import { el, svg } from "./dom.js";
+import { lookUp } from "./look_up.js";
 import { percent, t } from "./texts.js";
 
 export class Shelf {
@@ -23,7 +24,7 @@ export class Shelf {
   /** Something was learned or forgotten. */
   async reload() {
     if (!this.frame.open) return;
-    const answer = await fetch(`/words/${this.start}`);
+    const answer = await lookUp(`/words/${this.start}`);
     if (!answer.ok) return;
     const { count, words } = await answer.json();
     if (!words.length && this.start) {
@@ -64,7 +65,7 @@ export class Shelf {
   }
 
   async show({ kind, name }) {
-    const answer = await fetch(`/word/${encodeURIComponent(kind)}/${encodeURIComponent(name)}`);
+    const answer = await lookUp(`/word/${encodeURIComponent(kind)}/${encodeURIComponent(name)}`);
     if (!answer.ok) {
       this.card.replaceChildren();
       return;

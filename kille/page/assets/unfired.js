@@ -1,6 +1,7 @@
 // The rules that did not fire in a turn, and why: asked for when they are unfolded.
 
 import { el } from "./dom.js";
+import { lookUp } from "./look_up.js";
 import { t } from "./texts.js";
 
 export function unfired(turn) {
@@ -12,7 +13,7 @@ export function unfired(turn) {
 
 async function load(turn, body) {
   body.replaceChildren(el("p", { class: "part__empty" }, "…"));
-  const answer = await fetch(`/unfired/${turn.turns.join("/")}`);
+  const answer = await lookUp(`/unfired/${turn.turns.join("/")}`);
   const { error, events } = answer.ok ? await answer.json() : { error: t("gone"), events: [] };
   body.replaceChildren(...(error ? [el("p", {}, error)] : eventReports(events)));
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from threading import Event
 from typing import Any
@@ -20,7 +20,7 @@ from kille.page.app import BROWSERS, UNDER_WAY
 from kille.page.browser_requests import MESSAGE, parse_request
 from kille.page.history import History
 from kille.page.inside import PLAIN
-from kille.page.robot_thread import WAITING, BusyError, Watch
+from kille.page.robot_thread import READING, WAITING, BusyError, Watch
 from kille.page.stepping import Stepper
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
@@ -423,6 +423,29 @@ def test_more_requests_than_can_wait_are_refused(page: Page) -> None:
         for ref in refs[:WAITING]:
             browser.until("view", ref=ref)
         browser.say("Hello.")
+
+
+def test_who_looks_inside_keeps_nobody_waiting_who_speaks(page: Page) -> None:
+    going, order = Event(), list[str]()
+
+    def ask_to(act: Callable[[Agent], str]) -> None:
+        request = parse_request({"do": "look", "ref": fresh_ref()})
+        page.robot.ask(request._replace(act=act))
+
+    try:
+        ask_to(lambda _: str(going.wait(60)))
+        reads = [
+            page.robot.read(lambda _: order.append("read")) for _ in range(READING)
+        ]
+        with pytest.raises(BusyError, match="too many look inside"):
+            page.robot.read(lambda _: None)
+        assert "503" in fetch_text(page, "/words/0").decode()
+        ask_to(lambda _: order.append("asked") or "")
+    finally:
+        going.set()
+    for it in reads:
+        it.result(60)
+    assert order == ["asked", *["read"] * READING]
 
 
 class Unplugged:

@@ -68,12 +68,12 @@ def test_threads_publish_without_losing_or_doubling_a_number() -> None:
 # --- what a browser may ask for ------------------------------------------------------
 
 JSON = st.recursive(
-    st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=9),
     lambda inner: (
-        st.lists(inner, max_size=5)
-        | st.dictionaries(st.text(max_size=5), inner, max_size=5)
+        st.lists(inner, max_size=4)
+        | st.dictionaries(st.text(max_size=3), inner, max_size=2)
     ),
-    max_leaves=10,
+    max_leaves=4,
 )
 DEEDS = st.sampled_from(["say", "point", "look", "restart", "show", "remove", "place"])
 FIELDS = ("text", "thing", "box", "right", "away", "turn", "ref")
