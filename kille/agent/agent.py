@@ -327,7 +327,7 @@ class Agent(NotebookValue):
                 self.gaze.point(rest)
                 return ""
             case "glimpse":
-                self.gaze.look()
+                self.gaze.glimpse()
                 return ""
             case "restart":
                 self._wake(self.memory)

@@ -105,6 +105,13 @@ class AttentiveSensor:
         self.attention = Attention(pointed, view, both is not None, both)
         return view
 
+    def glimpse(self) -> None:
+        """Look, and leave what the tutor has pointed at as new as it is."""
+        before = self.attention
+        self.look()
+        now = self.attention
+        self.attention = replace(now, anew=before.anew, second=before.second)
+
     def point(self, target: str) -> None:
         """Point at a thing by its number, a pixel, a box or its outline's name.
 

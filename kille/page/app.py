@@ -321,6 +321,8 @@ class _Connection:
         if type(number) is not int or not self._feed.first <= number <= self._feed.last:
             raise RequestError("a `turn` is the number of an event")
         event = self._feed.after(number - 1)[0]
+        if event["id"] != number:
+            raise RequestError("a `turn` is the number of an event that is kept")
         request = uttered_request(event, message.get("line"), message.get("share"))
         if self._speaking().answers.is_first_told_of(number):
             self._ask(request)

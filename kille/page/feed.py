@@ -41,16 +41,28 @@ class Feed:
     def first(self) -> int:
         """The number of the earliest event that is kept."""
         with self._lock:
-            return self._last - len(self._events) + 1
+            return self._events[0]["id"] if self._events else self._last + 1
 
     @property
     def last(self) -> int:
         """The number of the latest event; 0 if there is none."""
         return self._last
 
-    def publish(self, event: Event) -> int:
-        """Add an event and wake the readers; returns its number."""
+    def publish(self, event: Event, outdates: Event | None = None) -> int:
+        """Add an event and wake the readers; returns its number.
+
+        If the latest event is like the one that it `outdates`, that is not kept.
+
+        >>> feed = Feed()
+        >>> for n in range(3):
+        ...     number = feed.publish({"type": "glance", "n": n}, {"type": "glance"})
+        >>> feed.after(0)
+        [{'type': 'glance', 'n': 2, 'id': 3}]
+        """
         with self._lock:
+            latest = self._events[-1] if self._events else {}
+            if outdates is not None and outdates.items() <= latest.items():
+                self._events.pop()
             self._last += 1
             self._events.append({**event, "id": self._last})
             number, listeners = self._last, tuple(self._listeners)

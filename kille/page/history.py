@@ -17,6 +17,10 @@ EVENTS = 10_000
 """The latest events that are kept, for the story of the dialogue."""
 
 
+GLIMPSE = "@ glimpse"
+"""A look that is no turn, as a line of a story."""
+
+
 class KeptEvent(NamedTuple):
     """An event, and the number of exchanges that there were before it."""
 
@@ -51,7 +55,10 @@ class History:
         return self._pictures.get(turn)
 
     def keep_event(self, event: Event, turns: int) -> None:
-        """Keep an event that happened after so many exchanges."""
+        """Keep an event that happened after so many exchanges; of glimpses in a row,
+        the last."""
+        if self._events and event.line == self._events[-1].event.line == GLIMPSE:
+            self._events.pop()
         self._events.append(KeptEvent(event, turns))
 
     def events(self, first: int, last: int) -> Iterator[Event]:

@@ -15,6 +15,8 @@ from time import monotonic
 from typing import NamedTuple
 
 import cv2
+import numpy as np
+from numpy.typing import NDArray
 
 from kille.agent.attention import LookingSensor
 from kille.perception.look import Sighting, look
@@ -41,6 +43,16 @@ _REST = 0.1
 
 _RETRY = 1.0
 """Seconds after which a camera that failed is read again."""
+
+_CHECK = 0.2
+"""Seconds between two looks for a change of the scene."""
+
+_CELL = 8
+"""Pixels of a cell, of which the mean is compared."""
+
+_OTHER, _CELLS = 24, 12
+"""By so much the grey of a cell has changed, and so many cells at least: a thing has
+come, gone or moved. Noise and light make less of a difference."""
 
 _ON_ITS_OWN = ("synthetic", "kinect", "ros")
 """Sensors that have a new frame whether anybody reads it or not.
@@ -74,11 +86,13 @@ class LivePicture:
     """The newest frame of a sensor as a JPEG, while anybody watches it.
 
     `tell` is given what is wrong with the camera, and an empty text when it is well
-    again.
+    again. `on_change` is called while the scene is not as at the robot's latest look.
     """
 
     def __init__(self, tell: Callable[[str], object] = lambda _: None) -> None:
         self._tell = tell
+        self.on_change: Callable[[], object] = lambda: None
+        self._check = 0.0  # when it is seen whether the scene has changed
         self._changed = Condition()
         self._newest: Frame | None = None
         self._due = 0.0  # when a frame is read that nobody asked for
@@ -176,13 +190,20 @@ class LivePicture:
                 self._encode(frame)
             if sensor is None:
                 return 0.0
-            sensor.show_next()
+            self._check_scene(sensor, sensor.show_next())
         except Exception as error:
             if not self._closed:
                 self._complain(_line_about(error))
             return _RETRY
         self._complain("")
         return 1 / RATE
+
+    def _check_scene(self, sensor: SharedSensor, frame: Frame) -> None:
+        if sensor.looked_at is None or monotonic() < self._check:
+            return
+        self._check = monotonic() + _CHECK
+        if is_another_scene(sensor.looked_at.colour, frame.colour):
+            self.on_change()
 
     def _complain(self, trouble: str) -> None:
         """Tell of trouble with the camera once, and once that it is over."""
@@ -202,6 +223,32 @@ class LivePicture:
             it.wake()
 
 
+def is_another_scene(before: Colour, after: Colour) -> bool:
+    """Whether something is elsewhere in a picture than in an earlier one.
+
+    That all of it is lighter or darker does not count.
+
+    >>> import numpy as np
+    >>> table = np.full((480, 640, 3), 200, np.uint8)
+    >>> cup = table.copy()
+    >>> cup[200:260, 300:350] = 20
+    >>> is_another_scene(table, table - 40), is_another_scene(table, cup)
+    (False, True)
+    """
+    if before.shape != after.shape:
+        return True
+    apart = _cells(after) - _cells(before)
+    apart -= np.median(apart)
+    return int(np.count_nonzero(np.abs(apart) > _OTHER)) >= _CELLS
+
+
+def _cells(colour: Colour) -> NDArray[np.float32]:
+    height, width = colour.shape[:2]
+    size = max(1, width // _CELL), max(1, height // _CELL)
+    small = cv2.resize(colour, size, interpolation=cv2.INTER_AREA)
+    return cv2.cvtColor(small, cv2.COLOR_RGB2GRAY).astype(np.float32)
+
+
 def _line_about(error: Exception) -> str:
     """What went wrong: a sensor says it itself."""
     if isinstance(error, SensorError):
@@ -212,14 +259,15 @@ def _line_about(error: Exception) -> str:
 class SharedSensor:
     """A sensor that is read by one at a time, and shows what was read.
 
-    `latest` is the frame that the robot has read last; `keep_glance`, if it is set, is
-    given each look of the robot's.
+    `latest` is the frame that the robot has read last, `looked_at` that of its latest
+    look; `keep_glance`, if it is set, is given each look of the robot's.
     """
 
     def __init__(self, sensor: Sensor, picture: LivePicture) -> None:
         self._sensor, self._picture = sensor, picture
         self._reading = Lock()
         self.latest: Frame | None = None
+        self.looked_at: Frame | None = None
         self.keep_glance: Callable[[Glance], object] | None = None
         kind = re.split(r"[:?]", sensor.name, maxsplit=1)[0]
         self.runs_by_itself = kind in _ON_ITS_OWN
@@ -250,6 +298,7 @@ class SharedSensor:
             self._picture.show(seen.frame)
         else:
             seen = look(self, scans, pointed)
+        self.looked_at = seen.frame
         if self.keep_glance is not None:
             self.keep_glance(Glance(seen, pointed))
         return seen

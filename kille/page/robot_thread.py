@@ -9,7 +9,8 @@ it is on disk.
 if it was spoken, `perhaps`: texts with their probabilities |
 | `turn` | the turn, as `turn_report` has it; `ms`, how long it took; `ref`; `turns`, \
 the numbers of its exchanges, to look inside |
-| `view` | what is in view after it, as `view_report` has it |
+| `view` | what is in view after it, as `view_report` has it; `glimpsed`, if no turn \
+was taken, but something has moved |
 | `table` | how the scene can be arranged by hand, as `table_report` has it, whenever \
 that has changed |
 | `pointed` | what the tutor points at now: `thing` or `box`; `as`: `that` for a \
@@ -33,8 +34,9 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import replace
+from math import inf
 from threading import Lock
-from time import perf_counter
+from time import monotonic, perf_counter
 from typing import NamedTuple, TypeVar
 
 from kille.agent.agent import Agent
@@ -49,6 +51,7 @@ from kille.page.second_robot import MakeSecond, SecondRobot
 from kille.page.stepping import Stepper
 from kille.page.table import table_report
 from kille.page.turn_reports import turn_report, view_report
+from kille.scene import Box
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
 from ttr.updates import Game
@@ -74,6 +77,14 @@ WAITING = 8
 
 READING = 32
 """How many may wait to look into the robot; more are refused."""
+
+_PAUSE, _LONGEST_PAUSE = 0.2, 10.0
+"""Seconds after a glimpse before the next; longer each time nothing has moved."""
+
+_STILL = 4
+"""Pixels by which the box of a thing differs from look to look."""
+
+_GLIMPSE = BrowserRequest("", "", lambda robot: robot.do("glimpse"))
 
 _KNOWN = 1_000
 """How many requests are remembered, so that none is done twice."""
@@ -122,6 +133,7 @@ class RobotThread:
         self._table: Json = {}
         self._known: deque[str] = deque(maxlen=_KNOWN)
         self._asked: deque[BrowserRequest] = deque()
+        self._pause, self._may_glimpse = _PAUSE, 0.0
         self._reads: deque[Callable[[], None]] = deque()
         self._cut: BrowserRequest | None = None  # an answer that was not all uttered
 
@@ -168,12 +180,44 @@ class RobotThread:
         self._thread.submit(self._do_next)
         return found
 
+    def glimpse(self) -> None:
+        """Have it look, without a turn, if nothing else is to be done: the scene is not
+        as it was. Where nothing has moved, it does so less and less often."""
+        with self._counting:
+            if self._waiting or self._asked or monotonic() < self._may_glimpse:
+                return
+            self._may_glimpse = inf
+            self._asked.append(_GLIMPSE)
+        self._thread.submit(self._do_next)
+
+    def _glimpse(self) -> None:
+        before = _boxes(self.robot)
+        try:
+            if not self._closed:
+                _GLIMPSE.act(self.robot)
+                if self.second is not None:
+                    self.second.follow(self._turns)
+                report = view_report(self.robot)
+                about = {"type": "view", "ref": "", "glimpsed": True}
+                self._feed.publish({**about, **report}, about)
+        except (SensorError, TTRError):
+            pass  # the picture tells of the camera
+        except Exception as error:
+            self._report(error)
+        finally:
+            is_still = _is_still(before, _boxes(self.robot))
+            pause = self._pause * 2 if is_still else _PAUSE
+            self._pause = min(pause, _LONGEST_PAUSE)
+            self._may_glimpse = monotonic() + self._pause
+
     def _do_next(self) -> None:
         """Do what has waited longest: a request, or else a look inside."""
         with self._counting:
             request = self._asked.popleft() if self._asked else None
             find = None if request is not None else self._reads.popleft()
-        if request is not None:
+        if request is _GLIMPSE:
+            self._glimpse()
+        elif request is not None:
             self._do(request)
         elif find is not None:
             find()
@@ -307,3 +351,19 @@ class RobotThread:
         if trouble != self._trouble:
             self._trouble = trouble
             self._tell(trouble)
+
+
+def _boxes(robot: Agent) -> list[Box]:
+    """Where the things in view are."""
+    return (
+        [] if robot.view is None else [it.region.box for it in robot.view.look.percepts]
+    )
+
+
+def _is_still(before: list[Box], after: list[Box]) -> bool:
+    """Whether things are where they were."""
+    return len(before) == len(after) and all(
+        abs(one - other) <= _STILL
+        for boxes in zip(before, after, strict=True)
+        for one, other in zip(*boxes, strict=True)
+    )

@@ -81,7 +81,7 @@ export class Lab {
   /** What was in view after the turn that was just taken. */
   addView(event) {
     const turn = this.turns.at(-1);
-    if (turn && turn.ref === event.ref) this.views.set(turn, event);
+    if (turn && turn.ref === event.ref && !event.glimpsed) this.views.set(turn, event);
   }
 
   /** What came of it for the second robot. */

@@ -43,6 +43,7 @@ const connection = new Connection({
   hello,
   /** Up to this event all is shown. */
   shown: (last) => {
+    document.documentElement.dataset.shown = last;
     if (last >= old) document.documentElement.dataset.ready = "yes";
   },
   picture: (jpeg, done) => (frozen ? done() : picture.draw(jpeg, done)),
@@ -92,8 +93,8 @@ const connection = new Connection({
     lab.addView(event);
     if (!replay.live(event)) return;
     things.show(event);
-    region.cancel();
-    if (event.id > old) things.mean(meant);
+    region.settle();
+    if (event.id > old && !event.glimpsed) things.mean(meant);
   },
   table: (event) => table.show(event),
   pointed: (event) => replay.live(event) && things.point(event),

@@ -7,7 +7,8 @@ const SHAKE = 6; // pixels of the screen that a click may move
 const STEP = 8; // pixels of the picture that a key moves
 
 export class Region {
-  /** `choose(number)` is called for a thing that is clicked, `draw(box)` for a box. */
+  /** `choose(number)` is called for a thing that is clicked, `draw(box)` for a box; it
+   *  says whether that was asked for. */
   constructor(things, choose, draw) {
     this.things = things;
     this.choose = choose;
@@ -112,8 +113,15 @@ export class Region {
   }
 
   send() {
-    this.frame.classList.add("stage__box--sent");
-    this.draw(this.box);
+    if (this.draw(this.box)) this.frame.classList.add("stage__box--sent");
+    else this.cancel();
+  }
+
+  /** Something else is in view now: what is still being drawn goes on. */
+  settle() {
+    const sent = this.frame.classList.contains("stage__box--sent");
+    const moves = document.activeElement === this.frame && !sent;
+    if (!this.start && !moves) this.frame.hidden = true;
   }
 
   cancel() {

@@ -18,21 +18,23 @@ export class Things {
 
   show(view) {
     const focused = document.activeElement?.dataset?.thing;
+    const before = new Map(this.view.things.map((it) => [it.number, JSON.stringify([it.name, it.names])]));
+    const isSame = (it) => before.get(it.number) === JSON.stringify([it.name, it.names]);
     this.view = view;
     const [width, height] = view.size ?? [640, 480];
     byId("outlines").setAttribute("viewBox", `0 0 ${width} ${height}`);
-    this.outlines = new Map(view.things.map((it) => [it.number, this.outline(it)]));
-    this.buttons = new Map(view.things.map((it) => [it.number, this.button(it)]));
-    byId("outlines").replaceChildren(...this.outlines.values());
-    byId("things").replaceChildren(...this.buttons.values());
+    // What is as it was stays where it is in the page: somebody may be pressing it.
+    this.outlines = renew(byId("outlines"), this.outlines, view.things, () => true, (it) => this.outline(it));
+    this.buttons = renew(byId("things"), this.buttons, view.things, isSame, (it) => this.button(it));
+    for (const it of view.things) this.outlines.get(it.number).setAttribute("d", smoothPath(it.outline));
     byId("empty").hidden = view.things.length > 0 || !view.size;
     byId("rivals").hidden = true;
-    this.mark({ this: view.focus, that: null, isNew: false });
-    if (focused) this.buttons.get(Number(focused))?.focus();
+    this.mark(view.glimpsed ? { ...this.pointed, this: view.focus } : { this: view.focus, that: null, isNew: false });
+    if (focused && document.activeElement?.dataset?.thing !== focused) this.buttons.get(Number(focused))?.focus();
   }
 
   outline(thing) {
-    const made = svg("path", { class: "outline", d: smoothPath(thing.outline) });
+    const made = svg("path", { class: "outline" });
     made.dataset.thing = thing.number;
     made.addEventListener("pointerenter", () => this.light(thing.number, true));
     made.addEventListener("pointerleave", () => this.light(thing.number, false));
@@ -166,6 +168,15 @@ export class Things {
       button.style.top = `${place.top}px`;
     }
   }
+}
+
+/** The elements of things by their numbers, in order: those before where they fit. */
+function renew(parent, before, things, fits, make) {
+  const found = new Map(things.map((it) => [it.number, (fits(it) && before.get(it.number)) || make(it)]));
+  const made = [...found.values()];
+  for (const it of [...parent.children]) if (!made.includes(it)) it.remove();
+  made.forEach((it, n) => parent.children[n] !== it && parent.insertBefore(it, parent.children[n] ?? null));
+  return found;
 }
 
 /** A closed path that passes the corners in curves. */

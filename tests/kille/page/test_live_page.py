@@ -6,7 +6,7 @@ import json
 import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from threading import Event
+from threading import Event, Lock
 from typing import Any
 
 import cv2
@@ -23,7 +23,7 @@ from kille.page.inside import PLAIN
 from kille.page.robot_thread import READING, WAITING, BusyError, Watch
 from kille.page.stepping import Stepper
 from kille.scene import Frame
-from kille.sensors.sensor import SensorError
+from kille.sensors.sensor import At, SensorError, Stage
 from kille.sensors.sources import open_sensor
 
 from .pages import Page, fetch_text, fresh_ref, page_of
@@ -464,6 +464,48 @@ class Unplugged:
 
     def close(self) -> None:
         self._inner.close()
+
+
+class OwnTable:
+    """A camera before a table on which somebody puts things."""
+
+    name = "kinect:test"
+
+    def __init__(self) -> None:
+        self.stage = open_sensor("synthetic:empty?seed=7")
+        self._lock = Lock()
+
+    def frame(self) -> Frame:
+        with self._lock:
+            return self.stage.frame()
+
+    def put(self, thing: str, right: float) -> None:
+        assert isinstance(self.stage, Stage)
+        with self._lock:
+            self.stage.place(thing, At(right, 0.0, 0.0))
+
+    def close(self) -> None:
+        self.stage.close()
+
+
+def test_outlines_follow_what_comes_and_goes_between_turns() -> None:
+    sensor = OwnTable()
+    with page_of(sensor) as page, page.connect() as browser:
+        browser.draws = True
+        assert browser.ask_for("view", do="look")["things"] == []
+        sensor.put("cup", 0.1)
+        (cup,) = browser.until("view", glimpsed=True)["things"]
+        browser.ask_for("pointed", do="point", thing=cup["number"])
+        sensor.put("book", -0.1)
+        while len((view := browser.until("view", glimpsed=True))["things"]) < 2:
+            pass
+        assert view["focus"] == cup["number"]
+        # What was pointed at before the glimpse is still "this".
+        assert page.robot.read(lambda it: it.gaze.attention.anew).result(60)
+        assert "a cup" in browser.say("This is a cup.")["said"]
+        # It is no turn: whoever comes back has the turns, and the latest view.
+        kinds = [(it["type"], it.get("glimpsed")) for it in page.feed.after(0)]
+        assert kinds.count(("turn", None)) == 2
 
 
 @pytest.fixture
