@@ -381,6 +381,22 @@ class Agent(NotebookValue):
         found = self._knowledge.relations.degrees_of(placed)
         return [float(it.get(name, 0.0)) for it in found]
 
+    def hindsight(self, name: str, latest: int = 24) -> Iterator[bool]:
+        """Whether it would have named the thing of each of the latest lessons in a noun
+        rightly, by the lessons before it: its learning curve, from the earliest on.
+
+        A denial is right if the noun is not its best guess. It is worked out as it is
+        asked for, by the lessons of now, and may be so in another thread.
+
+        >>> with Agent(sensor="synthetic:empty?seed=7") as robot:
+        ...     _ = robot.do("show cup")
+        ...     _ = robot.hear("This is a cup.")
+        ...     _ = robot.hear("This is a cup.")
+        ...     list(robot.hindsight("cup"))
+        [False, True]
+        """
+        return self._knowledge.hindsight(name, latest)
+
     def names_in_view(self) -> tuple[str, ...]:
         """What it would call each thing in its latest view, by their numbers.
 

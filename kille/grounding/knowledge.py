@@ -11,6 +11,7 @@ import numpy as np
 
 from kille.dialogue.meanings import predicate_name
 from kille.grounding.generics import Generic, Generics
+from kille.grounding.hindsight import PastLesson, was_right
 from kille.grounding.reasons import Reasons, Share, best_rival, shares_of
 from kille.memory import (
     Arrangement,
@@ -83,7 +84,7 @@ class Knowledge:
 
     def __init__(self, memory: Memory, learners: Learners | None = None) -> None:
         learners = Learners() if learners is None else learners
-        self.memory = memory
+        self.memory, self._make_objects = memory, learners.objects
         self._undoing: ExitStack | None = None
         self.colours = ColourMemory(prior=xkcd())
         self.attributes = AttributeMemory()
@@ -239,6 +240,17 @@ class Knowledge:
             self.memory.forget_word(kind, name)
             self._forget(*lessons)
         return keys
+
+    def hindsight(self, name: str, latest: int) -> Iterator[bool]:
+        """Whether it would have been right before each of the latest lessons in a noun.
+
+        It is worked out bit by bit, by what is known now, and may be so in another
+        thread.
+        """
+        holding = [PastLesson(it, True) for it in self.objects.views]
+        denying = [PastLesson(it, False) for it in self.objects.denied]
+        lessons = sorted([*holding, *denying], key=lambda it: _order(it.view.key))
+        return was_right(lessons, name, latest, self._make_objects)
 
     def qualities_of(self, key: int) -> Mapping[str, float] | None:
         """How probably each adjective is true of what a lesson in a noun showed.
@@ -458,6 +470,11 @@ def _of_cues(traits: Traits) -> Traits:
         for cue, vector in traits.items()
         if cue in CUES and len(vector) == CUES[cue].length
     }
+
+
+def _order(key: Key) -> int:
+    assert isinstance(key, int)  # as the memory counts them
+    return key
 
 
 def _views(memory: Memory, denied: list[View]) -> Iterator[View]:

@@ -8,6 +8,7 @@
 | `/picture/F.jpg` | what was in view in the turn that began with F |
 | `/words/N` | the words that were taught, from number N on |
 | `/word/KIND/NAME` | what a word was learned from |
+| `/hindsight/NAME` | whether it would have been right before each lesson in a noun |
 | `/example/KEY` | what was seen in a lesson |
 | `/export/F/L/dlg` `log` `tex` | the turn as a file |
 | `/export/dlg` `log` `tex` | the dialogue as a file |
@@ -31,7 +32,7 @@ from kille.memory.pictures import JPEG
 from kille.page.exports import FORMATS, file_name, log_text, state_as_latex, story_text
 from kille.page.inside import Json, inside_report
 from kille.page.robot_thread import RobotThread
-from kille.page.shelf import example_picture, shelf_page, word_report
+from kille.page.shelf import EXAMPLES, example_picture, shelf_page, word_report
 from kille.page.side_by_side import comparison_report
 from kille.page.unfired import unfired_report
 from ttr import TTRError
@@ -54,6 +55,7 @@ def read_routes(robot: RobotThread) -> list[Route]:
         Route("/picture/{first:int}.jpg", reads.picture),
         Route("/words/{start:int}", reads.words),
         Route("/word/{kind}/{name:path}", reads.word),
+        Route("/hindsight/{name:path}", reads.hindsight),
         Route("/example/{key:int}", reads.example),
         Route("/export/{first:int}/{last:int}/{kind}", reads.export),
         Route("/export/{kind}", reads.export),
@@ -65,6 +67,7 @@ class _Reads:
 
     def __init__(self, robot: RobotThread) -> None:
         self._robot = robot
+        self._working_out = asyncio.Semaphore(1)  # one thread besides the robot's
 
     async def _read(self, work: Callable[[Agent], Any]) -> Any:
         """What is worked out in the robot's thread."""
@@ -121,6 +124,13 @@ class _Reads:
         kind, name = request.path_params["kind"], request.path_params["name"]
         found = await self._read(lambda it: word_report(it, kind, name))
         return _MISSING if found is None else JSONResponse(found)
+
+    async def hindsight(self, request: Request) -> Response:
+        """It takes a while, so the robot's thread only says what is known."""
+        name = request.path_params["name"]
+        lessons = await self._read(lambda it: it.hindsight(name, EXAMPLES))
+        async with self._working_out:
+            return JSONResponse(await asyncio.to_thread(list, lessons))
 
     async def example(self, request: Request) -> Response:
         key = request.path_params["key"]

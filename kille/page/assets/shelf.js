@@ -79,6 +79,14 @@ export class Shelf {
       word.template ? heatMap(word.template, word.cell) : null,
     ];
     this.card.replaceChildren(...parts.filter(Boolean));
+    if (kind === "object") this.showAccuracy(name, parts[2] ?? parts[1]);
+  }
+
+  /** Below the examples, as soon as it is worked out. */
+  async showAccuracy(name, above) {
+    const answer = await lookUp(`/hindsight/${encodeURIComponent(name)}`);
+    const right = answer.ok ? await answer.json() : [];
+    if (right.length && above.isConnected) above.after(accuracy(right));
   }
 }
 
@@ -109,6 +117,18 @@ function curve({ for: pro, against: con }) {
   const text = t("curve", { count: pro.length, pro: pro.at(-1) ?? 0, con: con.at(-1) ?? 0 });
   const drawing = svg("svg", { class: "curve", viewBox: `-2 -2 ${WIDE + 4} ${HIGH + 4}`, role: "img", "aria-label": text, preserveAspectRatio: "none" });
   drawing.append(line(pro, "for"), line(con, "against"));
+  return el("figure", { class: "shelf__figure" }, drawing, el("figcaption", {}, text));
+}
+
+/** The share of lessons before which it was right, after each of them; a mark for each. */
+function accuracy(right) {
+  const at = (n) => ((n + 0.5) / right.length) * WIDE;
+  const share = right.map((_, n) => right.slice(0, n + 1).filter(Boolean).length / (n + 1));
+  const line = svg("polyline", { class: "curve__line", points: share.map((it, n) => `${at(n)},${HIGH - it * HIGH}`).join(" ") });
+  const text = t("accuracy", { right: right.filter(Boolean).length, count: right.length, share: percent(share.at(-1)) });
+  const drawing = svg("svg", { class: "curve", viewBox: `-2 -2 ${WIDE + 4} ${HIGH + 4}`, role: "img", "aria-label": text, preserveAspectRatio: "none" });
+  const marks = right.map((it, n) => svg("line", { class: `curve__mark curve__mark--${it ? "for" : "against"}`, x1: at(n), x2: at(n), y1: it ? 0 : HIGH, y2: it ? 6 : HIGH - 6 }));
+  drawing.append(...marks, line);
   return el("figure", { class: "shelf__figure" }, drawing, el("figcaption", {}, text));
 }
 

@@ -137,37 +137,48 @@ export class Things {
     card.style.left = `${clamp(at.left - stage.left, 0, stage.width - card.offsetWidth)}px`;
   }
 
-  /** Put the buttons beside their things, so that none covers another. */
+  /** Put the buttons beside their things, so that none covers another. Where there is no
+   *  room for its word, a thing has its number, and the word while one looks at it. */
   layOut() {
-    const stage = byId("stage");
-    const [width, height] = this.view.size ?? [640, 480];
-    const scale = { x: stage.clientWidth / width, y: stage.clientHeight / height };
-    const taken = [];
+    const buttons = [...this.buttons.values()];
     byId("rivals").hidden = true;
+    for (const it of buttons) it.classList.remove("thing--brief");
+    const taken = [];
     for (const thing of this.view.things) {
       const button = this.buttons.get(thing.number);
-      const size = { width: button.offsetWidth, height: button.offsetHeight };
-      const [left, top, right, bottom] = thing.box;
-      const x = ((left + right) / 2) * scale.x - size.width / 2;
-      const middle = ((top + bottom) / 2) * scale.y - size.height / 2;
-      const places = [
-        [x, top * scale.y - size.height - GAP],
-        [x, bottom * scale.y + GAP],
-        [right * scale.x + GAP, middle],
-        [left * scale.x - size.width - GAP, middle],
-        [x, middle],
-        ...[...Array(12).keys()].map((n) => [x, top * scale.y - (n + 2) * (size.height + GAP)]),
-      ].map(([u, v]) => ({
-        left: clamp(u, GAP, stage.clientWidth - size.width - GAP),
-        top: clamp(v, GAP, stage.clientHeight - size.height - GAP),
-        ...size,
-      }));
-      const place = places.find((it) => !taken.some((other) => overlaps(it, other))) ?? places[0];
+      const free = () => placesFor(thing.box, this.view.size, button).find((it) => !taken.some((other) => overlaps(it, other)));
+      let place = free();
+      if (!place) {
+        button.classList.add("thing--brief");
+        place = free() ?? placesFor(thing.box, this.view.size, button)[0];
+      }
       taken.push(place);
       button.style.left = `${place.left}px`;
       button.style.top = `${place.top}px`;
     }
   }
+}
+
+/** Where the button of a thing can stand: above, below or beside it, or on it. */
+function placesFor([left, top, right, bottom], size, button) {
+  const stage = byId("stage");
+  const [width, height] = size ?? [640, 480];
+  const scale = { x: stage.clientWidth / width, y: stage.clientHeight / height };
+  const own = { width: button.offsetWidth, height: button.offsetHeight };
+  const x = ((left + right) / 2) * scale.x - own.width / 2;
+  const middle = ((top + bottom) / 2) * scale.y - own.height / 2;
+  const places = [
+    [x, top * scale.y - own.height - GAP],
+    [x, bottom * scale.y + GAP],
+    [right * scale.x + GAP, middle],
+    [left * scale.x - own.width - GAP, middle],
+    [x, middle],
+  ];
+  return places.map(([u, v]) => ({
+    left: clamp(u, GAP, stage.clientWidth - own.width - GAP),
+    top: clamp(v, GAP, stage.clientHeight - own.height - GAP),
+    ...own,
+  }));
 }
 
 /** The elements of things by their numbers, in order: those before where they fit. */

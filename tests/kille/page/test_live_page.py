@@ -199,6 +199,8 @@ def test_words_are_on_the_shelf_with_what_they_were_learned_from(page: Page) -> 
     assert beaker["curve"]["for"][-1] == beaker["curve"]["against"][-1] == 1
     example = fetch_text(page, f"/example/{beaker['examples'][0]['key']}")
     assert cv2.imdecode(np.frombuffer(example, np.uint8), 1) is not None
+    right = json.loads(fetch_text(page, "/hindsight/beaker"))
+    assert (len(right), right[0]) == (2, False)  # it did not know the word before
     left = json.loads(fetch_text(page, "/word/relation/to_the_left_of"))["template"]
     middle = left[len(left) // 2]
     assert middle[2] > 0.3 > middle[-3]
