@@ -5,8 +5,8 @@
 Frames a second that are drawn, and what of a core the server takes for it; from a click
 to the thing that is marked, and from Enter to an answer for which nothing is looked at;
 how soon it is ready and painted, and how much is sent before the first picture; four
-browsers at once; and how the memory of the server grows with turns. The server is a
-process of its own. Its processor time has the simulated camera in it, which is measured
+browsers at once; and how the memories of the server and of a browser grow with turns,
+when the page has as many as it keeps. The server is a process of its own. Its processor time has the simulated camera in it, which is measured
 by itself: what is left is the page's.
 """
 
@@ -33,6 +33,9 @@ from kille.sensors.sources import open_sensor
 SENSOR = "synthetic:desk?seed=7"
 SERVE = [sys.executable, "-m", "kille.interfaces.cli", "serve", "--port", "0"]
 CLICKS = 21
+KEPT = 320
+"""Turns after which the page keeps no more of them."""
+
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
@@ -170,6 +173,16 @@ def first_paint(browser: Any, server: Server) -> float:
     return found
 
 
+def heap_size(tab: Any) -> int:
+    """The bytes of all that the page's scripts have kept."""
+    session = tab.context.new_cdp_session(tab)
+    session.send("HeapProfiler.enable")
+    session.send("HeapProfiler.collectGarbage")
+    used = session.send("Runtime.getHeapUsage")["usedSize"]
+    session.detach()
+    return int(used)
+
+
 def take_turns(server: Server, turns: int, after: Callable[[int], None]) -> None:
     """Take turns for which nothing is looked at, over the socket."""
     from websockets.sync.client import connect
@@ -223,20 +236,20 @@ def main() -> None:
         fps, cpu = frame_rate(tab, server, options.seconds)
         show("frames shown in a second in the first of four", fps, "", "at least 25")
         show("the server, of a core, with four", 100 * cpu, "%", "")
-        for it in [tab, *others]:
+        for it in others:
             it.close()
-        sizes: dict[int, int] = {}
-        warm = options.turns // 10
+        sizes: dict[int, tuple[int, int]] = {}
 
         def keep(number: int) -> None:
-            if number in (warm, warm + options.turns):
-                sizes[number] = server.memory()
+            if number in (KEPT, KEPT + options.turns):
+                sizes[number] = server.memory(), heap_size(tab)
 
-        take_turns(server, warm + options.turns, keep)
-        before, after = sizes[warm], sizes[warm + options.turns]
-        what = f"memory of the server after {options.turns} more turns"
-        show(what, 100 * (after / before - 1), "%", "at most 20 more")
-        show("which is", after / 1e6, "MB", "")
+        take_turns(server, KEPT + options.turns, keep)
+        for n, whose in enumerate(("the server", "the browser")):
+            before, after = (sizes[it][n] for it in sorted(sizes))
+            what = f"memory of {whose} after {options.turns} more turns"
+            show(what, 100 * (after / before - 1), "%", "at most 20 more")
+            show("which is", after / 1e6, "MB", "")
         browser.close()
 
 

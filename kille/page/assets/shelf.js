@@ -86,7 +86,7 @@ export class Shelf {
   async showAccuracy(name, above) {
     const answer = await lookUp(`/hindsight/${encodeURIComponent(name)}`);
     const right = answer.ok ? await answer.json() : [];
-    if (right.length && above.isConnected) above.after(accuracy(right));
+    if (right.length > 1 && above.isConnected) above.after(accuracy(right));
   }
 }
 
