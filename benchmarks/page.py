@@ -6,8 +6,9 @@ Frames a second that are drawn, and what of a core the server takes for it; from
 to the thing that is marked, and from Enter to an answer for which nothing is looked at;
 how soon it is ready and painted, and how much is sent before the first picture; four
 browsers at once; and how the memories of the server and of a browser grow with turns,
-when the page has as many as it keeps. The server is a process of its own. Its processor time has the simulated camera in it, which is measured
-by itself: what is left is the page's.
+when the page has as many as it keeps. The server is a process of its own. Its processor
+time has the simulated camera in it, which is measured by itself: what is left is the
+page's.
 """
 
 from __future__ import annotations
