@@ -173,6 +173,7 @@ function placesFor([left, top, right, bottom], size, button) {
     [right * scale.x + GAP, middle],
     [left * scale.x - own.width - GAP, middle],
     [x, middle],
+    ...[left, right].flatMap((u) => [top, bottom].map((v) => [u * scale.x - own.width / 2, v * scale.y - own.height / 2])),
   ];
   return places.map(([u, v]) => ({
     left: clamp(u, GAP, stage.clientWidth - own.width - GAP),
