@@ -86,12 +86,13 @@ class LivePicture:
     """The newest frame of a sensor as a JPEG, while anybody watches it.
 
     `tell` is given what is wrong with the camera, and an empty text when it is well
-    again. `on_change` is called while the scene is not as at the robot's latest look.
+    again. `on_check` is told now and then whether the scene is another than at the
+    robot's latest look.
     """
 
     def __init__(self, tell: Callable[[str], object] = lambda _: None) -> None:
         self._tell = tell
-        self.on_change: Callable[[], object] = lambda: None
+        self.on_check: Callable[[bool], object] = lambda _: None
         self._check = 0.0  # when it is seen whether the scene has changed
         self._changed = Condition()
         self._newest: Frame | None = None
@@ -202,8 +203,7 @@ class LivePicture:
         if sensor.looked_at is None or monotonic() < self._check:
             return
         self._check = monotonic() + _CHECK
-        if is_another_scene(sensor.looked_at.colour, frame.colour):
-            self.on_change()
+        self.on_check(is_another_scene(sensor.looked_at.colour, frame.colour))
 
     def _complain(self, trouble: str) -> None:
         """Tell of trouble with the camera once, and once that it is over."""
@@ -293,7 +293,8 @@ class SharedSensor:
         """A look of the robot's. SensorError as the sensor raises it."""
         sensor = self._sensor
         if isinstance(sensor, LookingSensor):
-            seen = sensor.look(scans, pointed)
+            with self._reading:
+                seen = sensor.look(scans, pointed)
             self.latest = seen.frame
             self._picture.show(seen.frame)
         else:

@@ -180,10 +180,16 @@ class RobotThread:
         self._thread.submit(self._do_next)
         return found
 
-    def glimpse(self) -> None:
-        """Have it look, without a turn, if nothing else is to be done: the scene is not
-        as it was. Where nothing has moved, it does so less and less often."""
+    def attend(self, is_another: bool) -> None:
+        """Have it look, without a turn, if the scene is another than at its latest look
+        and nothing else is to be done.
+
+        Where that goes on and nothing has moved, it does so less and less often.
+        """
         with self._counting:
+            if not is_another:
+                self._pause = _PAUSE
+                return
             if self._waiting or self._asked or monotonic() < self._may_glimpse:
                 return
             self._may_glimpse = inf

@@ -135,7 +135,7 @@ def serve_page(
         closing.callback(robot.close)
         closing.callback(picture.close)  # before the sensor that it reads
         robot.ask(parse_request({"do": "look"}))
-        picture.on_change = robot.glimpse
+        picture.on_check = robot.attend
         voice = open_voice(feed, robot, terminal.trouble)
         closing.callback(voice.close)
         app = page_app(

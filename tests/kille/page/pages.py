@@ -156,7 +156,7 @@ def page_of(
         insight=Insight(derivation, in_short),
         make_second=None if second is None else second.make,
     )
-    picture.on_change = robot.glimpse
+    picture.on_check = robot.attend
     voice = open_voice(feed, robot, troubles.append, hearing)
     listener = listen("127.0.0.1", 0)
     app = page_app(
