@@ -54,6 +54,40 @@ def test_kill_9_loses_no_lesson_that_was_acknowledged(
         assert hello["run"] != run
 
 
+@pytest.mark.deep
+def test_a_second_robot_begins_with_what_the_first_knows_and_keeps_its_own(
+    start: Start, tmp_path: Path
+) -> None:
+    first = start(*EMPTY)
+    with Browser.connect(first.address) as browser:
+        browser.ask_for("view", do="show", thing="cup")
+        assert browser.say("This is a cup.")["lessons"]
+    first.process.terminate()
+    first.process.wait(60)
+    assert main(["init", str(tmp_path / "own")]) == 0
+    both = start(*EMPTY, "--against", str(tmp_path / "own"))
+    assert "a robot with the theory own" in " ".join(both.said.split())
+    with Browser.connect(both.address) as browser:
+        assert browser.next()["theories"] == ["packaged", "own"]
+        browser.ask_for("beside", do="show", thing="cup")
+        browser.say("What is this?")
+        assert browser.until("beside")["said"] == "This is a cup."
+        assert browser.say("This is a mug.")["lessons"]
+        assert browser.until("beside")["lessons"]
+    both.process.terminate()
+    both.process.wait(60)
+    own = tmp_path / "second.db"
+    kept = start(*EMPTY, "--against", "packaged", "--against-memory", str(own))
+    with Browser.connect(kept.address) as browser:
+        browser.ask_for("beside", do="show", thing="cup")
+        browser.say("This is a jug.")
+        assert browser.until("beside")["failed"] == ""
+    kept.process.terminate()
+    kept.process.wait(60)
+    with Memory.open_to_read(own) as memory:
+        assert memory.counts() == {("object", "jug"): 1}
+
+
 def test_beyond_this_machine_it_speaks_tls_and_needs_a_token(start: Start) -> None:
     program = start(*EMPTY, "--host", "0.0.0.0")
     parts = urlsplit(program.address)
