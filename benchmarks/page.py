@@ -156,12 +156,13 @@ def answer_time(tab: Any) -> float:
 def weight_before_frames(browser: Any, server: Server) -> int:
     """The bytes of all files of the page."""
     tab = browser.new_page()
-    sizes: list[int] = []
-    tab.on("response", lambda it: sizes.append(len(it.body())))
+    sent: list[Any] = []
+    tab.on("response", sent.append)
     tab.goto(server.address)
     tab.locator(".thing").nth(2).wait_for()
+    size = sum(len(it.body()) for it in sent)
     tab.close()
-    return sum(sizes)
+    return size
 
 
 def first_paint(browser: Any, server: Server) -> float:
