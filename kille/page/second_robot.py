@@ -135,21 +135,26 @@ class SecondRobot:
         lived, self._lived = self._lived, []
         self._looks.clear()
         begun = len(self.robot.exchanges)
-        report: Json = {"said": "", "lessons": [], "names": [], "failed": ""}
-        try:
-            for it in lived:
+        failed = ""
+        for it in lived:
+            try:
                 self._live_through(it)
-            turns = self.robot.exchanges[begun:]
-            report["said"] = "\n".join(filter(None, (it.answer for it in turns)))
-            report["lessons"] = lessons_of(turns)
-            report["names"] = names_report(self.robot)
-        except Exception as error:  # its rules are anybody's
-            report["failed"] = " ".join(str(error).split()) or type(error).__name__
-        ended = len(self.robot.exchanges)
-        if begun == ended and not report["failed"]:
+            except Exception as error:  # its rules are anybody's
+                failed = " ".join(str(error).split()) or type(error).__name__
+        turns = self.robot.exchanges[begun:]
+        if not turns and not failed:
             return None
-        self._turns[turn] = (begun, ended)
-        return report
+        self._turns[turn] = begun, begun + len(turns)
+        try:
+            names = names_report(self.robot)
+        except Exception as error:  # so are its meanings
+            names, failed = [], failed or " ".join(str(error).split())
+        return {
+            "said": "\n".join(filter(None, (it.answer for it in turns))),
+            "lessons": lessons_of(turns),
+            "names": names,
+            "failed": failed,
+        }
 
     def turns(self, turn: int) -> Sequence[Exchange]:
         """What it did in the turn of the first robot's that began with this number."""
