@@ -13,6 +13,7 @@ class Phrases(NamedTuple):
     right: str
     wrong: str
     undo: str
+    undo_last: str
     why: str
     call: str
     """To say what "this" is called, with the word in the place of {a_word}."""
@@ -25,6 +26,7 @@ PHRASES = {
         "That is correct.",
         "That is wrong.",
         "Forget that.",
+        "Forget the last thing.",
         "Why?",
         "This is {a_word}.",
     ),
@@ -34,6 +36,7 @@ PHRASES = {
         "Det är rätt.",
         "Det är fel.",
         "Glöm det.",
+        "Glöm det senaste.",
         "Varför?",
         "Det här är {a_word}.",
     ),

@@ -95,6 +95,7 @@ def turn_report(robot: Agent, turns: Iterable[Exchange]) -> Json:
         "answers": answers_to(robot),
         "words": len(robot.state.private.nouns),
         "undo": text.undo if any(it["learned"] for it in lessons) else "",
+        "undo_last": text.undo_last if robot.state.private.lessons else "",
         "why": text.why if robot.state.shared.pending else "",
     }
 

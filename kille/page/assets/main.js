@@ -66,7 +66,7 @@ const connection = new Connection({
     things.settle();
     confirm(event.ref);
     if (event.said) voice.playback.expect(event.id, event.said.split("\n").length);
-    offerUndo(event.undo);
+    offerUndo(event.undo_last);
     lab.add(event);
     talk.turn(event);
     meant = event.said ? event.thing : null;

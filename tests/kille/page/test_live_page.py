@@ -75,7 +75,9 @@ def test_a_lesson_is_heard_answered_and_seen(taught: Page) -> None:
             "That is wrong.",
         ]
         assert browser.say(asked["why"])["said"].startswith("Because")
-        undone = browser.say(turn["undo"])
+        later = browser.say("Hello.")
+        assert (later["undo"], later["undo_last"]) == ("", "Forget the last thing.")
+        undone = browser.say(later["undo_last"])
         assert changed(undone) == [(False, True, "a cup")]
         denied = browser.say("This is not a cup.")
         assert changed(denied) == [(True, False, "a cup")]
