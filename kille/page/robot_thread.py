@@ -6,7 +6,8 @@ it is on disk.
 | event | has |
 | --- | --- |
 | `heard` | what the tutor has said or done, before the robot answers: `says`, `ref`; \
-if it was spoken, `perhaps`: texts with their probabilities |
+if it was spoken, `perhaps`: texts with their probabilities; `arranges`, if it is a \
+change of the scene |
 | `turn` | the turn, as `turn_report` has it; `ms`, how long it took; `ref`; `turns`, \
 the numbers of its exchanges, to look inside |
 | `view` | what is in view after it, as `view_report` has it; `glimpsed`, if no turn \
@@ -277,7 +278,8 @@ class RobotThread:
         if request.shown:
             perhaps = [[it.text, round(it.p, 3)] for it in request.perhaps]
             about = {"perhaps": perhaps} if request.perhaps else {}
-            self._publish("heard", request, says=request.shown, **about)
+            arranges = {"arranges": True} if request.arranges else {}
+            self._publish("heard", request, says=request.shown, **about, **arranges)
         turns, began = len(robot.exchanges), perf_counter()
         self._turns = turns
         self.stepper.begin_turn()

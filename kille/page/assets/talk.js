@@ -38,8 +38,8 @@ export class Talk {
   }
 
   /** What the tutor has said or done. */
-  heard({ ref, says, id, perhaps }) {
-    const turn = el("div", { class: "turn turn--waiting" }, this.bubble("tutor", says));
+  heard({ ref, says, id, perhaps, arranges }) {
+    const turn = el("div", { class: "turn turn--waiting" }, this.bubble(arranges ? "tutor bubble--deed" : "tutor", says));
     this.waiting.set(ref || id, turn);
     this.endLatest();
     this.undo = "";
@@ -145,7 +145,7 @@ export class Talk {
   }
 
   bubble(who, text) {
-    const speaker = t(who === "tutor" ? "you" : "robot");
+    const speaker = t(who.startsWith("tutor") ? "you" : "robot");
     return el("p", { class: `bubble bubble--${who}`, "data-said": text }, el("span", { class: "unseen" }, `${speaker}: `), text);
   }
 
