@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 from ttr.computing.normalisation import normal_form
@@ -62,7 +63,9 @@ def _declarations(source: Source, tokens: tuple[Token, ...]) -> Iterator[Declara
     declaring = [token for token in tokens if token.declares][::-1]
     before = 0
     for start, end in find_statements(text):
-        comment = _comment_above(text[before:start])
+        *above, indent = text[before:start].split("\n")
+        own_lines = above[1:] if before else above  # the first is another's end
+        comment = "" if indent.strip() else comment_above(reversed(own_lines))
         before = end
         while declaring and declaring[-1].start < end:
             token = declaring.pop()
@@ -74,13 +77,17 @@ def _declarations(source: Source, tokens: tuple[Token, ...]) -> Iterator[Declara
             )
 
 
-def _comment_above(text: str) -> str:
-    """What the lines of comment at the end of a text say, up to an empty line."""
-    found = re.search(r"(?:^[ \t]*#[^\n]*\n)+[ \t]*\Z", text, re.MULTILINE)
-    if found is None:
-        return ""
-    lines = (line.strip().lstrip("#").strip() for line in found[0].split("\n"))
-    return "\n".join(line for line in lines if line.strip("-= "))
+def comment_above(lines: Iterable[str]) -> str:
+    """What the lines of comment right above a statement say.
+
+    The lines are given from the bottom up, and none is asked for above the comment.
+
+    >>> comment_above(["  # Animals.", "# ---", "basic Ind", "# Not this."])
+    'Animals.'
+    """
+    comment = takewhile(lambda line: line.startswith("#"), map(str.strip, lines))
+    said = [line.lstrip("#").strip() for line in comment]
+    return "\n".join(line for line in reversed(said) if line.strip("-= "))
 
 
 @dataclass(frozen=True)
