@@ -198,6 +198,7 @@ class HearingProcess:
         self._changed = Condition()
         self._waiting: deque[Message] = deque()
         self._waits, self._closed = 0, False
+        self._is_cut = False
         self._words: tuple[KnownWord, ...] | None = None
         self._sent: tuple[KnownWord, ...] | None = None
         self._process = subprocess.Popen(
@@ -227,17 +228,32 @@ class HearingProcess:
             self._changed.notify()
 
     def take(self, message: Message) -> bool:
-        """Send it sound, in no time; whether it was taken, and not dropped."""
+        """Send it sound, in no time; whether it was taken, and not dropped.
+
+        What is held and has lost a piece is not heard: half of it may be another
+        sentence. Its end is sent all the same, so that the next one begins anew.
+        """
         with self._changed:
             if message.kind == ANEW:
                 self._waiting.clear()
-                self._waits = 0
-            if self._waits + len(message.content) > _MOST_WAITING:
-                return False
-            self._waiting.append(message)
-            self._waits += len(message.content) + 1
-            self._changed.notify()
-        return True
+                self._waits, self._is_cut = 0, False
+            fits = self._waits + len(message.content) <= _MOST_WAITING
+            if message.kind in (HELD, END):
+                self._is_cut = self._is_cut or not fits
+            if message.kind == END and self._is_cut:
+                self._is_cut = fits = False
+                message = Message(ANEW)
+            if fits or message.kind == ANEW:
+                self._enqueue(message)
+        return fits
+
+    def _enqueue(self, message: Message) -> None:
+        """Have a message wait; to begin anew twice is to do it once."""
+        if message.kind == ANEW and self._waiting and self._waiting[-1].kind == ANEW:
+            return
+        self._waiting.append(message)
+        self._waits += len(message.content) + 1
+        self._changed.notify()
 
     def close(self) -> None:
         """End it."""

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import struct
+import sys
 from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from queue import Queue
 from threading import Thread
 from typing import Any
 
@@ -350,3 +354,38 @@ def test_sound_that_nobody_hears_waits_up_to_a_bound(
     assert not taken[-1]
     process.close()
     assert not process.is_alive
+
+
+ECHO = """
+import sys
+open(sys.argv[1]).read()
+from kille.speech.hearing import Heard, _messages
+for message in _messages(sys.stdin.buffer):
+    told = Heard("heard", text=f"{message.kind.decode()}{len(message.content)}")
+    sys.stdout.write(told.to_line())
+    sys.stdout.flush()
+"""
+"""Tells what it is sent, as soon as a file can be read to its end."""
+
+
+def test_what_is_held_is_heard_whole_or_not_at_all(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    gate = tmp_path / "gate"
+    os.mkfifo(gate)
+    monkeypatch.setattr("kille.speech.hearing._BEGIN", ECHO)
+    monkeypatch.setattr("sys.path", [str(gate), *sys.path])
+    told: Queue[str] = Queue()
+    process = HearingProcess(lambda heard: told.put(heard.text))
+    second = Message(HELD, bytes(2 * RATE))
+    taken = [process.take(second) for _ in range(2 * int(WAITING))]
+    assert not process.take(Message(END, bytes(RATE)))
+    for _ in range(100):
+        assert not process.take(Message(END, bytes(2 * RATE))), "no end of waiting"
+    gate.write_text("")
+    sent = [told.get(timeout=60) for _ in range(sum(taken) + 1)]
+    assert sent == [f"H{2 * RATE}"] * sum(taken) + ["N0"]
+    assert process.take(Message(HELD, bytes(6)))
+    assert process.take(Message(END))
+    assert [told.get(timeout=60) for _ in range(2)] == ["H6", "E0"]
+    process.close()
