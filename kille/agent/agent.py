@@ -20,7 +20,11 @@ from kille.agent.attention import (
     NumberedLook,
     is_same_thing,
 )
-from kille.agent.commands import answer_command, meant_command
+from kille.agent.commands import (
+    answer_command,
+    meant_command,
+    normalise_command,
+)
 from kille.agent.dialogue_log import DialogueLog
 from kille.agent.exchanges import (
     Event,
@@ -290,17 +294,19 @@ class Agent(NotebookValue):
         """Carry out a command, as after `@` in `kille talk`; returns what comes of it.
 
         What only asks is answered: `picture`, `why`, `meaning cup`, `trace`, `things`
-        and `help` give what `kille talk` prints. All else is a `change_scene`. Raises
+        and `help` give what `kille talk` prints. All else is a `change_scene`. The @
+        may be there, and the verb begin with a capital. Raises
         `TTRError` for what is misspelt and where there is nothing to show.
 
         >>> with Agent(sensor="synthetic:empty?seed=7") as robot:
         ...     robot.do("help").splitlines()[1]
         '  @ show cup                    only the cup is on the table'
         """
+        command = normalise_command(command)
         answer = answer_command(self, command)
         if answer is not None:
             return answer
-        verb = command.strip().partition(" ")[0]
+        verb = command.partition(" ")[0]
         if near := meant_command(verb) if verb not in _UNTYPED else "":
             raise TTRError(f"there is no command @ {verb}: did you mean @ {near}?")
         return self.change_scene(command)
@@ -441,7 +447,7 @@ class Agent(NotebookValue):
         """
         self.change_scene("glimpse")
         assert self.view is not None
-        return annotated_picture(self.view.look, self.names_in_view())
+        return annotated_picture(self.view.look, self.names_in_view(), self.view.roles)
 
     def _shown_as_(self) -> Part:
         view = self.view
@@ -452,7 +458,7 @@ class Agent(NotebookValue):
             ),
             Text("It has not looked yet.", "quiet")
             if view is None
-            else view_shown(view.look, self.names_in_view(), view.focus),
+            else view_shown(view.look, self.names_in_view(), view.roles),
             exchange_shown(self._latest) if self._latest is not None else None,
             _words_shown([*words(self.state)]),
         )

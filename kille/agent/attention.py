@@ -47,8 +47,14 @@ class NumberedLook(NotebookValue):
     pointed: bool = False
     second: int | None = None
 
+    @property
+    def roles(self) -> dict[int, str]:
+        """What the words "this" and "that" are about, by their numbers."""
+        both = ((self.focus, "this"), (self.second, THAT))
+        return {number: word for number, word in both if number is not None}
+
     def _shown_as_(self) -> Part:
-        return view_shown(self.look, focus=self.focus)
+        return view_shown(self.look, roles=self.roles)
 
 
 @dataclass(frozen=True, eq=False)

@@ -48,15 +48,25 @@ def meant_command(verb: str) -> str:
     return "" if verb in _NAMES else "".join(nearest_names(verb, _NAMES))
 
 
+def normalise_command(typed: str) -> str:
+    """A command as it is looked up: without its @, and its verb in small letters.
+
+    >>> normalise_command(" @ Show  cup"), normalise_command("@")
+    ('show cup', 'help')
+    """
+    verb, _, rest = typed.strip().removeprefix("@").strip().partition(" ")
+    return f"{verb.lower()} {rest.strip()}".strip() or "help"
+
+
 def answer_command(robot: Agent, command: str) -> str | None:
     """What a command that only asks shows; None for one that changes anything.
 
     `picture` and `why` write the picture and say where it is. Raises `TTRError` where
     there is nothing to show, or no place to write it.
     """
-    verb, _, rest = command.strip().partition(" ")
+    verb, _, rest = command.partition(" ")
     ask = _QUESTIONS.get(verb)
-    return None if ask is None else ask(robot, rest.strip())
+    return None if ask is None else ask(robot, rest)
 
 
 def _picture(robot: Agent, file: str) -> str:

@@ -245,13 +245,14 @@ def introduction(robot: Agent) -> str:
 
 
 def things_in_view(view: NumberedLook) -> str:
-    """The numbered things, the place of each, and which one is in focus."""
+    """The numbered things, the place of each, and which are "this" and "that"."""
     percepts = view.look.percepts
     if not percepts:
         return "Nothing is in view."
     count = "One thing is" if len(percepts) == 1 else f"{len(percepts)} things are"
     lines = [f"{count} in view:"]
     for number, percept in enumerate(percepts, start=1):
-        mark = "  ← this" if number == view.focus else ""
+        role = view.roles.get(number)
+        mark = f"  ← {role}" if role else ""
         lines.append(f"  #{number}  {place_in_words(percept.region.place)}{mark}")
     return "\n".join(lines)

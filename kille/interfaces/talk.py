@@ -13,7 +13,7 @@ from threading import Thread
 from typing import Any
 
 from kille.agent.agent import Agent
-from kille.agent.commands import COMMANDS, answer_command
+from kille.agent.commands import COMMANDS, answer_command, normalise_command
 from kille.agent.spoken_turns import answer_hypotheses, tell_uttered
 from kille.agent.story_log import StoryLog
 from kille.agent.story_replay import language_of_file
@@ -273,7 +273,7 @@ class _Conversation:
                 lambda: answer_hypotheses(self._robot, line.perhaps, self._language)
             )
         if line.startswith("@"):
-            return self._command(line[1:].strip())
+            return self._command(line)
         if _POINTING.fullmatch(line) and not self._robot.state.shared.qud:
             return self._command(f"point {line}")
         return self._take_turn(lambda: self._robot.hear(line))
@@ -289,10 +289,11 @@ class _Conversation:
         return answer
 
     def _command(self, command: str) -> str:
-        verb = command.partition(" ")[0] or "help"
+        command = normalise_command(command)
+        verb = command.partition(" ")[0]
         if verb == "trace":
             return self._trace()
-        shown = answer_command(self._robot, command or verb)
+        shown = answer_command(self._robot, command)
         if shown is not None:
             self._print(shown)
             return ""

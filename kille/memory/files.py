@@ -156,6 +156,8 @@ def _make_folder(path: Path) -> None:
             f"{path} cannot be made, since {path.parent} is no folder and cannot "
             f"become one ({error.strerror}): name a file elsewhere with --memory"
         ) from error
+    except ValueError as error:
+        raise _no_path(path) from error
 
 
 def _make_file(path: Path) -> None:
@@ -164,6 +166,15 @@ def _make_file(path: Path) -> None:
     except OSError as error:
         line = explanation(str(path), sqlite3.SQLITE_CANTOPEN)
         raise MemoryFileError(line) from error
+    except ValueError as error:
+        raise _no_path(path) from error
+
+
+def _no_path(path: Path) -> MemoryFileError:
+    """The error for a name that no file can have, such as one with a NUL."""
+    return MemoryFileError(
+        f"{str(path)!r} is no path of a file: name another with --memory"
+    )
 
 
 def _connect(path: Path, mode: Mode) -> sqlite3.Connection:

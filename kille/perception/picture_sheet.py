@@ -6,8 +6,9 @@ warm, no reading is black), the region alone, and its SIFT features.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 import cv2
 import numpy as np
@@ -30,11 +31,15 @@ def picture_sheet(rows: Sequence[tuple[str, Look, int]]) -> Colour:
     return np.vstack([_row(title, look, number) for title, look, number in rows])
 
 
-def overview(look: Look, names: Sequence[str] = ()) -> Colour:
+def overview(
+    look: Look,
+    names: Sequence[str] = (),
+    roles: Mapping[int, str] = MappingProxyType({}),
+) -> Colour:
     """The frame (H, W, 3) RGB with every thing in view outlined and numbered.
 
     Beside the number stands the name of the thing, where one is given that is not
-    empty.
+    empty, and its role by its number, such as "that".
     """
     picture = look.frame.colour.copy()
     for percept in look.percepts:
@@ -42,7 +47,8 @@ def overview(look: Look, names: Sequence[str] = ()) -> Colour:
     labels: list[Box] = []
     size = max(_SMALLEST, picture.shape[1] // _LINES)
     for number, percept in enumerate(look.percepts, start=1):
-        text = " ".join([str(number), *names[number - 1 : number]]).strip()
+        role = [f"({roles[number]})"] if number in roles else []
+        text = " ".join([str(number), *filter(None, names[number - 1 : number]), *role])
         labels.append(write_label(picture, text, percept.region.box, size, labels))
     return picture
 
@@ -53,7 +59,10 @@ def write_picture(path: Path, picture: Colour) -> None:
         encoded = encode_picture(picture, ".png")
     except ValueError as error:
         raise OSError(f"{path}: {error}") from error
-    path.write_bytes(encoded)
+    try:
+        path.write_bytes(encoded)
+    except ValueError as error:  # there is a NUL in it
+        raise OSError("that is no path of a file") from error
 
 
 def encode_picture(picture: Colour, ending: str, settings: Sequence[int] = ()) -> bytes:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import cv2
 import numpy as np
@@ -21,6 +22,8 @@ _QUALITY = 85
 
 _SHOWN_WIDTH = 480
 """How wide a picture stands in a notebook where there is room: pixels of the page."""
+
+_NO_ROLES: Mapping[int, str] = MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,18 +62,28 @@ def figure_of(pixels: Colour, about: str, width: int = _SHOWN_WIDTH) -> Figure:
     return Figure(data, "image/jpeg", about, min(width, wide))
 
 
-def annotated_picture(look: Look, names: Sequence[str] = ()) -> Picture:
-    """A look with every thing in view outlined, numbered and, where known, named."""
+def annotated_picture(
+    look: Look, names: Sequence[str] = (), roles: Mapping[int, str] = _NO_ROLES
+) -> Picture:
+    """A look with every thing in view outlined, numbered and, where known, named.
+
+    `roles` are what things are called by pointing, by their numbers: they are marked
+    where there are two of them, "this" and "that".
+    """
     count = len(look.percepts)
+    marked = roles if len(roles) > 1 else _NO_ROLES
     named = [f"{n} {name}".strip() for n, name in enumerate(names, start=1)]
     things = ", ".join(named) if any(names) else f"{count} of them"
     about = f"things in view: {things}" if count else "nothing is in view"
-    return Picture(overview(look, names), about)
+    about += "".join(f"; {number} is “{role}”" for number, role in marked.items())
+    return Picture(overview(look, names, marked), about)
 
 
-def view_shown(look: Look, names: Sequence[str] = (), focus: int | None = None) -> Part:
-    """A look as its picture above a table of the things in it; one may be "this"."""
-    picture = annotated_picture(look, names)
+def view_shown(
+    look: Look, names: Sequence[str] = (), roles: Mapping[int, str] = _NO_ROLES
+) -> Part:
+    """A look as its picture above a table of the things in it, with their roles."""
+    picture = annotated_picture(look, names, roles)
     if not look.percepts:
         return below(picture._shown_as_(), Text("Nothing is in view.", "quiet"))
     heads = ("", "called", "where", "") if any(names) else ("", "where", "")
@@ -82,7 +95,7 @@ def view_shown(look: Look, names: Sequence[str] = (), focus: int | None = None) 
             Text(f"#{number}", "strong"),
             *([name] if name else []),
             Text(place_in_words(percept.region.place)),
-            Text("this" if number == focus else "", "quiet"),
+            Text(roles.get(number, ""), "quiet"),
         )
 
     numbers = range(1, len(look.percepts) + 1)

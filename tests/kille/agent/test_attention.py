@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from kille.agent.attention import AttentiveSensor, NumberedLook
+from kille.perception.picture_sheet import overview
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
 
@@ -116,9 +117,25 @@ def test_a_second_thing_is_pointed_at_until_what_was_said_is_taken_in() -> None:
     gaze.point("that 3")
     looks = [gaze.look(), gaze.look()]
     assert [(it.focus, it.pointed, it.second) for it in looks] == [(2, True, 3)] * 2
+    assert looks[0].roles == {2: "this", 3: "that"}
     gaze.settle()
     after = gaze.look()
     assert (after.focus, after.pointed, after.second) == (2, False, None)
+    assert after.roles == {2: "this"}
+
+
+def test_a_picture_marks_what_this_and_that_are() -> None:
+    gaze = gaze_at((NEAR, MIDDLE, FAR))
+    one = gaze.look()
+    gaze.point("2")
+    gaze.point("that 3")
+    both = gaze.look()
+    shown = both._repr_html_()
+    assert "2 is “this”; 3 is “that”" in shown
+    assert ">that<" in shown
+    assert "“" not in one._repr_html_()
+    pictures = [overview(both.look, roles=it) for it in ({}, both.roles)]
+    assert not np.array_equal(*pictures)
 
 
 def test_pointing_at_one_thing_drops_the_second() -> None:

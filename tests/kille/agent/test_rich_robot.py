@@ -15,6 +15,7 @@ import ttr
 from kille import Agent
 from kille.agent.commands import COMMANDS
 from kille.lab.results import Estimate, Figure, Result, Table
+from kille.memory import MemoryFileError
 from kille.perception.shown_looks import Picture
 from rich_values import check_html, check_latex
 from ttr import TTRError
@@ -85,11 +86,30 @@ def test_do_answers_what_only_asks(robot: Agent, tmp_path: Path) -> None:
         ("meaning xyzzy", "is not known"),
         ("why", "there is no reason to show"),
         ("picture /nowhere/a.png", "cannot be written to /nowhere/a.png: No such file"),
+        (
+            "picture a\0b.png",
+            r"cannot be written to a\\x00b.png: that is no path",
+        ),
+        ("Pictrue", "no command @ pictrue: did you mean @ picture"),
     ],
 )
 def test_do_says_what_is_wrong(robot: Agent, command: str, said: str) -> None:
     with pytest.raises(TTRError, match=said):
         robot.do(command)
+
+
+@pytest.mark.parametrize("command", ["Show cup", "@ show cup", "  @SHOW  cup "])
+def test_do_takes_a_command_however_it_is_typed(robot: Agent, command: str) -> None:
+    robot.do(command)
+    assert robot.view is not None
+    assert len(robot.view.look.percepts) == 1
+    assert robot.do("@") == robot.do("Help") == COMMANDS
+
+
+def test_a_memory_has_a_name_that_a_file_can_have() -> None:
+    for name in ("a\0b.db", "a\0/b.db"):
+        with pytest.raises(MemoryFileError, match="is no path of a file: name another"):
+            Agent("synthetic:empty", memory=name)
 
 
 def test_commands_from_elsewhere_write_nothing(robot: Agent, tmp_path: Path) -> None:

@@ -78,3 +78,8 @@ def test_things_in_view_have_numbers_and_places() -> None:
     assert first.endswith("straight ahead  ← this")
     assert second.startswith("  #2  ")
     assert second.endswith("cm to the left")
+    gaze.point("2")
+    gaze.point("that 1")
+    _, first, second = things_in_view(gaze.look()).splitlines()
+    assert first.endswith("  ← that")
+    assert second.endswith("  ← this")

@@ -557,6 +557,10 @@ def test_what_a_word_means_is_a_type_on_demand(kille: Run) -> None:
         ("@ mening cup", "there is no command @ mening: did you mean @ meaning?"),
         ("@ pictrue", "there is no command @ pictrue: did you mean @ picture?"),
         ("@ shwo cup", "there is no command @ shwo: did you mean @ show?"),
+        (
+            "@ picture a\0b.png",
+            r"the picture cannot be written to a\x00b.png: that is no path of a file",
+        ),
         ("@ meaning", "@ meaning needs a word: write, for example, @ meaning cup"),
     ],
 )
