@@ -8,6 +8,7 @@ learned; the robot itself learns through its memory only.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from operator import methodcaller
 from typing import Any, Generic, Protocol, Self, TypeVar
 
 from kille.dialogue.meanings import word_of
@@ -15,6 +16,7 @@ from kille.grounding.witness_functions import WitnessFunctions
 from kille.perception.learners import Learner
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
+from kille.perception.relations.shown_templates import templates_shown
 from kille.scene import Configuration
 from ttr import Record
 from ttr.semantics.perceptual import (
@@ -25,6 +27,7 @@ from ttr.semantics.perceptual import (
     learner_params,
     meaning,
 )
+from ttr.showing import Part
 from ttr.types import Path, PType
 
 X = TypeVar("X")
@@ -94,6 +97,9 @@ class SingleRelationLearner(KeylessLearner[Configuration]):
         degrees = self._relations.degrees(x)
         return {word: degrees[word] for word in self.labels}
 
+    def _shown_as_(self) -> Part:
+        return templates_shown(self._relations, self.labels)
+
     def copy(self) -> SingleRelationLearner:
         """A copy that knows the same."""
         return SingleRelationLearner(self._relations.copy(), self._word, self._lessons)
@@ -125,7 +131,7 @@ class WordMeanings:
 
 
 def _params(pupil: KeylessLearner[Any]) -> Record:
-    return learner_params(pupil, copied=KeylessLearner.copy)
+    return learner_params(pupil, copied=methodcaller("copy"))
 
 
 def _meaning(

@@ -27,8 +27,10 @@ from numpy.typing import NDArray
 
 from kille.perception.learners import Key, own_key
 from kille.perception.relations.judgements import Judgements, degrees_at, log_odds
+from kille.perception.relations.shown_templates import templates_shown
 from kille.perception.relations.template_space import space
 from kille.scene import Configuration
+from ttr.showing import NotebookValue, Part
 
 Vector = NDArray[np.float64]
 
@@ -125,8 +127,11 @@ def _fit_of_said(degrees: Vector) -> Vector:
     return fit
 
 
-class RelationMemory:
-    """A learner of spatial words from configurations."""
+class RelationMemory(NotebookValue):
+    """A learner of spatial words from configurations.
+
+    A notebook shows the templates of its words, seen from above.
+    """
 
     def __init__(self) -> None:
         self._heard: dict[Key, SpatialLesson] = {}
@@ -148,6 +153,14 @@ class RelationMemory:
     def labels(self) -> tuple[str, ...]:
         """The learned words in alphabetical order."""
         return tuple(sorted(self._evidence))
+
+    @property
+    def farthest(self) -> float:
+        """The farthest distance in metres of which a word was said; inf if none was."""
+        return self._beliefs.farthest if self._evidence else math.inf
+
+    def _shown_as_(self) -> Part:
+        return templates_shown(self, self.labels)
 
     def learn_one(
         self, x: Configuration, label: str, *, key: Key | None = None

@@ -8,6 +8,7 @@ import pytest
 
 from kille import Agent
 from kille.dialogue.meanings import noun
+from rich_values import check_html
 from ttr import Record, TTRError, box, record
 from ttr.errors import UnsupportedError
 from ttr.probability import UNKNOWN
@@ -137,3 +138,19 @@ def test_what_the_robot_no_longer_sees_is_unknown(robot: Agent) -> None:
 def test_a_word_that_the_robot_does_not_know(robot: Agent) -> None:
     with pytest.raises(TTRError, match="robot has no meaning of 'unicorn'"):
         robot.meaning("unicorn")
+
+
+def test_a_relation_is_judged_and_shown_by_itself_among_several() -> None:
+    with Agent(sensor="synthetic:empty?seed=7", scans=1) as robot:
+        robot.do("place cup at 0 0")
+        robot.hear("This is a cup.")
+        for side in ("left", "right"):
+            robot.do(f"place book {side} of cup")
+            robot.hear("#2 This is a book." if side == "left" else "")
+            robot.hear(f"The book is to the {side} of the cup.")
+        left = robot.meaning("to the left of")
+        assert left.params.labels == ("to_the_left_of",)
+        shown = left._repr_html_()
+        check_html(shown)
+        assert "where “to_the_left_of” holds" in shown
+        assert "to_the_right_of" not in shown

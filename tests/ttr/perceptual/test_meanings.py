@@ -26,6 +26,7 @@ from ttr import (
     this,
 )
 from ttr.building import fix
+from ttr.degree_pictures import CELLS
 from ttr.errors import IllFormedError, UndecidedError, UnsupportedError
 from ttr.probability import UNKNOWN
 from ttr.semantics.perceptual import (
@@ -41,7 +42,6 @@ from ttr.semantics.perceptual import (
     meaning,
     perceive,
 )
-from ttr.semantics.perceptual.degree_maps import CELLS
 from ttr.types import Meet
 
 right = Pred("right", Ind)
@@ -84,16 +84,72 @@ def test_a_meaning_is_a_record_and_prints_as_one(to_the_right):
     assert to_the_right._repr_latex_() == to_the_right.record._repr_latex_()
 
 
+def drawn_of(shown):
+    """The picture in what a notebook shows."""
+    (drawn,) = re.findall(r'svg\+xml;base64,([^"]*)"', html(shown))
+    return ElementTree.fromstring(b64decode(drawn))
+
+
 def test_a_meaning_of_points_shows_where_in_the_plane_it_holds(to_the_right):
     check_html(to_the_right._repr_html_())
-    (drawn,) = re.findall(r'svg\+xml;base64,([^"]*)"', html(to_the_right))
-    squares = ElementTree.fromstring(b64decode(drawn)).findall(".//*[@fill-opacity]")
-    shades = {(it.get("x"), it.get("y")): it.get("fill-opacity") for it in squares}
-    assert len(shades) == CELLS**2
-    rightmost = max(shades, key=lambda at: float(at[0]))[0]
-    leftmost = min(shades, key=lambda at: float(at[0]))[0]
-    assert {shades[at] for at in shades if at[0] == rightmost} == {"1.00"}
-    assert {shades[at] for at in shades if at[0] == leftmost} == {"0.00"}
+    picture = drawn_of(to_the_right)
+    squares = picture.findall(".//*[@fill-opacity]")
+    assert {it.get("fill-opacity") for it in squares} == {"1.00"}
+    cell = float(squares[0].get("height"))
+    ends = [float(it.get("x")) + float(it.get("width")) for it in squares]
+    assert len(ends) == CELLS
+    assert len({*ends}) == 1, "the right edge"
+    covered = sum(float(it.get("width")) for it in squares) / (CELLS * CELLS * cell)
+    assert covered == pytest.approx((1 - 0.09 / 0.8) / 2, abs=0.03)
+
+
+SURE = fun(r=rectype(x=Ind, height=RealVector))(rectype(c=Pred("tall", Ind)(outer.r.x)))
+
+
+class Above:
+    """A number is tall if it is above a threshold; between two, who knows."""
+
+    def confirmed(self, params, x):
+        return params
+
+    rejected = confirmed
+
+    def degree(self, params, x):
+        return (0, 1) if params.t <= x < params.u else float(x >= params.u)
+
+
+@pytest.mark.parametrize(
+    ("method", "params", "border"),
+    [
+        (Perceptron(), record(w=[2.0], t=3.7), "1.85"),
+        (GradedPerceptron(), record(w=[20.0], t=37.0), "1.85"),
+        (GradedPerceptron(), record(w=[-0.1], t=2000.0), "-20000"),
+    ],
+)
+def test_a_meaning_of_a_number_is_a_curve_with_its_border(method, params, border):
+    tall = meaning(SURE, method, params, of="height")
+    check_html(tall._repr_html_())
+    picture = drawn_of(tall)
+    labels = [it.text for it in picture.iter() if it.tag.endswith("text")]
+    assert labels[-5] == border
+    assert f"crosses a half at {border}" in html(tall)
+    ends = float(labels[-4]), float(labels[-3])
+    assert ends[0] < float(border) < ends[1]
+
+
+def test_an_interval_of_degrees_is_a_band():
+    tall = meaning(SURE, Above(), record(t=1.7, u=1.8), of="height")
+    band = drawn_of(tall).find(".//*[@points][@fill-opacity]").get("points").split()
+    upper, lower = band[: len(band) // 2], band[len(band) // 2 :][::-1]
+    apart = [one != other for one, other in zip(upper, lower, strict=True)]
+    assert any(apart)
+    assert not all(apart)
+
+
+def test_a_meaning_that_holds_alike_everywhere_has_no_picture():
+    for w in ([0.0], [0.0] * 3):
+        flat = meaning(SURE, GradedPerceptron(), record(w=w, t=0.1), of="height")
+        assert "svg" not in html(flat)
 
 
 def test_meanings_are_compared_as_records(to_the_right):

@@ -19,9 +19,9 @@ from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
 from ttr.probability import UNKNOWN, Degree, degree
 from ttr.semantics.perceptual.classifiers import Classifier, Method
-from ttr.semantics.perceptual.degree_maps import degree_map
 from ttr.semantics.perceptual.interpretations import claim_of
 from ttr.semantics.perceptual.meaning_form import check_record
+from ttr.semantics.perceptual.pictures import picture_of
 from ttr.semantics.perceptual.vectors import RealVector, is_vector
 from ttr.showing import NotebookValue, Part, Value, beside
 from ttr.types.interning import identity
@@ -78,16 +78,8 @@ class Meaning(NotebookValue):
         return str(self.record)
 
     def _shown_as_(self) -> Part:
-        params = self.params._fields
-        weights = params.get("w")
-        if not (type(weights) is tuple and len(weights) == 2 and len(self.clf.of) == 1):
-            return Value(self.record)
-        try:
-            picture = degree_map(
-                self._degree_of, _reach_of(weights, params), self._word
-            )
-        except TTRError:
-            return Value(self.record)
+        one = len(self.clf.of) == 1 or "learner" in self.params._fields
+        picture = picture_of(self.params, self._degree_of) if one else None
         return beside(Value(self.record), picture)
 
     # --- what it is made of ---
@@ -289,20 +281,6 @@ class Meaning(NotebookValue):
         """The identity of the predicate's arguments in a situation."""
         args = self._ground(self.claim.args, ({}, {BOUND: r}))
         return identity(args)
-
-
-def _reach_of(weights: tuple[Object, ...], params: Mapping[str, Object]) -> float:
-    """How far from zero a picture has to reach to show where w · x is the threshold.
-
-    That is 1, or ten times as much until it does.
-    """
-    t = params.get("t", 0.0)
-    if not all(isinstance(it, int | float) for it in (*weights, t)):
-        return 1.0
-    reach, furthest = 1.0, sum(map(abs, weights))
-    while furthest > 0.0 and abs(t) >= reach * furthest and reach < 1e6:
-        reach *= 10.0
-    return reach
 
 
 def as_meaning(value: object) -> Meaning:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
 import time
+from base64 import b64decode
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -13,6 +16,7 @@ from hypothesis import strategies as st
 from kille.perception.learners import check_learner
 from kille.perception.relations import AngleRule, PaperRelations, RelationMemory
 from kille.scene import Configuration
+from rich_values import check_html
 
 WAYS = {
     "till höger om": (1, 0),
@@ -404,3 +408,27 @@ def test_the_nearest_lesson_is_so_in_what_the_word_means() -> None:
     assert memory.nearest(Configuration((0.1, 0.6, 0.0)), "near") == "far"
     with pytest.raises(KeyError):
         memory.nearest(near, "left")
+
+
+def test_a_notebook_shows_where_words_hold() -> None:
+    memory = RelationMemory()
+    assert "knows no spatial word" in memory._repr_html_()
+    for word, (right, away) in WAYS.items():
+        memory.learn_one(at(0.3 * right, 0.3 * away), word)
+    shown = memory._repr_html_()
+    check_html(shown)
+    pictures = re.findall(r'svg\+xml;base64,([^"]*)" alt="where “([^”]+)” ', shown)
+    assert [word for _, word in pictures] == sorted(WAYS)
+    for drawn, word in pictures:
+        squares = ElementTree.fromstring(b64decode(drawn)).findall(
+            ".//*[@fill-opacity]"
+        )
+        strongest = max(squares, key=lambda it: float(it.get("fill-opacity", 0)))
+        x, y = (
+            float(strongest.get("x", 0)) - 34 - 96,
+            18 + 96 - float(strongest.get("y", 0)),
+        )
+        assert x * WAYS[word][0] + y * WAYS[word][1] > 0
+    for number in range(20):
+        memory.learn_one(at(0.3, 0.0), f"word {number}")
+    assert "… 12 more" in memory._repr_html_()
