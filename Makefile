@@ -46,7 +46,7 @@ deep: $(SENSES) ## the tests that take too long for every day; not a part of tes
 	HYPOTHESIS_PROFILE=$${HYPOTHESIS_PROFILE:-deep} $(SINGLE) \
 	    $(BIN)/pytest -n auto --dist worksteal -m deep -o faulthandler_timeout=0
 
-docs: $(DOCS) ## build the site of the documentation, in site/
+docs: $(DOCS) ## build the site of the documentation, in site/, with the playground
 	@$(BIN)/python -m tools.website
 
 docs-serve: docs ## build it, and show it in a browser at http://127.0.0.1:8000/
@@ -60,7 +60,7 @@ bench: $(SENSES) ## measure how fast things are, on one thread
 	    echo "== $$script"; $(SINGLE) $(BIN)/python "$$script" || exit 1; \
 	done
 
-playground: $(INSTALLED) ## build the page that runs theories in a browser, and serve it
+playground: $(INSTALLED) ## build the page that runs theories in a browser by itself, and serve it
 	@$(BIN)/python -m tools.playground --serve
 
 mutants: $(SENSES) ## see which small mistakes in a room its tests miss: make mutants ROOM=memory

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 from tools.playground.links import LONGEST_FRAGMENT, LONGEST_TEXT
 from tools.playground.pyodide import pyodide_files, wheels
+from tools.playground.texts import theories_in_python
 from ttr.display.html import STYLE
 from ttr.notation.scanning import LETTER, LETTER_OR_DIGIT
 from ttr.notation.syntax_errors import KEYWORDS
@@ -19,15 +22,27 @@ ASSETS = Path(__file__).resolve().parent / "assets"
 THEORIES = ("functions", "gameboard", "collections", "attitudes", "scopes", "mistakes")
 """Which theories of the tests are examples, too."""
 
+_CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+_DOCUMENTATION = "<!-- documentation -->"
+"""Where the page has the link to the documentation."""
+
 _WHEN = (2000, 1, 1, 0, 0, 0)
 
 
-def build(folder: Path) -> None:
-    """Write the playground into a folder; raises `FetchError` without Pyodide."""
+def build(folder: Path, documentation: str = "") -> None:
+    """Write the playground into a folder; raises `FetchError` without Pyodide.
+
+    It links to the front page of the `documentation`, if that is somewhere.
+    """
     for name, data in pyodide_files().items():
         _write(folder / "pyodide" / name, data)
     for file in sorted(ASSETS.iterdir()):
         _write(folder / file.name, file.read_bytes())
+    page = (ASSETS / "index.html").read_text(encoding="utf-8")
+    link = f'<a class="button" href="{documentation}">Documentation</a>'
+    page = page.replace(_DOCUMENTATION, link if documentation else "")
+    _write(folder / "index.html", page.encode())
     icon = ROOT / "kille" / "page" / "assets" / "icon.svg"
     _write(folder / "icon.svg", icon.read_bytes())
     _write(folder / "matrix.css", STYLE.encode())
@@ -76,12 +91,31 @@ def _python() -> bytes:
 
 
 def _examples() -> list[dict[str, str]]:
-    """The examples: name, title and text; the title is the first line's comment."""
+    """The examples: name, group, title and text, as the page lists them."""
+    return [*_examples_of_gallery(), *_examples_in_files()]
+
+
+def _examples_of_gallery() -> Iterator[dict[str, str]]:
+    """The theories of the notebooks, by what these ask."""
+    for page in sorted((ROOT / "docs" / "gallery").glob("*.md")):
+        text = page.read_text(encoding="utf-8")
+        title = re.search(r"^# (.+)$", text, re.MULTILINE)
+        for number, cell in enumerate(_CELL.findall(text)):
+            for theory in theories_in_python(cell):
+                assert title is not None
+                name = f"{page.stem}-{number}"
+                yield _example(name, "Gallery", title[1], theory)
+
+
+def _examples_in_files() -> Iterator[dict[str, str]]:
+    """Theories in files, by the comment in the first line of each."""
     paths = [*sorted((ROOT / "examples").glob("*.ttr"))]
     paths += [ROOT / "tests" / "theories" / f"{name}.ttr" for name in THEORIES]
-    found = []
     for path in paths:
         text = path.read_text(encoding="utf-8")
         first = text.splitlines()[0].lstrip("# ").rstrip(".")
-        found.append({"name": path.stem, "title": first, "text": text})
-    return found
+        yield _example(path.stem, "Files", first, text)
+
+
+def _example(name: str, group: str, title: str, text: str) -> dict[str, str]:
+    return {"name": name, "group": group, "title": title, "text": text}

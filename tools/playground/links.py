@@ -12,7 +12,9 @@ LONGEST_FRAGMENT = 20_000
 LONGEST_TEXT = 100_000
 """How many bytes the text in a fragment may have."""
 
-_START = "t="
+LINK_START = "t="
+"""How a fragment begins that is a theory."""
+
 _RAW = -15
 """The window of a deflate stream without header and checksum (RFC 1951)."""
 
@@ -36,7 +38,7 @@ def link_fragment(text: str) -> str:
     said = text.encode()
     packer = zlib.compressobj(9, zlib.DEFLATED, _RAW)
     packed = packer.compress(said) + packer.flush()
-    fragment = _START + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+    fragment = LINK_START + base64.urlsafe_b64encode(packed).decode().rstrip("=")
     if len(said) > LONGEST_TEXT or len(fragment) > LONGEST_FRAGMENT:
         raise LinkError(
             f"the theory is too long for a link: at most {LONGEST_FRAGMENT:,} "
@@ -47,7 +49,7 @@ def link_fragment(text: str) -> str:
 
 def text_of_fragment(fragment: str) -> str:
     """The theory in a fragment; raises `LinkError` where there is none."""
-    packed = fragment.removeprefix(_START)
+    packed = fragment.removeprefix(LINK_START)
     if packed == fragment or len(fragment) > LONGEST_FRAGMENT:
         raise LinkError("the link has no theory in it, or is too long")
     try:

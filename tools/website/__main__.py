@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import argparse
+import shutil
 import sys
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 from sphinx.cmd.build import main as sphinx
 
+from tools.playground.building import build as build_playground
+from tools.playground.pyodide import FetchError
+from tools.playground.serving import server_of
 from tools.website.composing import compose
 from tools.website.html_check import compact, lost_links
+from tools.website.playground_links import HAS_PLAYGROUND
 from tools.website.public_names import ROOT
 from tools.website.source_pages import write_source_pages
 
@@ -20,8 +23,12 @@ WORK = ROOT / "build" / "website"
 
 
 def build(site: Path = SITE, work: Path = WORK) -> int:
-    """Builds the site; 0 if nothing is wrong with it."""
-    files = compose(work / "pages")
+    """Builds the site; 0 if nothing is wrong with it.
+
+    Where Pyodide cannot be had, it is built without the playground, and says so.
+    """
+    has_playground = add_playground(site)
+    files = compose(work / "pages", has_playground)
     status = sphinx(
         [
             *(
@@ -33,6 +40,7 @@ def build(site: Path = SITE, work: Path = WORK) -> int:
                 str(work / "doctrees"),
             ),
             *("-j", "2", "-q", "-W", "--keep-going"),
+            *("-D", f"{HAS_PLAYGROUND}={int(has_playground)}"),
             *(str(work / "pages"), str(site)),
         ]
     )
@@ -42,22 +50,41 @@ def build(site: Path = SITE, work: Path = WORK) -> int:
         text = page.read_text("utf-8")
         if (shorter := compact(text)) != text:
             page.write_text(shorter, encoding="utf-8")
-    write_source_pages(files, site / "source")
+    write_source_pages(files, site / "source", has_playground)
     lost = lost_links(site)
     for name, links in lost.items():
         print(f"{name}: nothing is at {', '.join(links)}", file=sys.stderr)
     return 1 if lost else 0
 
 
-def serve(site: Path = SITE, port: int = 8000) -> None:
-    """Serves the site to this computer alone, until Ctrl-C."""
-    handler = partial(SimpleHTTPRequestHandler, directory=str(site))
-    with ThreadingHTTPServer(("127.0.0.1", port), handler) as server:
+def add_playground(site: Path) -> bool:
+    """Builds the playground into the site; whether it could be built."""
+    folder = site / "playground"
+    try:
+        build_playground(folder, documentation="../index.html")
+    except FetchError as error:
+        shutil.rmtree(folder, ignore_errors=True)
+        print(f"The site has no playground: {error}", file=sys.stderr)
+        return False
+    return True
+
+
+def serve(site: Path = SITE, port: int = 8000) -> int:
+    """Serves the site to this computer alone, until Ctrl-C; the exit code."""
+    try:
+        server = server_of(site, port)
+    except OSError as error:
+        print(
+            f"port {port}: {error.strerror}: choose another by --port", file=sys.stderr
+        )
+        return 1
+    with server:
         print(f"The site is at http://127.0.0.1:{server.server_port}/ until Ctrl-C.")
         try:
             server.serve_forever()
         except KeyboardInterrupt:
             print()
+    return 0
 
 
 def main() -> int:
@@ -69,8 +96,7 @@ def main() -> int:
     parser.add_argument("--port", type=int, default=8000, help="of serve; 0: any")
     given = parser.parse_args()
     if given.what == "serve":
-        serve(port=given.port)
-        return 0
+        return serve(port=given.port)
     status = build()
     if not status:
         print(f"The site is in {SITE.name}/: open {SITE.name}/index.html.")

@@ -46,7 +46,7 @@ _MADE = ("api/", "decisions/", "games/")
 """Pages that an index of theirs lists, and not the list of contents at the side."""
 
 
-def compose(folder: Path) -> set[Path]:
+def compose(folder: Path, has_playground: bool = False) -> set[Path]:
     """Writes the pages into a folder; gives the files of the repository they link to.
 
     A page that is as it was is not written, so that Sphinx reads only what is new.
@@ -54,7 +54,7 @@ def compose(folder: Path) -> set[Path]:
     pages = Pages(cited_as())
     made = {**_repository(pages), **_sections(), **api_pages(), **game_pages()}
     made["reference/bibliography"] = BIBLIOGRAPHY
-    made["index"] = _front()
+    made["index"] = _front(has_playground)
     folder.mkdir(parents=True, exist_ok=True)
     written = {Path(f"{name}.md") for name in made}
     for old in folder.rglob("*.md"):
@@ -132,34 +132,19 @@ def _card(name: str, section: str) -> str:
     return f"**[{title_of(text)}]({target}.md)**\n: {said}\n"
 
 
-def _front() -> str:
-    """The front page, with ways to what there is."""
-    text = FRONT.read_text("utf-8")
-    for word, (page, link) in _WAYS.items():
-        there = (DOCS / page).is_file()
-        text = text.replace(f"{word}\n", f"{link}\n" if there else "")
+def _front(has_playground: bool) -> str:
+    """The front page; its way to the playground leads to it, if there is one."""
+    there = "playground/index.html" if has_playground else _ABOUT_PLAYGROUND
+    text = FRONT.read_text("utf-8").replace("PLAYGROUND", there)
     return text + _contents()
 
 
-_WAYS = {
-    "GALLERY": (
-        "gallery/index.md",
-        '<a href="gallery/index.html"><b>Gallery</b> Notebooks, a question each:'
-        " what is a cup, what does most dogs mean?</a>",
-    ),
-    "PLAYGROUND": (
-        "playground.md",
-        '<a href="playground.html"><b>Playground</b> Write a theory in the browser,'
-        " without installing anything.</a>",
-    ),
-}
+_ABOUT_PLAYGROUND = "how-to/run-a-theory-in-a-browser.html"
 
 
 def _contents() -> str:
     """What stands in the list of contents at the side."""
-    gallery = ["gallery/index"] if (DOCS / "gallery" / "index.md").is_file() else []
-    play = ["playground"] if (DOCS / "playground.md").is_file() else []
-    main = ["tutorial", *gallery, *play, "how-to/index", "explanation/index"]
+    main = ["tutorial", "gallery/index", "how-to/index", "explanation/index"]
     project = ["architecture", "contributing", "changelog", "security"]
     return _toctree([*main, "reference/index", "decisions/README"]) + _toctree(
         project, "The project"

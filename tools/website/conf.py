@@ -13,6 +13,7 @@ from sphinx.addnodes import pending_xref
 from sphinx.application import Sphinx
 
 from tools.website.api_pages import page_of
+from tools.website.playground_links import HAS_PLAYGROUND, add_playground_links
 from tools.website.public_names import known_paths, public_rooms
 
 HERE = Path(__file__).parent
@@ -88,6 +89,8 @@ def setup(app: Sphinx) -> dict[str, bool]:
             app.add_lexer(name, TextLexer)
     app.connect("doctree-read", leave_foreign_names)
     app.connect("html-page-context", add_room)
+    app.add_config_value(HAS_PLAYGROUND, False, "html", bool)
+    app.connect("doctree-resolved", add_playground_links)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 

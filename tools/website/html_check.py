@@ -9,6 +9,8 @@ from html import unescape
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+from tools.playground.links import LINK_START
+
 _TAG = re.compile(r"<[a-zA-Z][^<>]*>")
 _LED_TO = re.compile(r"""\s(?:href|src)=(?:"([^"]*)"|'([^']*)')""")
 _NAMED = re.compile(r"""\s(?:id|name)=(?:"([^"]*)"|'([^']*)')""")
@@ -38,6 +40,7 @@ def _broken_links(page: Path, folder: Path) -> Iterator[str]:
             or not target.is_file()
             or (
                 target.suffix == ".html"
+                and not parts.fragment.startswith(LINK_START)
                 and unquote(parts.fragment) not in _parts(target)[1]
             )
         ):

@@ -15,6 +15,8 @@ from pygments.lexers import TextLexer, get_lexer_for_filename
 from pygments.token import Name, Operator, Punctuation, Token, Whitespace
 from pygments.util import ClassNotFound
 
+from tools.playground.texts import needs_files
+from tools.website.playground_links import playground_link
 from tools.website.public_names import ROOT
 
 _PAGE = """\
@@ -49,11 +51,16 @@ def with_folders(files: Iterable[Path]) -> set[Path]:
     return found
 
 
-def write_source_pages(files: Iterable[Path], folder: Path) -> int:
-    """Writes a page for each file, and one for each folder that has any; how many."""
+def write_source_pages(
+    files: Iterable[Path], folder: Path, has_playground: bool = False
+) -> int:
+    """Writes a page for each file, and one for each folder that has any; how many.
+
+    Pages of theories link to the playground, if there is one.
+    """
     files = sorted(with_folders(files))
     folders = {parent for it in files for parent in it.parents}
-    pages = [(f"{it}.html", file_page(it)) for it in files]
+    pages = [(f"{it}.html", file_page(it, has_playground)) for it in files]
     pages += [(f"{it}/index.html", _folder_page(it, files, folders)) for it in folders]
     for name, text in pages:
         target = folder / name
@@ -62,7 +69,7 @@ def write_source_pages(files: Iterable[Path], folder: Path) -> int:
     return len(pages)
 
 
-def file_page(file: Path) -> str:
+def file_page(file: Path, has_playground: bool = False) -> str:
     """The page of a file, its lines and the names that it defines to be linked to."""
     text = (ROOT / file).read_text("utf-8", errors="replace")
     lexer = _lexer(file.name)
@@ -70,10 +77,12 @@ def file_page(file: Path) -> str:
     names = {line: name for name, line in _definitions(file, text)}
     lines = highlight(text, lexer, HtmlFormatter(nowrap=True)).splitlines()
     body = "\n".join(_line(i, it, names.get(i)) for i, it in enumerate(lines, 1))
+    runs = has_playground and file.suffix == ".ttr" and not needs_files(text)
+    depth = len(file.parts)
     return _PAGE.format(
         title=escape(file.as_posix()),
-        up="../" * (len(file.parts)),
-        trail=_trail(file),
+        up="../" * depth,
+        trail=_trail(file) + f" {playground_link(text, depth)}" * runs,
         body=f"<pre>{body}</pre>",
     )
 

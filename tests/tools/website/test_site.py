@@ -6,21 +6,29 @@ import doctest
 import random
 import re
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
 pytest.importorskip("sphinx", reason="Sphinx is not installed: kille[docs]")
 
+from docutils import nodes
+from docutils.utils import new_document
+
 import kille
 import ttr
 from browsers import IN_BROWSER
-from tools.website.__main__ import build
+from tools.playground.links import text_of_fragment
+from tools.playground.pyodide import FetchError
+from tools.website.__main__ import add_playground, build
 from tools.website.api_pages import api_pages, page_of
 from tools.website.bibliography import cited_as
 from tools.website.docstrings import docstring_as_myst, has_example
 from tools.website.html_check import compact, lost_links
+from tools.website.playground_links import HAS_PLAYGROUND, add_playground_links
 from tools.website.public_names import ROOT, PublicName, public_names, public_rooms
+from tools.website.source_pages import file_page
 
 
 def test_every_public_name_has_a_page_and_every_room_an_index() -> None:
@@ -91,6 +99,61 @@ def test_the_citation_has_what_cff_asks_for() -> None:
     assert f'license = "{keys["license"].strip()}"' in project
 
 
+@pytest.mark.parametrize(
+    ("language", "code", "opened"),
+    [
+        ("ttr", "basic Ind", ["basic Ind"]),
+        ("ttr", "rule x", []),
+        ("text", "basic Ind", []),
+        ("pycon", '>>> T = ttr.Theory.parse("""\n...   basic A\n... """)', ["basic A"]),
+        ("ipython3", "r = 'basic B'\nTheory.parse('basic A; ' + r)", []),
+        (
+            "ipython3",
+            "r = 'basic B'\nTheory.parse('basic A\\n' + r)",
+            ["basic A\nbasic B"],
+        ),
+        ("python", "Theory.parse(text)", []),
+        ("python", "%magic Theory.parse('basic A')", []),
+    ],
+)
+def test_a_block_that_is_a_theory_opens_in_the_playground(
+    language: str, code: str, opened: list[str]
+) -> None:
+    block = nodes.literal_block(code, code, language=language)
+    page = new_document("page")
+    page += block
+    app = SimpleNamespace(config={HAS_PLAYGROUND: True})
+    add_playground_links(cast(Any, app), page, "how-to/page")
+    links = "".join(it.astext() for it in page.findall(nodes.raw))
+    found = re.findall(r'href="\.\./playground/index\.html#([^"]+)"', links)
+    assert [text_of_fragment(it) for it in found] == opened
+
+
+def test_without_a_playground_nothing_links_to_it() -> None:
+    page = new_document("page")
+    page += nodes.literal_block("basic A", "basic A", language="ttr")
+    app = SimpleNamespace(config={HAS_PLAYGROUND: False})
+    add_playground_links(cast(Any, app), page, "page")
+    assert not list(page.findall(nodes.raw))
+    kennel = Path("examples/kennel.ttr")
+    assert "Open in the playground" not in file_page(kennel)
+    assert "Open in the playground" in file_page(kennel, has_playground=True)
+
+
+def test_without_pyodide_the_site_has_no_playground(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fail(_: Path, documentation: str) -> None:
+        raise FetchError(f"no network for {documentation}")
+
+    monkeypatch.setattr("tools.website.__main__.build_playground", fail)
+    (tmp_path / "playground").mkdir()
+    assert not add_playground(tmp_path)
+    assert not (tmp_path / "playground").exists()
+    said = capsys.readouterr().err
+    assert said == "The site has no playground: no network for ../index.html\n"
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The whole site, built without a warning and without a lost link."""
@@ -106,7 +169,8 @@ def test_the_whole_site_is_built_and_not_large(site: Path) -> None:
 
 
 def random_pages(site: Path) -> list[Path]:
-    pages = sorted(site.rglob("*.html"))
+    every = sorted(site.rglob("*.html"))
+    pages = [it for it in every if it.parent.name != "playground"]  # has to be served
     return [site / "index.html", *random.Random(26).sample(pages, 100)]
 
 

@@ -170,7 +170,10 @@ async function openLink() {
 editor.onChange(() => complain());
 window.addEventListener("hashchange", () => location.hash && openLink());
 examples = await (await fetch("examples.json")).json();
-byId("examples").append(...examples.map((it) => el("option", { value: it.name }, it.title)));
+for (const group of new Set(examples.map((it) => it.group))) {
+  const inside = examples.filter((it) => it.group === group);
+  byId("examples").append(el("optgroup", { label: group }, ...inside.map((it) => el("option", { value: it.name }, it.title))));
+}
 if (location.hash) openLink();
 else open(examples.find((it) => it.name === "kennel").text);
 
