@@ -6,16 +6,24 @@ import re
 import warnings
 from dataclasses import dataclass, replace
 from html import unescape
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 
 import pytest
 
 import ttr
 from rich_values import HOSTILE, check_html, check_latex
-from ttr import Basic, Ind, Model, Pred, Theory, record, rectype, subtype, this
+from ttr import Basic, Ind, Model, Pred, Theory, check, record, rectype, subtype, this
+from ttr.dialogues.dialogue import play as play_all
+from ttr.dialogues.logs import read_logs, replay, write_log
+from ttr.dialogues.stories import Setting
+from ttr.dialogues.stories import play as play_story
+from ttr.dialogues.stories.story_reader import stories_of_text
 from ttr.display.room import room_for
 from ttr.errors import IllFormedError
 from ttr.showing import Below, Figure, Fold, NotebookValue, Part, Value
+from ttr.testing import Coverage, Property, Suite
 from ttr.types.records import find_differences
 from ttr.updates import NBest, rule
 from ttr.updates.games import Game
@@ -48,6 +56,40 @@ PERHAPS = GAME.take(GAME.begin(), NBest((("fido", 0.6), ("sam", 0.3))))
 JUDGED = MODEL.judge(record(x="fido", c="s2"), KENNEL.Dog)
 REFUTED = subtype(KENNEL.Dog, KENNEL.Hugging, KENNEL)
 
+NEVER = Property("P99", "never", "Nobody says <b>.", lambda *_: iter([(1, "<b>")]))
+
+
+def _told() -> dict[str, NotebookValue]:
+    """Stories, logs and reports about a game."""
+    setting = Setting.of(GAME, KENNEL, "kennel.ttr talk")
+    text = "--- <b>hello</b>\n@ game kennel.ttr talk\nU> fido\nS>\n{}"
+    good, bad = (
+        stories_of_text(text.format(more), Path("hello.dlg"))[0]
+        for more in ("= s : [addr : Ind]", "= s : [addr = sam : Ind]\nS> Woof.")
+    )
+    with TemporaryDirectory() as folder:
+        file = Path(folder, "talk.jsonl")
+        dialogue = play_all(GAME, ["fido", "sam"])
+        write_log(file, [replace(dialogue, place=setting, title="<b>")])
+        (log,) = read_logs(file)
+    moved = replace(log, entries=(replace(log.entries[0], state="{}"),))
+    failing = Suite(GAME, properties=(NEVER,), examples=2).run()
+    return {
+        "story": good,
+        "story as played": play_story(good, setting),
+        "story that differs": play_story(bad, setting),
+        "mismatch": play_story(bad, setting).mismatch,
+        "log": log,
+        "log replayed": replay(log, setting),
+        "log that differs": replay(moved, setting),
+        "checks": check(KENNEL),
+        "checks that fail": check(Theory.parse("basic A, B\ncheck A <= B")),
+        "properties": Suite(GAME, examples=2).run(),
+        "properties that break": failing,
+        "coverage": failing.coverage,
+    }
+
+
 VALUES = {
     "theory": KENNEL,
     "empty theory": Theory(),
@@ -64,8 +106,10 @@ VALUES = {
     "turn with alternatives": PERHAPS,
     "run": TURN.run,
     "step": TURN.trace[0],
+    **_told(),
     "several": ttr.show([KENNEL.Dog, "fido"], {"why": JUDGED.why, "game": GAME}),
 }
+
 
 every_value = pytest.mark.parametrize("value", VALUES.values(), ids=VALUES.keys())
 
@@ -129,6 +173,26 @@ def test_a_turn_shows_what_each_rule_changed() -> None:
     assert "with a = sam" in shown
     assert "heard + fido" in shown
     assert "spkr fido sam" in shown
+
+
+def test_a_story_shows_its_lines_and_where_it_differs() -> None:
+    assert "<b>hello</b>" in plain(VALUES["story"])
+    assert "✓" not in plain(VALUES["story as played"])  # the style has the sign
+    assert "played as it is written" in plain(VALUES["story as played"])
+    differs = plain(VALUES["story that differs"])
+    assert "differs from hello.dlg:5 on" in differs
+    assert "expected: [addr = sam : Ind]" in differs
+    assert "replayed as it was" in plain(VALUES["log replayed"])
+    assert "differs at" in plain(VALUES["log that differs"])
+
+
+def test_a_report_shows_what_breaks_and_what_was_covered() -> None:
+    assert "1 check holds" in plain(VALUES["checks"])
+    assert "failed: check A <= B" in plain(VALUES["checks that fail"])
+    broken = plain(VALUES["properties that break"])
+    assert "Nobody says <b>." in broken
+    assert "a dialogue in talk" in broken
+    assert "never applied" in plain(Coverage(GAME))
 
 
 def test_a_turn_shows_alternatives_with_their_probabilities() -> None:

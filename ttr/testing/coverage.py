@@ -9,11 +9,12 @@ from itertools import pairwise
 
 from ttr.aliases import Alias
 from ttr.dialogues.dialogue import Dialogue
+from ttr.showing import NotebookValue, Part, Text, Tone, below, count_of, table
 from ttr.updates.games import Game
 
 
 @dataclass
-class Coverage:
+class Coverage(NotebookValue):
     """Counts of the dialogues, turns, rules and pairs of rules of one game.
 
     A pair (r, s) counts how often s was applied right after r in a turn. `add` counts
@@ -85,6 +86,19 @@ class Coverage:
         most = sorted(after, key=lambda then: (-after[then], then))[:3]
         rest = f" and {len(after) - 3} more" if len(after) > 3 else ""
         return ", ".join(f"{then} {after[then]}" for then in most) + rest
+
+    def _shown_as_(self) -> Part:
+        def row(name: str) -> tuple[Part, ...]:
+            n = self.rules[name]
+            follow = self._most_frequent_successors(name)
+            tone: Tone = "plain" if n else "no"
+            return Text(name, "strong"), Text(f"{n:,}"), Text(follow, tone)
+
+        played = count_of(self.turns, "turn"), count_of(self.dialogues, "dialogue")
+        return below(
+            table(("rule", "applied", "most often followed by"), self.names, row),
+            Text(" of ".join(played), "quiet"),
+        )
 
     def facts(self) -> Mapping[str, object]:
         """The counts as plain data."""

@@ -15,6 +15,7 @@ from ttr.dialogues.stories import Setting
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
 from ttr.judging.models import Model, as_model
+from ttr.showing import Fold, NotebookValue, Part, Text, below, count_of
 from ttr.testing.coverage import Coverage
 from ttr.testing.failure_story import story
 from ttr.testing.properties.catalogue import ALL, OF_GAMES, OF_ONE_RULE
@@ -38,7 +39,7 @@ Starts = st.SearchStrategy[tuple[Record, Model]]
 
 
 @dataclass(frozen=True)
-class Report:
+class Report(NotebookValue):
     """The result of testing: static faults, or the shortest dialogue that fails.
 
     `coverage` is what the dialogues covered, `roles` which field played which role;
@@ -63,6 +64,21 @@ class Report:
         return self.explain_failure() or self.coverage.table()
 
     told = Alias("explain_failure")
+
+    def _shown_as_(self) -> Part:
+        count = count_of(self.coverage.dialogues, "dialogue")
+        broken = self.broken
+        return below(
+            Text(
+                f"nothing is wrong in {count}" if self.holds else "it breaks",
+                "yes" if self.holds else "no",
+            ),
+            *[Text(f"{it.severity}: {it}", "code") for it in self.faults],
+            None if broken is None else Text(str(broken.why)),
+            None if broken is None else broken.dialogue._shown_as_(),
+            *[Text(f"{one}: {one.says}\n{why}") for one, why in self.overall],
+            Fold("what was covered", self.coverage._shown_as_(), opened=self.holds),
+        )
 
     def explain_failure(self, place: Setting | None = None) -> str:
         """What went wrong, with the story that shows it; empty if nothing did."""

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ttr.showing import NotebookValue, Part, Text, below
 from ttr.theories.queries import Check
 from ttr.updates.checks import Fault
 
 
 @dataclass(frozen=True)
-class Failure:
+class Failure(NotebookValue):
     """A check that does not hold: what was expected, what was found, and why."""
 
     check: Check
     found: str
     why: str
+
+    def _shown_as_(self) -> Part:
+        return Text(str(self), "code")
 
     def __str__(self) -> str:
         """The failure as `ttr check` prints it.
@@ -43,7 +47,7 @@ class Failure:
 
 
 @dataclass(frozen=True)
-class Report:
+class Report(NotebookValue):
     """The outcome of checking a theory.
 
     `asked` is the number of checks, `failures` has those that failed; `rules` is the
@@ -54,6 +58,10 @@ class Report:
     failures: tuple[Failure, ...]
     rules: int = 0
     faults: tuple[Fault, ...] = ()
+
+    def _shown_as_(self) -> Part:
+        told = [Text(it, "code") for it in self.messages]
+        return below(Text(self.summary, "yes" if self.holds else "no"), *told)
 
     @property
     def holds(self) -> bool:

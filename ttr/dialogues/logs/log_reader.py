@@ -20,6 +20,7 @@ from ttr.errors import TTRError
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import parse_json, read_bytes
 from ttr.safety.limits import LINE, LOG
+from ttr.showing import Fold, NotebookValue, Part, Text, below, table
 
 
 class UnreadableLogError(LogError):
@@ -27,7 +28,7 @@ class UnreadableLogError(LogError):
 
 
 @dataclass(frozen=True)
-class Log:
+class Log(NotebookValue):
     """A dialogue in a log: its header and turns, and where they are.
 
     `number` is the line of the header. `cut` says where the log is cut off in the
@@ -59,6 +60,26 @@ class Log:
         """The file, the line and the number of a turn; the start is turn 0."""
         where = f"{self.file}:{self.number + turn}"
         return f"{where}: turn {turn}" if turn else f"{where}: the start"
+
+    def _shown_as_(self) -> Part:
+        def row(entry: Entry) -> tuple[Part, ...]:
+            names = [str(it["rule"]) for it in entry.rules if "rule" in it]
+            return (
+                Text(str(entry.turn), "quiet"),
+                below(
+                    Text(entry.line, "strong"),
+                    *[Text(f"S> {words}") for _, words in entry.said],
+                ),
+                Text(", ".join(names), "quiet"),
+                Fold("the state", Text(entry.state, "code")),
+            )
+
+        title = self.header.title or f"a dialogue in {self.header.game}"
+        return below(
+            Text(title, "strong"),
+            table(("", "turn", "rules", ""), self.entries, row),
+            Text(self.cut, "no") if self.cut else None,
+        )
 
     def until(self, turn: int) -> Log:
         """The log as it was after a turn."""

@@ -17,6 +17,7 @@ from ttr.dialogues.settings import Setting
 from ttr.dialogues.stories.story_writer import format_story, turn_lines
 from ttr.errors import TTRError
 from ttr.probability import Degree
+from ttr.showing import NotebookValue, Part, Text, below
 from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
 from ttr.types.records import differences, value_at
@@ -25,13 +26,16 @@ from ttr.updates import Run, Step, Turn, nbest
 
 
 @dataclass(frozen=True)
-class Divergence:
+class Divergence(NotebookValue):
     """The first difference of a log and its replay: what differs, and both values."""
 
     place: str
     what: str
     logged: str
     found: str
+
+    def _shown_as_(self) -> Part:
+        return Text(str(self), "code")
 
     def __str__(self) -> str:
         return (
@@ -42,7 +46,7 @@ class Divergence:
 
 
 @dataclass(frozen=True)
-class Replayed:
+class Replayed(NotebookValue):
     """A log that was replayed: the dialogue, and where it differs, if it does.
 
     It ends with the first turn that differs.
@@ -54,6 +58,13 @@ class Replayed:
     start = Alias("dialogue.start")
     moments = Alias("dialogue.trials")
     run = Alias("dialogue.now")
+
+    def _shown_as_(self) -> Part:
+        if self.divergence is None:
+            verdict = Text("replayed as it was", "yes")
+        else:
+            verdict = Text(f"differs at {self.divergence.place}", "no")
+        return below(verdict, self.dialogue._shown_as_())
 
 
 def replay(log: Log, setting: Setting, *, from_: int = 0) -> Replayed:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 
 from ttr.dialogues.stories.story_reader import Line
+from ttr.showing import NotebookValue, Part, Text
 from ttr.updates import Step
 
 SILENCE = "silence"
@@ -18,7 +19,7 @@ _WIDTH = 100
 
 
 @dataclass(frozen=True)
-class Mismatch:
+class Mismatch(NotebookValue):
     """A line of a story that differs from what was played: `expected` and `found`.
 
     `trace` has the rules that ran in the turn before.
@@ -28,6 +29,9 @@ class Mismatch:
     expected: str
     found: str
     trace: tuple[Step, ...] = ()
+
+    def _shown_as_(self) -> Part:
+        return Text(str(self), "code")
 
     def __str__(self) -> str:
         """The place, both texts with their different words marked, and the trace."""

@@ -17,6 +17,7 @@ from ttr.dialogues.stories.story_reader import Line, Story
 from ttr.errors import NotHeardError, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.probability import CERTAIN
+from ttr.showing import NotebookValue, Part, Text, below
 from ttr.types.printing import notation
 from ttr.updates import Step
 
@@ -27,7 +28,7 @@ _Said = tuple[Judgement, str]
 
 
 @dataclass(frozen=True)
-class Played:
+class Played(NotebookValue):
     """A story that was played: the dialogue, and where it differs, if it does.
 
     It ends where it first differs.
@@ -40,6 +41,14 @@ class Played:
     setting = Alias("dialogue.setting")
     start = Alias("dialogue.start")
     moments = Alias("dialogue.trials")
+
+    def _shown_as_(self) -> Part:
+        wrong = self.mismatch
+        if wrong is None:
+            verdict = Text("played as it is written", "yes")
+        else:
+            verdict = Text(f"differs from {wrong.line.place} on", "no")
+        return below(verdict, self.dialogue._shown_as_())
 
 
 def play(

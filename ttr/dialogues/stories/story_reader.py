@@ -20,8 +20,18 @@ from ttr.errors import Span
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import STORIES
+from ttr.showing import NotebookValue, Part, Text, Tone, below, table
 
 MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
+
+_TONES: dict[str, Tone] = {
+    **dict.fromkeys(MARKS, "plain"),
+    "U>": "strong",
+    "U~": "strong",
+    "@": "quiet",
+    "=": "code",
+}
+"""How lines are set in a notebook, by their marks."""
 
 COMMENT = re.compile(r"\s#(?:\s|$)")
 """The start of a comment behind the text of a line."""
@@ -59,12 +69,19 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Story:
+class Story(NotebookValue):
     """A dialogue with a title; `game` is the line that names its game, if any."""
 
     title: str
     lines: tuple[Line, ...]
     game: Line | None = None
+
+    def _shown_as_(self) -> Part:
+        def row(line: Line) -> tuple[Part, ...]:
+            return Text(line.mark, "quiet"), Text(line.text, _TONES[line.mark])
+
+        inside = [it for it in self.lines if it.mark != "---"]
+        return below(Text(self.title, "strong"), table(("", ""), inside, row))
 
 
 def read_stories(path: Path) -> tuple[Story, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
+from typing import Any
 
 from ttr.degree_pictures import POINTS, Interval, degree_curve, degree_map
 from ttr.errors import TTRError
@@ -31,12 +32,12 @@ def picture_of(params: Record, degree: Judge) -> Part | None:
     How many numbers a percept has is told by the parameters: as many as the first
     vector in them, or a number if they are numbers themselves.
     """
-    learner = getattr(params._fields.get("learner"), "learner", None)
+    learner: Any = getattr(params._fields.get("learner"), "learner", None)
     if hasattr(type(learner), "_shown_as_"):
-        shown: Part = learner._shown_as_()  # type: ignore[union-attr]
+        shown: Part = learner._shown_as_()
         return shown
     values = [*params._fields.values()]
-    size = next((len(it) for it in _vectors(values)), 0)  # type: ignore[arg-type]
+    size = next((len(it) for it in _vectors(values)), 0)
     try:
         if size == 2:
             return degree_map(
@@ -59,7 +60,7 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _vectors(values: list[Object]) -> Iterator[Object]:
+def _vectors(values: list[Object]) -> Iterator[tuple[Object, ...]]:
     """The vectors among values, also those in lists of them."""
     for it in values:
         if isinstance(it, tuple):
@@ -113,7 +114,7 @@ def _reach(params: Record) -> float:
     weights, t = params._fields.get("w", ()), params._fields.get("t", 0.0)
     if not (isinstance(weights, tuple) and is_vector(weights) and _is_number(t)):
         return 1.0
-    reach, furthest = 1.0, sum(map(abs, weights))  # type: ignore[arg-type]
-    while furthest > 0.0 and abs(t) >= reach * furthest and reach < _FURTHEST:  # type: ignore[arg-type]
+    reach, furthest = 1.0, sum(map(abs, weights))
+    while furthest > 0.0 and abs(t) >= reach * furthest and reach < _FURTHEST:
         reach *= 10.0
     return reach

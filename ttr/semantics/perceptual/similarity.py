@@ -10,12 +10,13 @@ from ttr.probability import Degree
 from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.semantics.perceptual.speakers import Speaker, as_speaker
+from ttr.showing import NotebookValue, Part, Text, below, table
 from ttr.types.objects import Record
 from ttr.types.records import differences
 
 
 @dataclass(frozen=True)
-class Agreement:
+class Agreement(NotebookValue):
     """How two meanings judge the same situations.
 
     `both`, `first`, `second` and `neither` count the situations by who would say the
@@ -50,6 +51,20 @@ class Agreement:
         chance = (yes + no) / self.count**2
         return None if chance == 1.0 else (self.share - chance) / (1.0 - chance)
 
+    def _shown_as_(self) -> Part:
+        counts = (
+            ("both say it", self.both),
+            ("the first alone", self.first),
+            ("the second alone", self.second),
+            ("neither", self.neither),
+        )
+        return below(
+            Text(str(self), "strong"),
+            table(
+                ("", "situations"), counts, lambda it: (Text(it[0]), Text(str(it[1])))
+            ),
+        )
+
     def __str__(self) -> str:
         kappa = "undefined" if self.kappa is None else f"{self.kappa:.2f}"
         return f"{self.share:.0%} alike, κ {kappa}, {self.apart:.2f} apart"
@@ -79,10 +94,20 @@ def _midpoint(p: Degree) -> float:
 
 
 @dataclass(frozen=True)
-class Convergence:
+class Convergence(NotebookValue):
     """The agreement of two speakers before a series of exchanges and after each."""
 
     series: tuple[Agreement, ...]
+
+    def _shown_as_(self) -> Part:
+        def row(numbered: tuple[int, Agreement]) -> tuple[Part, ...]:
+            number, it = numbered
+            kappa = "undefined" if it.kappa is None else f"{it.kappa:.2f}"
+            cells = (f"{number}", f"{it.share:.0%}", kappa, f"{it.apart:.2f}")
+            return tuple(map(Text, cells))
+
+        heads = ("after", "alike", "κ", "degrees apart")
+        return table(heads, enumerate(self.series), row, count=len(self.series))
 
     def __str__(self) -> str:
         width = len(str(len(self.series) - 1))

@@ -11,7 +11,11 @@ from ttr.probability import Degree
 from ttr.semantics.argument_checks import as_tuple, in_notation
 from ttr.semantics.perceptual.learners import Handle
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
+from ttr.showing import NotebookValue, Part, Table, Text, below, name_list
 from ttr.types.objects import Record
+
+_FEW = 6
+"""A notebook shows the meanings of so many words; of the others, their names."""
 
 
 def says(meaning: Meaning, r: Record) -> bool:
@@ -20,7 +24,7 @@ def says(meaning: Meaning, r: Record) -> bool:
 
 
 @dataclass(frozen=True)
-class Speaker:
+class Speaker(NotebookValue):
     """An agent with meanings of words. Learning gives a speaker with other meanings.
 
     Meanings of a speaker that share a learner go on sharing it: what it learns for one
@@ -47,6 +51,16 @@ class Speaker:
 
     def __str__(self) -> str:
         return f"{self.name}, who knows {', '.join(sorted(self.meanings))}"
+
+    def _shown_as_(self) -> Part:
+        known = sorted(self.meanings.items())
+        rows = [(Text(word, "strong"), it._shown_as_()) for word, it in known[:_FEW]]
+        rest = [word for word, _ in known[_FEW:]]
+        return below(
+            Text(self.name, "strong"),
+            Table(("word", "meaning"), tuple(rows)),
+            name_list(rest) if rest else None,
+        )
 
     def __getitem__(self, word: str) -> Meaning:
         if isinstance(word, str) and word in self.meanings:
