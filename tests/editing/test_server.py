@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -261,3 +262,14 @@ def test_without_pygls_there_is_one_line(
     assert main(["lsp"]) == 2
     said = capsys.readouterr().err
     assert said == "ttr: lsp needs pygls: install it by pip install 'kille[editor]'\n"
+
+
+def test_it_ends_well_when_an_editor_says_goodbye() -> None:
+    """It closed the standard output, and then failed to flush that."""
+
+    async def work() -> None:
+        async with Client() as client:
+            await client.shutdown_async(None)
+            client.exit(None)
+
+    asyncio.run(work())

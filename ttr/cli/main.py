@@ -28,7 +28,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         with keep_interruptions():
             code = _run(argv)
-        sys.stdout.flush()
+        if not sys.stdout.closed:  # as pygls does when an editor says goodbye
+            sys.stdout.flush()
     except KeyboardInterrupt:
         return INTERRUPTED
     except RecursionError:

@@ -326,7 +326,7 @@ class _Editor:
             items[one.name] = _ITEMS[one.kind]
             details[one.name] = one.statement
         words = _words_after(before, _is_story(uri))
-        items = dict.fromkeys(words, lsp.CompletionItemKind.Keyword) | items
+        items = dict.fromkeys(sorted(words), lsp.CompletionItemKind.Keyword) | items
         return [_item(name, kind, details.get(name)) for name, kind in items.items()]
 
     def symbols(self, uri: str) -> list[lsp.DocumentSymbol]:
