@@ -40,7 +40,7 @@ def build(folder: Path, documentation: str = "") -> None:
     for file in sorted(ASSETS.iterdir()):
         _write(folder / file.name, file.read_bytes())
     page = (ASSETS / "index.html").read_text(encoding="utf-8")
-    link = f'<a class="button" href="{documentation}">Documentation</a>'
+    link = f'<a class="bar__link" href="{documentation}">Documentation</a>'
     page = page.replace(_DOCUMENTATION, link if documentation else "")
     _write(folder / "index.html", page.encode())
     icon = ROOT / "kille" / "page" / "assets" / "icon.svg"

@@ -8,7 +8,9 @@ from ttr.escapes import html_text
 from ttr.showing import Figure as Picture
 from ttr.showing import Part, Text, below, table
 
-_INK = "#222"
+_INK = "#7a7a7a"
+"""Legible on a light and on a dark page, as that of `ttr.display.notebook`."""
+
 _WIDTH = 560  # pixels
 
 
@@ -40,12 +42,11 @@ def _cells(row: tuple[Cell, ...]) -> tuple[Part, ...]:
 
 
 def _drawing(figure: Figure) -> Part:
-    """The figure as SVG that stands alone, on a white ground for a dark page."""
+    """The figure as SVG that stands alone, on the ground of the page around it."""
     if not can_draw():
         return Text(MISSING, "quiet")
     drawn = svg(figure).replace("currentColor", _INK)
     about = html_text(figure.title)
-    ground = '<rect width="100%" height="100%" fill="#fff"/>'
     head, _, inside = drawn.partition(">")
-    whole = f'{head} role="img" aria-label="{about}">{ground}{inside}'
+    whole = f'{head} role="img" aria-label="{about}">{inside}'
     return Picture(whole.encode(), "image/svg+xml", figure.title, _WIDTH)

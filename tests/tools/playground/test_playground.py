@@ -29,6 +29,16 @@ THEORIES = sorted((ROOT / "tests" / "theories").glob("*.ttr"))
 FETCH = (ROOT / "examples" / "fetch.ttr").read_text(encoding="utf-8")
 
 
+HOSTILE = """
+basic A
+object '<img src=x onerror=window.ran=1>' : A
+T := [x = '<img src=x onerror=window.ran=1>' : A]
+check {x = '<img src=x onerror=window.ran=1>'} : T
+check not T <= T  # <script>window.ran = 1</script>
+"""
+"""A theory that reads, with names that would run something if they were not escaped."""
+
+
 def ask(page: Playground, **request: object) -> Any:
     return json.loads(page.respond(json.dumps(request)))
 
@@ -169,8 +179,15 @@ class TestInTheBrowser:
                 for it in names
                 if it["kind"] in ("name", "quoted", "number")
             ] == words_of(text)
-        tab.evaluate("hash => { location.hash = hash; }", link_fragment(FETCH))
+        tab.evaluate("hash => { location.hash = hash; }", link_fragment(HOSTILE))
         wait_until_checked(tab, 2)
+        assert tab.locator("#summary").inner_text() == "1 of 2 checks failed"
+        assert "<img" in tab.locator("#definitions").inner_text()
+        assert "<img" in tab.locator("#answers").inner_text()
+        assert tab.locator("img").count() == 1, "the icon alone"
+        assert tab.evaluate("window.ran") is None
+        tab.evaluate("hash => { location.hash = hash; }", link_fragment(FETCH))
+        wait_until_checked(tab, 3)
         tab.click("#play")
         tab.get_by_role("button", name="nothing happens").click()
         tab.locator(".step").first.wait_for()
