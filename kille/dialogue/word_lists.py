@@ -57,6 +57,8 @@ class WordLists:
     """Names of persons, which are no words for kinds of things."""
     articles: frozenset[str] = frozenset()
     negations: frozenset[str] = frozenset()
+    numbers: tuple[str, ...] = ()
+    """The words for one, two, three and so on, in order."""
     spoken: Mapping[str, str] = field(default_factory=dict)
     """Forms that are written as they are spoken, and those of the grammar for them."""
 
@@ -196,7 +198,7 @@ def _spoken(pattern: str) -> str:
 @lru_cache
 def _any_spoken(patterns: tuple[str, ...]) -> re.Pattern[str]:
     """One expression for any of the forms; without any, one that fits nothing."""
-    return re.compile("|".join(map(_spoken, patterns)) or r"(?!)")
+    return re.compile(_spoken("|".join(patterns)) if patterns else r"(?!)")
 
 
 _LONGEST_PHRASE = 8
@@ -247,6 +249,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         names=frozenset(data.get("names", "").split()),
         articles=frozenset(data.get("articles", "").split()),
         negations=frozenset(data.get("negations", "").split()),
+        numbers=tuple(data.get("numbers", "").split()),
         spoken=data.get("spoken", {}),
     )
 

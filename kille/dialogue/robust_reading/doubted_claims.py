@@ -23,7 +23,7 @@ def doubt_about(
     `PARTIAL` where the tutor may be asked.
     """
     rule, words = island.rule, sentence.words
-    if rule not in CLAIMS:
+    if rule not in CLAIMS and rule != "classify":
         return ""
     if lists.is_unreal(_forms_left(cover, sentence, lists)):
         return SAYING
@@ -32,6 +32,8 @@ def doubt_about(
         near |= {it.form for it in words[island.first : island.after]}
     if near & lists.negations:
         return SAYING
+    if rule == "classify":
+        return ""  # of a noun that it does not know the robot asks anyway
     asks = sentence.is_question and are_harmless(words[island.after :])
     hedged = any(
         it.rule in HEDGING and not is_taken_up(it, cover) for it in cover.islands

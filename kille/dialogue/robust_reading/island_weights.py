@@ -11,6 +11,7 @@ from kille.dialogue.parsing import Tree, parts
 from kille.dialogue.robust_reading.island_kinds import CLAIMS
 from kille.dialogue.robust_reading.islands import START
 from kille.dialogue.robust_reading.situations import Situation
+from kille.dialogue.word_lists import WordLists
 
 NEW = 0.8
 """The factor for every word of an island that the robot does not know."""
@@ -19,17 +20,19 @@ ASKED = 0.3
 """The factor for a claim in a sentence that ends with a question mark."""
 
 
-def weigh_island(situation: Situation, is_question: bool, tree: Tree) -> float:
+def weigh_island(
+    situation: Situation, is_question: bool, lists: WordLists, tree: Tree
+) -> float:
     """The weight of a reading: 1 for what fits well, 0 for what is none here."""
     move = parts(tree)[0]
     rule = move.rule if tree.rule == START else tree.rule
     weight = NEW ** sum(it not in situation.known for it in _new_words(move))
     if is_question and rule in CLAIMS:
         weight *= ASKED
-    return weight * _fit(situation, rule, move)
+    return weight * _fit(situation, rule, move, lists)
 
 
-def _fit(situation: Situation, rule: str, move: Tree) -> float:
+def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float:
     """How well a move fits what the talk is about."""
     match rule:
         case "affirm" | "deny":
@@ -57,6 +60,12 @@ def _fit(situation: Situation, rule: str, move: Tree) -> float:
             return 0.5
         case "okay":
             return 0.9 if situation.asks_whether else 1.0
+        case "classify":
+            hows = _words_of(move, "superkind")
+            return 0.0 if any(_says_how(it, situation, lists) for it in hows) else 1.0
+        case "generalise":
+            hows = _words_of(move, "property")
+            return 1.0 if all(_says_how(it, situation, lists) for it in hows) else 0.5
         case "choice":
             return 2.0
         case "choice_colour":
@@ -74,6 +83,20 @@ def _new_words(tree: Tree) -> Iterable[str]:
             yield from _new_words(child)
         elif child.terminal not in ("A", "PREP", "OF", "SIDE", "ARTICLE"):
             yield child.text.lower()
+
+
+def _words_of(tree: Tree, rule: str) -> Iterable[str]:
+    """The words in the parts that are made by a rule."""
+    for it in parts(tree):
+        if it.rule == rule:
+            yield from _new_words(it)
+        else:
+            yield from _words_of(it, rule)
+
+
+def _says_how(form: str, situation: Situation, lists: WordLists) -> bool:
+    """Whether a word says how a thing is, rather than what: "Forks are sharp."."""
+    return form in situation.qualities or not lists.judge_quality(form)
 
 
 def _has_part(tree: Tree, rule: str) -> bool:

@@ -28,7 +28,7 @@ BLANKED = 0.9
 """The factor for an island that leaves out harmless words within."""
 
 OPEN = frozenset(
-    {"WORD", "PLURAL", "DEFINITE", "NEUTER", "WEAK", "PLAIN_PLURAL", "BARE"}
+    {"WORD", "PLURAL", "DEFINITE", "NEUTER", "WEAK", "PLAIN_PLURAL", "BARE", "MASS"}
 )
 """The terminals that find any word; others than these find the words they list."""
 

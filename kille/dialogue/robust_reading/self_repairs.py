@@ -24,6 +24,8 @@ class RepairedSentence(NamedTuple):
     words: tuple[Word, ...]
     is_certain: bool
     """Whether it is certain what was set right."""
+    numbers: tuple[str, ...] = ()
+    """The words for one, two, three and so on."""
 
     @property
     def is_question(self) -> bool:
@@ -44,7 +46,8 @@ def repair_sentence(text: str, lists: WordLists) -> RepairedSentence:
     """
     written = lists.write_out(" ".join(replace_lookalikes(text).split()))
     plain, is_certain = repair(written, lists)
-    return RepairedSentence(text, plain, words_of(plain, lists), is_certain)
+    words = words_of(plain, lists)
+    return RepairedSentence(text, plain, words, is_certain, lists.numbers)
 
 
 def repair(text: str, lists: WordLists) -> tuple[str, bool]:

@@ -88,7 +88,7 @@ def read_robustly(
     grammar = reads.island_grammar
     if grammar is None or _UNSPEAKABLE.search(text):
         return NOTHING
-    weigh = partial(weigh_island, situation, sentence.is_question)
+    weigh = partial(weigh_island, situation, sentence.is_question, lists)
     found = best_covers(sentence.plain, sentence.words, grammar, weigh, lists, FOLLOWS)
     covers = [keep_sound(it, sentence, situation) for it in found]
     ranked = sorted(

@@ -7,6 +7,7 @@ moves that it could be: a "yes" that answers nothing, or orders to forget with a
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import count
 from typing import NamedTuple
 
 from kille.dialogue.robust_reading.clause_words import Word, are_harmless
@@ -162,6 +163,8 @@ def _leaves_enough(place: _Place) -> bool:
     rule, cover = place.island.rule, place.cover
     if rule in FALLBACK and not place.is_only:
         return False
+    if rule == "classify" and place.near:
+        return False  # "Not all mugs are cups."
     if (rule in STRICT and cover.missed) or (rule in WHOLE and place.near):
         return False
     if place.inside[-1].joins:
@@ -184,6 +187,8 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
             return False
         case "other_place" if cover.missed or not situation.asks_whether:
             return False
+        case "instruct_several" if not _are_as_many(place, situation):
+            return False
         case "affirm" | "deny":
             return _may_answer_stand(place, situation)
         case rule if rule in ELLIPTIC:
@@ -203,6 +208,13 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
         case rule if rule.startswith("ask_") and len(place.near) > len(place.inside):
             return False
     return None
+
+
+def _are_as_many(place: _Place, situation: Situation) -> bool:
+    """Whether as many things are in view as is said, if it is: "these two"."""
+    several = dict(zip(place.sentence.numbers[1:], count(2), strict=False))
+    said = [several[it.form] for it in place.inside if it.form in several]
+    return all(it == situation.things for it in said)
 
 
 def _may_answer_stand(place: _Place, situation: Situation) -> bool | None:

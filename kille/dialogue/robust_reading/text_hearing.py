@@ -39,6 +39,9 @@ SELF_ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repe
 DOUBTING = frozenset({"ask_certainty", "ask_whether"})
 """Those of them after which a lesson corrects what the robot has claimed."""
 
+HESITATING = frozenset({"hold_floor", "ask_repeat"})
+"""What is said in search of words, where anything else is said: "Hang on, a whisk."."""
+
 NAMING = frozenset({"instruct", "correct"})
 """The moves by which a tutor says what a thing is."""
 
@@ -138,6 +141,8 @@ def hear_in_parts(
             aside = found.is_remark or _is_name(move)
             kind = remarks if aside else asked if is_doubted(move) else done
             kind.append(move)
+    if len(done) + len(asked) > 1:
+        done = [it for it in done if act_of(it) not in HESITATING]
     settled, open_ = _settle_lessons(done, asked, types)
     told = join_lessons(open_, lists.qualities, types=types)
     heard = (*_without_repetitions(settled), *told) or tuple(remarks[:1])

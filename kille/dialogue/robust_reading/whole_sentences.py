@@ -7,7 +7,7 @@ correction, and "This is, uh, a cup." as how two things stand.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Set
 
 from kille.dialogue.language import Sentence, Utterance
 from kille.dialogue.meanings import predicate_at
@@ -33,7 +33,8 @@ def is_weak(it: Sentence, situation: Situation, lists: WordLists) -> bool:
     if not situation.asks_which and _is_mention(it):
         return True
     return all(
-        "doubt" in one.type or any(_is_odd(sign, lists) for sign in one.signs)
+        "doubt" in one.type
+        or any(_is_odd(sign, situation.qualities, lists) for sign in one.signs)
         for one in it.readings
     )
 
@@ -43,12 +44,19 @@ def _is_mention(it: Sentence) -> bool:
     return all(predicate_at(one.type, "e").name == "mention" for one in it.readings)
 
 
-def _is_odd(sign: Record, lists: WordLists) -> bool:
+def _is_odd(sign: Record, qualities: Set[str], lists: WordLists) -> bool:
     """Whether what was read as a word has a part that is none of such words'."""
     parts = sign.form.split()
     if sign.kind == "relation":
-        return parts[0] in lists.articles or not lists.fillers.isdisjoint(parts)
+        if parts[0] in lists.articles or not lists.fillers.isdisjoint(parts):
+            return True
+        return len(parts) == 1 and _is_no_relation(parts[0], qualities, lists)
     return any(map(lists.is_closed, parts))
+
+
+def _is_no_relation(form: str, qualities: Set[str], lists: WordLists) -> bool:
+    """Whether a word is of another kind: "This is also a cup.", "…, the right one red."."""
+    return lists.is_closed(form) or (form,) in lists.harmless or form in qualities
 
 
 def are_parts_better(
