@@ -129,11 +129,29 @@ def _rebuild(
 
 
 class NotationError(TTRError):
-    """A text that the notation does not allow: what was expected, what was found."""
+    """A text that the notation does not allow: what was expected, what was found.
+
+    >>> import ttr
+    >>> ttr.parse("[x : Ind, c : dog(x)")
+    Traceback (most recent call last):
+        ...
+    ttr.errors.NotationError: expected a comma or ], found the end of the text
+      ┌─ <text>:1:21
+    1 │ [x : Ind, c : dog(x)
+      │                     ^
+    """
 
 
 class MistakesError(NotationError):
-    """Several mistakes in one theory; `errors` has them in the order of the text."""
+    r"""Several mistakes in one theory; `errors` has them in the order of the text.
+
+    >>> import ttr
+    >>> try:
+    ...     ttr.Theory.parse("pred dog(Ind)\nDog := [x : Ind, c : dgo(x)]")
+    ... except MistakesError as wrong:
+    ...     print(len(wrong.errors))
+    2
+    """
 
     errors: tuple[TTRError, ...] = ()
 
@@ -149,52 +167,166 @@ class MistakesError(NotationError):
 
 
 class IllFormedError(TTRError):
-    """A type that cannot be built: wrong arity, wrong domain, path to nowhere."""
+    """A type that cannot be built: wrong arity, wrong domain, path to nowhere.
+
+    >>> from ttr import Ind, Pred
+    >>> Pred("hug", Ind, Ind)("sam")
+    Traceback (most recent call last):
+        ...
+    ttr.errors.IllFormedError: hug takes 2 arguments (Ind, Ind), but has 1
+    """
 
 
 class RefusedError(TTRError):
-    """A judgement that a witness condition or a fact contradicts."""
+    """A judgement that a witness condition or a fact contradicts.
+
+    >>> from ttr import Basic, Model
+    >>> Real = Basic("Real")
+    >>> M = Model().witnessed(Real, by=lambda it: isinstance(it, float))
+    >>> M.given("fido", Real)
+    Traceback (most recent call last):
+        ...
+    ttr.errors.RefusedError: fido : Real is refused by the witness function of Real
+    """
 
 
 class UnexpectedError(RefusedError):
-    """An event that does not fit the course of events where it comes."""
+    """An event that does not fit the course of events where it comes.
+
+    >>> from ttr import Basic, Model, Plus
+    >>> from ttr.semantics.string_prediction import start_course
+    >>> Step = Basic("Step")
+    >>> course = start_course(Plus(Step), Model().given("e1", Step))
+    >>> course.seen("e1").seen("e2")
+    Traceback (most recent call last):
+        ...
+    ttr.errors.UnexpectedError: event 2, e2, is of nothing that is known, but expected:
+    Step
+    help: ask expects(event) how probable it is that it fits
+    """
 
 
 class UndecidedError(TTRError):
-    """A yes or no was asked of a judgement that is neither certain nor refuted."""
+    """A yes or no was asked of a judgement that is neither certain nor refuted.
+
+    >>> from ttr import Ind, Model
+    >>> Model().given("fido", Ind, 0.7).judge("fido", Ind).holds
+    Traceback (most recent call last):
+        ...
+    ttr.errors.UndecidedError: fido : Ind   p = 0.7 is neither certain nor refuted
+    help: ask for a degree with j.at_least(q), or look at j.p
+    """
 
 
 class UnsupportedError(TTRError):
-    """An operation that is not defined for a constructor."""
+    """An operation that is not defined for a constructor.
+
+    >>> from ttr import Ind, ListOf, Model
+    >>> from ttr.semantics.string_prediction import start_course
+    >>> start_course(ListOf(Ind), Model())
+    Traceback (most recent call last):
+        ...
+    ttr.errors.UnsupportedError: list(Ind) is no type of strings that can be predicted
+    help: write one with str(…), plus(…) or star(…), without paths outwards
+    """
 
 
 class TooLargeError(TTRError):
-    """A question that needs more steps than its budget allows."""
+    """A question that needs more steps than its budget allows.
+
+    >>> from ttr import Ind, Pred, budget
+    >>> from ttr.computing import join_normal_form
+    >>> p, q = Pred("p", Ind), Pred("q", Ind)
+    >>> T = (p("a") | q("a")) & (p("b") | q("b")) & (p("c") | q("c"))
+    >>> with budget(steps=10):
+    ...     join_normal_form(T)
+    Traceback (most recent call last):
+        ...
+    ttr.errors.TooLargeError: too large: it takes more than 10 steps, and ended in
+    `join_normal_form`
+    help: ask for less, or allow more steps (ttr.budget, or --steps)
+    """
 
 
 class UpdateError(TTRError):
     """A rule, a state or an event with which an update cannot go on.
 
     `steps` are the rules that had been applied in the same turn, as far as is known.
+
+    >>> from ttr.updates import first
+    >>> first("greet")
+    Traceback (most recent call last):
+        ...
+    ttr.errors.UpdateError: first takes rules and strategies, found 'greet'
     """
 
     steps: tuple[Any, ...] = ()
 
 
 class NoStateError(UpdateError):
-    """Something that is not of the type of the information states."""
+    """Something that is not of the type of the information states.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> run(talk.rules["drop"], record(qud="dog"), type=talk.Board, model=Model())
+    Traceback (most recent call last):
+        ...
+    ttr.errors.NoStateError: before the first rule the state is not of its type, at qud:
+    dog : list(Question), it is no list
+    """
 
 
 class RuleFailedError(UpdateError):
-    """A rule that raised an error, or gave what no state can be made of."""
+    """A rule that raised an error, or gave what no state can be made of.
+
+    >>> from ttr import Model, Rec, record
+    >>> from ttr.updates import rule, run
+    >>> @rule(when=Rec)
+    ... def divide(s):
+    ...     return 1 / 0
+    >>> run(divide, record(), type=Rec, model=Model())
+    Traceback (most recent call last):
+        ...
+    ttr.errors.RuleFailedError: the rule divide failed: ZeroDivisionError: division by
+    zero
+    """
 
 
 class EndlessError(UpdateError):
-    """A repetition or an agenda that never ends."""
+    """A repetition or an agenda that never ends.
+
+    >>> from ttr import Model, Rec, record
+    >>> from ttr.updates import repeat, rule, run
+    >>> @rule(when=Rec)
+    ... def wait(s):
+    ...     return s
+    >>> run(repeat(wait), record(), type=Rec, model=Model())
+    Traceback (most recent call last):
+        ...
+    ttr.errors.EndlessError: wait is repeated without changing anything
+    help: let its precondition fail once its work is done
+    """
 
 
 class NotHeardError(UpdateError):
-    """An event of a type that no rule takes."""
+    """An event of a type that no rule takes.
+
+    >>> from ttr import Ind, Model
+    >>> from ttr.semantics.gameboards import kos
+    >>> game = kos.game(Model().given("a", Ind).given("b", Ind), "a", "b")
+    >>> game.take(game.begin(), "cough")
+    Traceback (most recent call last):
+        ...
+    ttr.errors.NotHeardError: cough is no event that the game a dialogue gameboard
+    takes: expected [addr : Ind, move : Move, spkr : Ind]
+    """
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:

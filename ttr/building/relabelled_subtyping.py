@@ -38,6 +38,11 @@ class RelabelledAnswer(Answer):
 
     `relabelling` has the new names of those labels of T that change; a label inside a
     nested record type is named by its path. It is None unless the answer is yes.
+
+    >>> from ttr import Ind, rectype
+    >>> answer = subtype_up_to_relabelling(rectype(y=Ind), rectype(x=Ind))
+    >>> answer.yes, answer.relabelling
+    (True, {'x': 'y'})
     """
 
     relabelling: Mapping[str, str] | None = None

@@ -47,6 +47,19 @@ class Trial(NotebookValue):
     at which a rule changed the very state that it was given, if one did. `line` is the
     line of a story that gives this, and `said` what the system said, in words; both are
     empty until `in_words` finds them.
+
+    >>> from ttr import Theory
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> trial = play(theory.games["notes"], ["ann"]).trials[0]
+    >>> print(trial.given, trial.after.state)
+    ann {heard = [ann]}
     """
 
     given: Object
@@ -119,6 +132,17 @@ class Dialogue(NotebookValue):
     `place` says by what reference and with what names the game is spelled; `origin` is
     the run that the dialogue goes on from, if it does not begin where the game does.
     `title` stands above a dialogue on paper, and `ending` below it.
+
+    >>> from ttr import Theory
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann, bo : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> print(*Dialogue(theory.games["notes"]).then("ann").then("bo").states)
+    {heard = []} {heard = [ann]} {heard = [bo, ann]}
     """
 
     game: Game
@@ -251,7 +275,20 @@ def play(game: Game, given: Iterable[object]) -> Dialogue:
 
 
 def give(game: Game, before: Run, given: object) -> Trial:
-    """The trial in which one thing is given to the game after a run."""
+    """The trial in which one thing is given to the game after a run.
+
+    >>> from ttr import Theory
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = theory.games["notes"]
+    >>> print(give(notes, notes.begin(), "ann").after.state)
+    {heard = [ann]}
+    """
     before = before._replace(trace=())
     seen = snapshot(before.state)
     turn, fault = _attempt(game, before, given)

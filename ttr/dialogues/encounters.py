@@ -31,6 +31,13 @@ class Participant:
 
     `does` is the type of the events that they can bring about: what is on the agenda
     and not of this type is for others to do.
+
+    >>> from ttr import Ind, Model, rectype
+    >>> from ttr.semantics.gameboards import cooper
+    >>> M = Model().given("a", Ind).given("b", Ind)
+    >>> bo = Participant("b", cooper.game("b", M), does=rectype(spkr=Ind @ "b"))
+    >>> print(meeting(bo).board("b").private)
+    {agenda = [], self = b}
     """
 
     name: str
@@ -65,6 +72,15 @@ class Happening:
     """One step of an encounter: who did what, and how it changed each board.
 
     `by` and `event` are None where only rules without an event applied.
+
+    >>> from ttr import Ind, Model, Pred, rectype
+    >>> from ttr.semantics.gameboards import cooper
+    >>> M = Model().given("a", Ind).given("b", Ind)
+    >>> says = cooper.asserting("a", "b", rectype(e=Pred("run", Ind)("sam")))
+    >>> ann = Participant("a", cooper.game("a", M, [says]), rectype(spkr=Ind @ "a"))
+    >>> bo = Participant("b", cooper.game("b", M), rectype(spkr=Ind @ "b"))
+    >>> [it.by for it in meeting(ann, bo).in_turn().history]
+    ['a', 'b']
     """
 
     by: str | None
@@ -91,6 +107,16 @@ class Encounter:
     """Participants with their boards, and what has happened; built by `meeting`.
 
     `in_turn` and `in_step` give the encounter after one more round.
+
+    >>> from ttr import Ind, Model, Pred, rectype
+    >>> from ttr.semantics.gameboards import cooper
+    >>> M = Model().given("a", Ind).given("b", Ind)
+    >>> says = cooper.asserting("a", "b", rectype(e=Pred("run", Ind)("sam")))
+    >>> ann = Participant("a", cooper.game("a", M, [says]), rectype(spkr=Ind @ "a"))
+    >>> bo = Participant("b", cooper.game("b", M), rectype(spkr=Ind @ "b"))
+    >>> after = meeting(ann, bo).in_turn()
+    >>> print(after.board("b").shared.commitments)
+    [e : run(sam)]
     """
 
     participants: tuple[Participant, ...]

@@ -16,6 +16,22 @@ def wording(move: Judgement, setting: Setting) -> str:
 
     What the theory defines stands by its name. Raises `UpdateError` where the game
     finds no words.
+
+    >>> from ttr import Theory
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     pred greet(Ind)
+    ...     Greet := [e : greet(ann)]
+    ...     Board := [agenda : list(RecType)]
+    ...     rule drop(s : [agenda = [Greet] : list(RecType)], e : Greet) :=
+    ...         [agenda = [] : list(RecType)]
+    ...     game talk({agenda = [Greet]} : Board, acts on agenda) := drop
+    ... ''')
+    >>> talk = Setting.of(theory.games["talk"], theory)
+    >>> turn = talk.game.take(talk.game.begin())
+    >>> wording(turn.said[0], talk)
+    'Greet'
     """
     say = setting.game.say
     if say is None:

@@ -24,7 +24,15 @@ _WRITTEN = "FILE.ttr NAME, FILE.py:NAME or MODULE:NAME"
 
 
 class StoryError(TTRError):
-    """A dialogue file that cannot be read or played: where, and why."""
+    """A dialogue file that cannot be read or played: where, and why.
+
+    >>> from ttr.dialogues.stories import Line
+    >>> line = Line("a.dlg", 3, "S>", "Hello.", written="S> Hello.")
+    >>> raise line.wrong("nobody has spoken yet")
+    Traceback (most recent call last):
+        ...
+    ttr.dialogues.settings.StoryError: a.dlg:3: nobody has spoken yet
+    """
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +41,18 @@ class Setting:
 
     `reference` is what stands after `@ game` in a story in this `folder`; it may be
     empty. `consent` is what the user lets the game's files use.
+
+    >>> from ttr import Theory
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = Setting.of(theory.games["notes"], theory, "notes.ttr notes")
+    >>> print(notes.value("ann", notes.game.model), "in", notes.reference)
+    ann in notes.ttr notes
     """
 
     game: Game
@@ -75,6 +95,18 @@ def setting(
     it run; for a reference from a file, pass the user's consent. `read` reads the text
     of a theory. Raises `StoryError` where there is no such game, and `NotAllowedError`
     where there is no consent.
+
+    >>> import tempfile
+    >>> text = '''
+    ...     basic Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... '''
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "notes.ttr").write_text(text)
+    ...     setting("notes.ttr notes", Path(folder)).game.name
+    'notes'
     """
     if consent is not None:
         check_named(reference, folder, consent)
@@ -102,7 +134,12 @@ def check_named(reference: str, folder: Path, consent: Consent) -> None:
 
 
 def named_by_user(reference: str, folder: Path, consent: Consent) -> Consent:
-    """The consent of a user who names a game, and so lets its Python run."""
+    """The consent of a user who names a game, and so lets its Python run.
+
+    >>> from ttr.safety.consent import OWN_FOLDER
+    >>> named_by_user("door.ttr door", Path(), OWN_FOLDER) == OWN_FOLDER
+    True
+    """
     python = python_in(reference)
     return consent.with_python(python, folder) if python else consent
 

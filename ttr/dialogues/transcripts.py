@@ -42,6 +42,19 @@ def transcript(title: str, dialogues: Iterable[Dialogue]) -> str:
     """The HTML page of some dialogues.
 
     What the theory of a game defines is shown by its name.
+
+    >>> from ttr import Theory
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> page = transcript("One name", [play(theory.games["notes"], ["ann"])])
+    >>> "<h1>One name</h1>" in page
+    True
     """
     shown = [dialogue.in_words() for dialogue in dialogues]
     parts = [f"<h1>{html_text(title)}</h1>"]

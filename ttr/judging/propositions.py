@@ -76,7 +76,14 @@ def proposition_of(judgement: Judgement, /) -> Record:
 
 
 def claim(p: object) -> tuple[Object, TypeNode]:
-    """The situation and the type of an Austinian proposition; else `IllFormedError`."""
+    """The situation and the type of an Austinian proposition; else `IllFormedError`.
+
+    >>> from ttr import Ind, Pred
+    >>> from ttr.judging import proposition
+    >>> s, T = claim(proposition("s1", Pred("dog", Ind)("fido")))
+    >>> print(s, ":", T)
+    s1 : dog(fido)
+    """
     if isinstance(p, Record) and set(p) >= {"sit", "sit_type"}:
         return p.sit, as_type(p.sit_type)
     raise IllFormedError(
@@ -88,6 +95,12 @@ def probabilistic_claim(p: object) -> tuple[Object, TypeNode, Degree]:
     """The situation, the type and the probability; one without prob claims certainty.
 
     Raises `IllFormedError` for what is no Austinian proposition.
+
+    >>> from ttr import Ind, Pred
+    >>> perhaps = probabilistic("s1", Pred("dog", Ind)("fido"), 0.9)
+    >>> s, T, p = probabilistic_claim(perhaps)
+    >>> print(f"{s} : {T} with {p}")
+    s1 : dog(fido) with 0.9
     """
     sit, T = claim(p)
     if not isinstance(p, Record) or "prob" not in p:

@@ -37,7 +37,12 @@ if not TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Judge:
-    """a : T – the agent takes this object to be of the type from now on."""
+    """a : T – the agent takes this object to be of the type from now on.
+
+    >>> from ttr import Ind
+    >>> print(performed(Judge("fido", Ind), Model()))
+    fido : Ind   fido : Ind   p = 1
+    """
 
     sit: Object
     type: TypeNode
@@ -48,7 +53,13 @@ class Judge:
 
 @dataclass(frozen=True)
 class JudgeSome:
-    """some : T – the agent takes something to be of the type, known or not."""
+    """some : T – the agent takes something to be of the type, known or not.
+
+    >>> from ttr import Ind, Pred
+    >>> M = Model().given("fido", Ind)
+    >>> print(performed(JudgeSome(Pred("dog", Ind)("fido")), M))
+    some : dog(fido)   s1 : dog(fido)   p = 1
+    """
 
     type: TypeNode
 
@@ -58,7 +69,12 @@ class JudgeSome:
 
 @dataclass(frozen=True)
 class Query:
-    """a : T? – the agent asks itself whether this object is of the type."""
+    """a : T? – the agent asks itself whether this object is of the type.
+
+    >>> from ttr import Ind
+    >>> print(performed(Query("fido", Ind), Model().given("fido", Ind, 0.8)))
+    fido : Ind?   fido : Ind   p = 0.8
+    """
 
     sit: Object
     type: TypeNode
@@ -69,7 +85,13 @@ class Query:
 
 @dataclass(frozen=True)
 class QuerySome:
-    """some : T? – the agent asks itself what it knows that is of the type."""
+    """some : T? – the agent asks itself what it knows that is of the type.
+
+    >>> from ttr import Ind
+    >>> M = Model().given("fido", Ind).given("rex", Ind)
+    >>> [it.sit for it in performed(QuerySome(Ind), M).answers]
+    ['fido', 'rex']
+    """
 
     type: TypeNode
 
@@ -79,7 +101,13 @@ class QuerySome:
 
 @dataclass(frozen=True)
 class Create:
-    """: T! – the agent brings about a new situation of the type."""
+    """: T! – the agent brings about a new situation of the type.
+
+    >>> from ttr import Ind, Pred
+    >>> M = Model().given("fido", Ind)
+    >>> print(performed(Create(Pred("bark", Ind)("fido")), M))
+    : bark(fido)!   s1 : bark(fido)   p = 1
+    """
 
     type: TypeNode
 
@@ -88,6 +116,13 @@ class Create:
 
 
 TypeAct: TypeAlias = Judge | JudgeSome | Query | QuerySome | Create
+"""Any of the type acts.
+
+>>> from ttr import Ind
+>>> from ttr.judging.type_acts import Query, TypeAct
+>>> isinstance(Query("fido", Ind), TypeAct)
+True
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +131,11 @@ class Outcome:
 
     An act of judging or creating is answered by the one judgement made; a query by what
     is judged so far, each object that may be of the type with its degree.
+
+    >>> from ttr import Ind
+    >>> made = performed(Judge("fido", Ind), Model())
+    >>> print(made.answer, made.model.judge("fido", Ind).holds, sep="; ")
+    fido : Ind   p = 1; True
     """
 
     act: TypeAct

@@ -10,7 +10,13 @@ from ttr.errors import TTRError
 
 
 class Degree(NamedTuple):
-    """An interval of probability: [1, 1] certain, [0, 0] refuted, [0, 1] unknown."""
+    """An interval of probability: [1, 1] certain, [0, 0] refuted, [0, 1] unknown.
+
+    >>> from ttr import Ind, Model
+    >>> lo, hi = Model().given("fido", Ind, (0.5, 1)).judge("fido", Ind).p
+    >>> lo, hi
+    (0.5, 1.0)
+    """
 
     lo: float
     hi: float
@@ -29,7 +35,11 @@ class Degree(NamedTuple):
 
 
 def format_probability(x: float) -> str:
-    """A number in four digits, unless they would make it certain or refuted."""
+    """A number in four digits, unless they would make it certain or refuted.
+
+    >>> format_probability(2 / 3), format_probability(0.99999)
+    ('0.6667', '0.99999')
+    """
     short = f"{x:.4g}"
     return short if x in (0.0, 1.0) or 0.0 < float(short) < 1.0 else repr(x)
 
@@ -38,8 +48,28 @@ ROUNDING = 1e-9
 """Two probabilities that differ by no more than this count as the same."""
 
 CERTAIN = Degree(1.0, 1.0)
+"""What is so: [1, 1].
+
+>>> from ttr import Ind, Model
+>>> from ttr.probability import CERTAIN
+>>> Model().given("fido", Ind).judge("fido", Ind).p == CERTAIN
+True
+"""
 REFUTED = Degree(0.0, 0.0)
+"""What is not so: [0, 0].
+
+>>> from ttr import Ind, Model
+>>> from ttr.probability import REFUTED
+>>> Model().judge("fido", Ind).p == REFUTED
+True
+"""
 UNKNOWN = Degree(0.0, 1.0)
+"""What nothing is known of: [0, 1].
+
+>>> from ttr.probability import UNKNOWN, Atomic, Not, chance
+>>> chance(Not(Atomic("rain", UNKNOWN))).p == UNKNOWN
+True
+"""
 
 
 def degree(value: object, what: str = "a probability") -> Degree:

@@ -24,7 +24,19 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Conditional:
-    """p(target | condition), where the condition is that other atoms hold or fail."""
+    """p(target | condition), where the condition is that other atoms hold or fail.
+
+    >>> known = Dependence(
+    ...     {"rain": Degree(0.2, 0.2), "wet": Degree(0, 1)},
+    ...     conditionals=(
+    ...         Conditional("wet", (("rain", True),), Degree(0.9, 0.9)),
+    ...         Conditional("wet", (("rain", False),), Degree(0.1, 0.1)),
+    ...     ),
+    ... )
+    >>> from ttr.probability import Atomic, chance
+    >>> print(chance(Atomic("wet", Degree(0, 1)), known).p)
+    0.26
+    """
 
     target: Atom
     condition: tuple[tuple[Atom, bool], ...]
@@ -213,7 +225,13 @@ class Dependence:
 
 
 INDEPENDENT = Dependence()
-"""All atoms are independent."""
+"""All atoms are independent.
+
+>>> from ttr.probability import INDEPENDENT, All, Atomic, chance, degree
+>>> heads, six = Atomic("heads", degree(0.5)), Atomic("six", degree(0.2))
+>>> print(chance(All((heads, six)), INDEPENDENT).p)
+0.1
+"""
 
 
 def _group(links: Iterable[tuple[Atom, ...]]) -> Iterator[tuple[Atom, ...]]:

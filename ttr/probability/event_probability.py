@@ -40,7 +40,13 @@ BRANCHES = 1024
 
 
 class Chance(NamedTuple):
-    """A probability, whether its interval is exact, and the components it rests on."""
+    """A probability, whether its interval is exact, and the components it rests on.
+
+    >>> from ttr.probability import Atomic, chance
+    >>> found = chance(Atomic("rain", Degree(0.2, 0.3)))
+    >>> print(found.p, found.exact)
+    [0.2, 0.3] True
+    """
 
     p: Degree
     exact: bool
@@ -48,7 +54,18 @@ class Chance(NamedTuple):
 
 
 class ContradictionError(Exception):
-    """The degrees of a component contradict one another."""
+    """The degrees of a component contradict one another.
+
+    >>> from ttr.probability import Atomic, Dependence, chance
+    >>> apart = Dependence(
+    ...     {"rain": Degree(0.8, 0.8), "dry": Degree(0.7, 0.7)},
+    ...     exclusive=(("rain", "dry"),),
+    ... )
+    >>> chance(Atomic("rain", Degree(0.8, 0.8)), apart)
+    Traceback (most recent call last):
+        ...
+    ttr.probability.event_probability.ContradictionError
+    """
 
     def __init__(self, component: Component) -> None:
         super().__init__()
@@ -164,7 +181,14 @@ def _is_linked(event: Event, known: Dependence) -> bool:
 
 
 def are_apart(events: Sequence[Event], known: Dependence = INDEPENDENT) -> bool:
-    """Are the events independent, as no two of them share or link an atom?"""
+    """Are the events independent, as no two of them share or link an atom?
+
+    >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
+    >>> are_apart([a, b])
+    True
+    >>> are_apart([a, b], Dependence(entailed=(("a", "b"),)))
+    False
+    """
     seen: set[Hashable] = set()
     for event in events:
         mine = _keys(known.spelt_out(event), known)

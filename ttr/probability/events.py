@@ -16,7 +16,12 @@ from ttr.safety.budgets import spend
 
 @dataclass(frozen=True, slots=True)
 class Atomic:
-    """An atom, and how probable it is."""
+    """An atom, and how probable it is.
+
+    >>> from ttr.probability import chance
+    >>> print(chance(Atomic("rain", Degree(0.2, 0.3))).p)
+    [0.2, 0.3]
+    """
 
     atom: Hashable
     p: Degree
@@ -24,26 +29,51 @@ class Atomic:
 
 @dataclass(frozen=True, slots=True)
 class All:
-    """All of the events."""
+    """All of the events.
+
+    >>> from ttr.probability import chance
+    >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.5, 0.5))
+    >>> print(chance(All((a, b))).p)
+    0.25
+    """
 
     parts: tuple[Event, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class AnyOf:
-    """At least one of the events."""
+    """At least one of the events.
+
+    >>> from ttr.probability import chance
+    >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.5, 0.5))
+    >>> print(chance(AnyOf((a, b))).p)
+    0.75
+    """
 
     parts: tuple[Event, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Not:
-    """The event does not happen."""
+    """The event does not happen.
+
+    >>> from ttr.probability import chance
+    >>> print(chance(Not(Atomic("rain", Degree(0.25, 0.5)))).p)
+    [0.5, 0.75]
+    """
 
     part: Event
 
 
 Event: TypeAlias = Atomic | All | AnyOf | Not
+"""An atom, or what is made of events by `All`, `AnyOf` and `Not`.
+
+>>> from ttr.probability import AnyOf, Atomic, Event, Not, chance, degree
+>>> rain = Atomic("rain", degree(0.3))
+>>> event: Event = AnyOf((rain, Not(rain)))
+>>> print(chance(event).p)
+1
+"""
 
 Truth: TypeAlias = Mapping[Hashable, bool]
 """Which atoms hold, and which do not."""

@@ -47,7 +47,15 @@ Table = tuple[tuple[Hashable, ...], dict[Case, int]]
 
 
 class ImpossibleError(Exception):
-    """The condition is certainly not met."""
+    """The condition is certainly not met.
+
+    >>> from ttr.probability import Atomic, Degree, chance
+    >>> a, never = Atomic("a", Degree(0.5, 0.5)), Atomic("never", Degree(0, 0))
+    >>> chance(a, given=never)
+    Traceback (most recent call last):
+        ...
+    ttr.probability.networks.ImpossibleError
+    """
 
 
 @dataclass(frozen=True)

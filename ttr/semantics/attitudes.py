@@ -48,13 +48,35 @@ __all__ = [
 ]
 
 ltm = Pred("ltm", Ind, RecType)
-"""ltm(a, V): the situations in which a's long-term memory is of V."""
+"""ltm(a, V): the situations in which a's long-term memory is of V.
+
+>>> from ttr import Ind, rectype
+>>> from ttr.semantics.attitudes import ltm
+>>> print(ltm("sam", rectype(x=Ind)))
+ltm(sam, [x : Ind])
+"""
 
 believe = Pred("believe", Ind, RecType)
-"""believe(a, C): the situations in which a believes that something is of C."""
+"""believe(a, C): the situations in which a believes that something is of C.
+
+>>> from ttr import Ind, Model, Pred, rectype, this
+>>> from ttr.semantics.attitudes import believe, ltm, with_attitudes
+>>> view = rectype(y=Ind, c=Pred("dog", Ind)(this.y))
+>>> M = with_attitudes(Model().given("m", ltm("sam", view)))
+>>> print(M.true(believe("sam", rectype(x=Ind))))
+1
+"""
 
 know = Pred("know", Ind, RecType)
-"""know(a, C): those in which a believes it, and something is of C."""
+"""know(a, C): those in which a believes it, and something is of C.
+
+>>> from ttr import Ind, Model, rectype
+>>> from ttr.semantics.attitudes import know, ltm, with_attitudes
+>>> M = with_attitudes(Model().given("m", ltm("sam", rectype(x=Ind))))
+>>> content = know("sam", rectype(x=Ind))
+>>> print(M.true(content), M.given("fido", Ind).true(content))
+0 1
+"""
 
 
 def _closed_under_matching(lower: Pred, upper: Pred) -> Axiom:
@@ -74,7 +96,14 @@ AXIOMS: tuple[Axiom, ...] = (
     ),
     Axiom(believe(this.a, this.C), know(this.a, this.C), (IsTrue(freeze(this.C)),)),
 )
-"""The witness conditions of `believe` and `know`, as a theory may state them."""
+"""The witness conditions of `believe` and `know`, as a theory may state them.
+
+>>> from ttr.semantics.attitudes import AXIOMS
+>>> print(*AXIOMS, sep="; ")
+ltm(a, V) <: believe(a, C) if V <= C up to relabelling; believe(a, V) <: believe(a, C)
+if V <= C up to relabelling; know(a, V) <: know(a, C) if V <= C up to relabelling;
+know(a, C) <: believe(a, C) only if true(C); believe(a, C) <: know(a, C) if true(C)
+"""
 
 
 def with_attitudes(M: Model, /) -> Model:
@@ -93,6 +122,12 @@ class Match:
     """A view that is below a content: where it is had, the view, and the relabelling.
 
     `relabelling` are the new names of labels of the content, as `relabel` takes them.
+
+    >>> from ttr import rectype
+    >>> M = Model().given("m", ltm("sam", rectype(id0=Ind)))
+    >>> [match] = matches(M, "sam", rectype(x=Ind))
+    >>> print(match.situation, match.view, match.relabelling)
+    m [id0 : Ind] {'x': 'id0'}
     """
 
     situation: Object

@@ -89,6 +89,13 @@ def apply(function: Record, argument: Record, /) -> Record:
 
     A context for it has a context for each part, under the labels f and a:
     {bg = [f : bg₁, a : bg₂], fg = λr. fg₁(r.f)(fg₂(r.a))}.
+
+    >>> from ttr import Ind, Pred, rectype, this
+    >>> Sam = rectype(x=Ind @ "sam")
+    >>> sam = content(Sam, fun(r=Sam)(this.r.x))
+    >>> run = fun(x=Ind)(Pred("run", Ind)(this.x))
+    >>> print(apply(content(rectype(), fun(r=rectype())(run)), sam).bg)
+    [a : [x = sam : Ind], f : Rec]
     """
     bg_f, fg_f = _parts(function)
     bg_a, fg_a = _parts(argument)
@@ -103,6 +110,14 @@ def in_context(
     """How certain a content is in one context.
 
     Raises `RefusedError` where r is not certainly of the background.
+
+    >>> from ttr import Ind, Model, Pred, record, rectype, this
+    >>> Donkey = rectype(x=Ind, c=Pred("donkey", Ind)(this.x))
+    >>> brays = content(Donkey, fun(r=Donkey)(Pred("bray", Ind)(this.r.x)))
+    >>> M = Model().given("eeyore", Ind).given("s1", Pred("donkey", Ind)("eeyore"))
+    >>> M = M.given("s2", Pred("bray", Ind)("eeyore"))
+    >>> print(in_context(M, brays, record(x="eeyore", c="s1")).p)
+    1
     """
     _, fg = _parts(of)
     return truth(M, as_type(M.apply(fg, r)), thresholds)

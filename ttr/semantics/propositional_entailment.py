@@ -49,7 +49,14 @@ def entails(
 def equivalent(
     first: object, second: object, theory: Signature | None = None, /
 ) -> Answer:
-    """Does each of two propositions entail the other?"""
+    """Does each of two propositions entail the other?
+
+    >>> from ttr import Basic
+    >>> from ttr.judging import proposition
+    >>> A, B = Basic("A"), Basic("B")
+    >>> equivalent(proposition("s", ~(A & B)), proposition("s", ~A | ~B)).yes
+    True
+    """
     answers = [entails(first, second, theory), entails(second, first, theory)]
     return min(answers, key=lambda answer: VERDICTS.index(answer.verdict))
 

@@ -80,10 +80,23 @@ _MATCHES = 4096
 """The number of propositions whose arguments in a question are cached."""
 
 YES, NO = "yes", "no"
-"""The short answers to questions whether."""
+"""The short answers to questions whether.
+
+>>> from ttr import Basic, Model
+>>> from ttr.semantics.questions import NO, YES, combine, whether
+>>> rain = whether(Basic("Rain"))
+>>> print(combine(rain, YES, Model()), combine(rain, NO, Model()))
+Rain ~Rain
+"""
 
 Question = Basic("Question")
-"""The type of questions; `with_questions` gives a model its witnesses."""
+"""The type of questions; `with_questions` gives a model its witnesses.
+
+>>> from ttr import Basic, Model
+>>> from ttr.semantics.questions import Question, whether, with_questions
+>>> with_questions(Model()).judge(whether(Basic("Rain")), Question).holds
+True
+"""
 
 
 # --- questions -----------------------------------------------------------------------
@@ -149,13 +162,22 @@ def is_question(value: Object) -> bool:
 
 
 def is_polar(value: Object) -> TypeGuard[Function]:
-    """Is an object a question whether, that is, one that asks for no object?"""
+    """Is an object a question whether, that is, one that asks for no object?
+
+    >>> is_polar(whether(Basic("Rain"))), is_polar(which(Pred("leave", Basic("Ind"))))
+    (True, False)
+    """
     spend()
     return is_question(value) and isinstance(value, Function) and value.domain is Rec
 
 
 def with_questions(model: Model) -> Model:
-    """The model in which questions are of the type `Question` by their form."""
+    """The model in which questions are of the type `Question` by their form.
+
+    >>> M = with_questions(Model())
+    >>> M.judge(whether(Basic("Rain")), Question).holds, M.judge(Rec, Question).holds
+    (True, False)
+    """
     return model.witnessed(Question, by=is_question)
 
 
@@ -428,12 +450,22 @@ def push(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
 
 
 def top(qud: Iterable[Object]) -> Object | None:
-    """The maximal question under discussion, or None where there is none."""
+    """The maximal question under discussion, or None where there is none.
+
+    >>> a, b = (whether(Basic(name)) for name in "AB")
+    >>> top(push([a], b)) == b, top([])
+    (True, None)
+    """
     return next(iter(as_tuple(qud, "questions")), None)
 
 
 def pop(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
-    """The questions without one that was dropped or resolved."""
+    """The questions without one that was dropped or resolved.
+
+    >>> a, b = (whether(Basic(name)) for name in "AB")
+    >>> pop([b, a], b) == (a,)
+    True
+    """
     return tuple(_without(as_tuple(qud, "questions"), question))
 
 

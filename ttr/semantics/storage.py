@@ -58,6 +58,19 @@ class Underspecified:
 
     The store is in the order of the sentence: of two quantifiers, the first has wide
     scope in the first reading. Raises `IllFormedError` for two with one variable.
+
+    >>> from ttr import Pred
+    >>> from ttr.semantics.quantifiers import every, exist
+    >>> dog, cat, chase = Pred("dog", Ind), Pred("cat", Ind), Pred("chase", Ind, Ind)
+    >>> sentence = Underspecified(
+    ...     chase("x", "y"),
+    ...     (
+    ...         StoredQuantifier("x", every, dog("x")),
+    ...         StoredQuantifier("y", exist, cat("y")),
+    ...     ),
+    ... )
+    >>> len(readings(sentence)), sentence.is_plugged
+    (2, False)
     """
 
     content: TypeNode
@@ -93,6 +106,12 @@ class StoredQuantifier:
     content with a store of its own, whose quantifiers take scope inside it or are in
     store where it is retrieved. Raises `IllFormedError` where the variable is no name
     or the quantifier no function.
+
+    >>> from ttr import Pred
+    >>> from ttr.semantics.quantifiers import every
+    >>> stored = StoredQuantifier("x", every, Pred("dog", Ind)("x"))
+    >>> print(stored.restriction.content)
+    dog(x)
     """
 
     variable: str
@@ -124,12 +143,22 @@ class StoredQuantifier:
 def readings(
     sentence: Underspecified, theory: Signature | None = None, /
 ) -> tuple[TypeNode, ...]:
-    """The readings of an underspecified content: what its retrievals compute to.
+    r"""The readings of an underspecified content: what its retrievals compute to.
 
     Each is there once, the one with the scopes of the sentence first. A retrieval that
     leaves a variable free is none: a quantifier whose variable stands in the restrictor
     of another one is retrieved after it, or inside the restrictor. Raises
     `IllFormedError` as `normal_form`, and `TooLargeError` for too many.
+
+    >>> from ttr import Pred
+    >>> from ttr.semantics.quantifiers import every, exist
+    >>> dog, cat, chase = Pred("dog", Ind), Pred("cat", Ind), Pred("chase", Ind, Ind)
+    >>> every_dog = StoredQuantifier("x", every, dog("x"))
+    >>> some_cat = StoredQuantifier("y", exist, cat("y"))
+    >>> for reading in readings(Underspecified(chase("x", "y"), (every_dog, some_cat))):
+    ...     print(reading)
+    every(\x:Ind. dog(x), \y:Ind. exist(\x:Ind. cat(x), \x:Ind. chase(y, x)))
+    exist(\x:Ind. cat(x), \y:Ind. every(\x:Ind. dog(x), \x:Ind. chase(x, y)))
     """
     variables = frozenset(one.variable for one in _all_stored(sentence.store))
     found: dict[object, TypeNode] = {}

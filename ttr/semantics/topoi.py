@@ -44,7 +44,15 @@ if not TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Topos:
-    """A topos: `bg` is its background type, `fg` the function to what to expect."""
+    """A topos: `bg` is its background type, `fg` the function to what to expect.
+
+    >>> from ttr import Ind, Pred, fun, outer, rectype, this
+    >>> bird, fly = Pred("bird", Ind), Pred("fly", Ind)
+    >>> Bird = rectype(x=Ind, c=bird(this.x))
+    >>> birds_fly = Topos(fun(r=Bird)(rectype(e=fly(outer.r.x))))
+    >>> print(birds_fly.bg)
+    [x : Ind, c : bird(x)]
+    """
 
     fg: Function
 
@@ -92,6 +100,14 @@ def expectation(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
     """t(s): what to expect of a situation s by a topos t.
 
     Raises `RefusedError` where s is not certainly of the background type.
+
+    >>> from ttr import Ind, Model, Pred, fun, outer, record, rectype, this
+    >>> bird, fly = Pred("bird", Ind), Pred("fly", Ind)
+    >>> Bird = rectype(x=Ind, c=bird(this.x))
+    >>> birds_fly = topos(fun(r=Bird)(rectype(e=fly(outer.r.x))))
+    >>> M = Model().given("tweety", Ind).given("s1", bird("tweety"))
+    >>> print(expectation(M, record(x="tweety", c="s1"), birds_fly))
+    [e : fly(tweety)]
     """
     return as_type(as_model(model).apply(topos(warrant).fg, sit))
 
@@ -111,6 +127,15 @@ def necessary(
     B is `background`, or the background of the topos itself. As certain as s : B where
     the two subtypings are derivable; not so where one is refuted; else between the two.
     Source: Cooper 2023, §6.4, on modality relative to a background.
+
+    >>> from ttr import Ind, Model, Pred, fun, outer, record, rectype, this
+    >>> bird, fly = Pred("bird", Ind), Pred("fly", Ind)
+    >>> Bird = rectype(x=Ind, c=bird(this.x))
+    >>> birds_fly = topos(fun(r=Bird)(rectype(e=fly(outer.r.x))))
+    >>> M = Model().given("tweety", Ind).given("s1", bird("tweety"))
+    >>> s = record(x="tweety", c="s1")
+    >>> necessary(M, s, rectype(e=fly("tweety")), birds_fly).yes
+    True
     """
     found = _apply_to_situation(model, sit, warrant, background)
     if isinstance(found, ModalAnswer):
@@ -133,6 +158,15 @@ def possible(
     """s : poss(T, B, t): is s of B, B ⊑ the background of t, t(s) compatible with T?
 
     B is as with `necessary`. Types are compatible if something can be of both.
+
+    >>> from ttr import Ind, Model, Pred, fun, outer, record, rectype, this
+    >>> bird, fly = Pred("bird", Ind), Pred("fly", Ind)
+    >>> Bird = rectype(x=Ind, c=bird(this.x))
+    >>> birds_fly = topos(fun(r=Bird)(rectype(e=fly(outer.r.x))))
+    >>> M = Model().given("tweety", Ind).given("s1", bird("tweety"))
+    >>> s = record(x="tweety", c="s1")
+    >>> possible(M, s, ~rectype(e=fly("tweety")), birds_fly).no
+    True
     """
     found = _apply_to_situation(model, sit, warrant, background)
     if isinstance(found, ModalAnswer):
@@ -220,6 +254,13 @@ def compatible(
     Topoi need not be consistent: somebody may hold "birds fly" and "penguins do not".
     Raises `IllFormedError` where they are not functions from record types to record
     types.
+
+    >>> from ttr import Ind, Pred, fun, outer, rectype, this
+    >>> fly = Pred("fly", Ind)
+    >>> flies = topos(fun(r=rectype(x=Ind))(rectype(e=fly(outer.r.x))))
+    >>> stays = topos(fun(r=rectype(x=Ind))(rectype(e=~fly(outer.r.x))))
+    >>> compatible(flies, flies).verdict, compatible(flies, stays).verdict
+    ('yes', 'no')
     """
     both = combine_topoi(first, second, theory)
     return consistent(fix(both.fg, theory), theory=theory)

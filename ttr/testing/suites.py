@@ -45,6 +45,18 @@ class Report(NotebookValue):
     `coverage` is what the dialogues covered, `roles` which field played which role;
     `skipped` are the properties that could not be checked, with the roles that no field
     plays. `overall` are the properties that the dialogues break together, and why.
+
+    >>> from ttr import Theory
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> report = Suite(theory.games["notes"], examples=5).run()
+    >>> report.holds, report.coverage.rules["note"] > 0
+    (True, True)
     """
 
     coverage: Coverage
@@ -101,6 +113,17 @@ class Suite:
     """How a game is tested: with which tutor, for which properties, for how long.
 
     `after_each` is called with the coverage so far after every dialogue.
+
+    >>> from ttr import Theory
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> Suite(theory.games["notes"], turns=3, examples=5).run().holds
+    True
     """
 
     game: Game
@@ -256,6 +279,15 @@ def check_rule(
 
     It has to keep the type of the state, change nothing in the state that it is given,
     give the same each time, and name only what exists. Raises as `check_rules` does.
+
+    >>> from ttr import Ind, ListOf, rectype, replace
+    >>> from ttr.updates import rule
+    >>> Board = rectype(heard=ListOf(Ind))
+    >>> @rule(when=Board, on=Ind)
+    ... def note(s, e):
+    ...     return replace(s, heard=[*s.heard, e])
+    >>> check_rule(note, Board, examples=5).holds
+    True
     """
     __tracebackhide__ = True
     if not isinstance(rule, Rule):

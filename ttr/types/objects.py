@@ -83,6 +83,11 @@ class Path(Node):
 
     Every record type is a scope of its labels, and every binder one of its variable,
     which has no name there but `BOUND`: so names of variables never matter.
+
+    >>> from ttr import Ind, Pred, rectype, this
+    >>> T = rectype(x=Ind, c=Pred("dog", Ind)(this.x))
+    >>> T["c"].args == (Path(0, ("x",)),)
+    True
     """
 
     up: int
@@ -216,6 +221,14 @@ class Operation(Node):
 
     It is kept as long as a part of it is a path or an application; otherwise `concat`,
     `fst` and `rst` give the result.
+
+    >>> from ttr import this
+    >>> from ttr.types import fst
+    >>> term = concat(["a"], this.qud)
+    >>> isinstance(term, Operation), term.name
+    (True, '+')
+    >>> print(term, "and", fst(this.qud))
+    [a] + .qud and fst(.qud)
     """
 
     name: str

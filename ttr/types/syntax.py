@@ -45,10 +45,17 @@ def as_function_type(domain: TypeNode, result: TypeNode, /) -> TypeNode:
 
 
 class TypeNode(Node):
-    """A type, with the signs of the notation as operators.
+    r"""A type, with the signs of the notation as operators.
 
     `S & T` is the meet, `S | T` the join, `~T` the negation, `S >> T` the type of
     functions from S to T, `T @ a` a singleton; `S <= T` asks for subtyping.
+
+    >>> from ttr import Ind, Pred
+    >>> dog, brown = Pred("dog", Ind), Pred("brown", Ind)
+    >>> print(dog("fido") & brown("fido"), "or", ~dog("fido"))
+    brown(fido) /\ dog(fido) or ~dog(fido)
+    >>> dog("fido") & brown("fido") <= dog("fido")
+    True
     """
 
     __slots__ = ()
@@ -145,6 +152,14 @@ class Universe(TypeNode):
 
     A type is of level 0 if it mentions no type of types, and of level n + 1 if the
     highest that it mentions is of level n. So Type itself is of Type^1, not of Type.
+
+    >>> from ttr import Model, Rec, Type
+    >>> print(Universe("RecType", 1))
+    RecType^1
+    >>> Model().judge(Rec, Type).holds, Model().judge(Type, Type).holds
+    (True, False)
+    >>> Model().judge(Type, Universe("Type", 1)).holds
+    True
     """
 
     name: str
@@ -163,7 +178,13 @@ class Universe(TypeNode):
 
 @node
 class PType(TypeNode):
-    """p(a₁, …, aₙ): the type of the situations that make a predication true."""
+    """p(a₁, …, aₙ): the type of the situations that make a predication true.
+
+    >>> from ttr import Pred
+    >>> T = Pred("hug", Ind, Ind)("sam", "fido")
+    >>> print(T, "is of", T.pred, "and", ", ".join(T.args))
+    hug(sam, fido) is of hug and sam, fido
+    """
 
     pred: Pred
     args: tuple[Object, ...]
@@ -193,7 +214,13 @@ def _wrong_arity(pred: Pred, found: int) -> str:
 
 @node
 class Singleton(TypeNode):
-    """T@a, T restricted to a: b is of it iff b is of T and b is a."""
+    """T@a, T restricted to a: b is of it iff b is of T and b is a.
+
+    >>> from ttr import Model
+    >>> M = Model().given("fido", Ind).given("rex", Ind)
+    >>> [M.judge(it, Singleton(Ind, "fido")).holds for it in ("fido", "rex")]
+    [True, False]
+    """
 
     base: TypeNode
     value: Object
@@ -209,7 +236,13 @@ class Singleton(TypeNode):
 
 @node
 class Meet(TypeNode):
-    """S ∧ T: a is of it iff a is of every part. Built by `meet`."""
+    """S ∧ T: a is of it iff a is of every part. Built by `meet`.
+
+    >>> from ttr import Pred
+    >>> T = Pred("dog", Ind)("fido") & Pred("brown", Ind)("fido")
+    >>> isinstance(T, Meet), [str(it) for it in T.parts]
+    (True, ['brown(fido)', 'dog(fido)'])
+    """
 
     parts: tuple[TypeNode, ...]
 
@@ -220,10 +253,18 @@ class Meet(TypeNode):
 
 @node
 class Merge(Meet):
-    """S ∧̣ T where a part is not known yet, such as the value of a variable function.
+    r"""S ∧̣ T where a part is not known yet, such as the value of a variable function.
 
     It is the meet of its parts but for its form: as soon as they are known they are
     merged label by label. Built by `merge_terms`.
+
+    >>> from ttr import Type, fun, rectype, this
+    >>> from ttr.types import merge_terms
+    >>> f = fun(T=Type)(merge_terms(this.T, rectype(x=Ind)))
+    >>> print(f)
+    \T:Type. merge(T, [x : Ind])
+    >>> type(f.body) is Merge
+    True
     """
 
     parts: tuple[TypeNode, ...]
@@ -232,7 +273,13 @@ class Merge(Meet):
 
 @node
 class Join(TypeNode):
-    """S ∨ T: a is of it iff a is of one of the parts. Built by `join`."""
+    """S ∨ T: a is of it iff a is of one of the parts. Built by `join`.
+
+    >>> from ttr import Pred
+    >>> T = Pred("dog", Ind)("fido") | Pred("cat", Ind)("fido")
+    >>> isinstance(T, Join), [str(it) for it in T.parts]
+    (True, ['cat(fido)', 'dog(fido)'])
+    """
 
     parts: tuple[TypeNode, ...]
 
@@ -243,7 +290,13 @@ class Join(TypeNode):
 
 @node
 class Negation(TypeNode):
-    """¬T: a is of it iff a is not of T."""
+    """¬T: a is of it iff a is not of T.
+
+    >>> from ttr import Pred
+    >>> T = ~Pred("dog", Ind)("fido")
+    >>> print(T, "denies", T.body)
+    ~dog(fido) denies dog(fido)
+    """
 
     body: TypeNode
     _sign = "~"
@@ -282,7 +335,13 @@ class ListOf(_Of):
 
 @node
 class NonEmpty(_Of):
-    """nelist(T): the lists of objects of T that have a first element and a rest."""
+    """nelist(T): the lists of objects of T that have a first element and a rest.
+
+    >>> from ttr import Model
+    >>> M = Model().given("fido", Ind)
+    >>> M.judge(("fido",), NonEmpty(Ind)).holds, M.judge((), NonEmpty(Ind)).holds
+    (True, False)
+    """
 
     item: TypeNode
     _sign = "nelist"
@@ -370,6 +429,11 @@ class FunType(_Binder, TypeNode):
     """((x : S) → T), the functions that take each x of S to an object of T.
 
     Where T does not mention x it is written (S → T). Built by `S >> T` and `Pi`.
+
+    >>> from ttr import Pi, Pred, this
+    >>> T = Pi(x=Ind)(Pred("run", Ind)(this.x))
+    >>> print(T, "from", T.domain)
+    ((x : Ind) -> run(x)) from Ind
     """
 
     domain: TypeNode
@@ -386,7 +450,15 @@ class FunType(_Binder, TypeNode):
 
 @node
 class Function(_Binder):
-    """λx:S. body, the function that takes each x of S to the body. Built by `fun`."""
+    r"""λx:S. body, the function that takes each x of S to the body. Built by `fun`.
+
+    >>> from ttr import Model, Pred, fun, this
+    >>> run = fun(x=Ind)(Pred("run", Ind)(this.x))
+    >>> print(run, "from", run.domain)
+    \x:Ind. run(x) from Ind
+    >>> print(Model().given("fido", Ind).apply(run, "fido"))
+    run(fido)
+    """
 
     domain: TypeNode
     body: Object
@@ -404,7 +476,14 @@ class Function(_Binder):
 
 @node
 class Application(Applied, TypeNode):
-    """f(a): the value of a function for an argument, a type or any other object."""
+    r"""f(a): the value of a function for an argument, a type or any other object.
+
+    >>> from ttr import Model, Pred, fun, this
+    >>> run = fun(x=Ind)(Pred("run", Ind)(this.x))
+    >>> term = run("fido")
+    >>> print(term, "=", Model().given("fido", Ind).reduce(term))
+    (\x:Ind. run(x))(fido) = run(fido)
+    """
 
     function: Object
     argument: Object
@@ -435,6 +514,13 @@ class TypeAt(TermAsType, TypeNode):
     """The type that a term stands for, such as the x : T in [T : Type, x : T].
 
     Built where a type is needed and a path is given. As an object it is the path.
+
+    >>> from ttr import Type, rectype, this
+    >>> T = rectype(T=Type, x=this.T)
+    >>> print(T)
+    [T : Type, x : T]
+    >>> type(T["x"]) is TypeAt
+    True
     """
 
     term: Object

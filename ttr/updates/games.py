@@ -70,6 +70,15 @@ class Turn(NotebookValue):
     happened; `said` are the game's own moves in order, each as a judgement that it is
     of the planned type. The run has the state and the model after the turn, and the
     steps of this turn only; `before` has those before it, and no steps.
+
+    >>> from ttr import Ind
+    >>> from ttr.semantics.gameboards import kos
+    >>> game = kos.game(Model().given("a", Ind).given("b", Ind), "a", "b")
+    >>> turn = game.take(game.begin(), kos.utterance(kos.greet("b", "a")))
+    >>> print([str(step.rule) for step in turn.trace])
+    ['take_turn', 'hear', 'open_with_greeting']
+    >>> print(turn.state.moves)
+    (Pred('greet', Basic('Ind'), Basic('Ind'))('b', 'a'),)
     """
 
     event: object

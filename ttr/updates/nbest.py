@@ -25,6 +25,11 @@ class NBest:
 
     They add up to at most 1; the rest is the probability of something else. Built by
     `nbest`.
+
+    >>> from ttr.updates import nbest
+    >>> heard = nbest(("a cap", 0.2), ("a cup", 0.7))
+    >>> [(event, p) for event, p in heard], isinstance(heard, NBest)
+    ([('a cup', 0.7), ('a cap', 0.2)], True)
     """
 
     alternatives: tuple[tuple[Object, float], ...]

@@ -52,7 +52,17 @@ def apply_rule(rule: Rule, args: Sequence[Object], model: Model) -> Run:
 
 
 def why_not(rule: Rule, state: Record, event: Object | NBest, model: Model) -> str:
-    """Why a rule does not apply to a state and an event; empty if it may apply."""
+    """Why a rule does not apply to a state and an event; empty if it may apply.
+
+    >>> from ttr import Theory, record
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> why_not(talk.rules["drop"], record(qud=[]), None, Model(talk))
+    'qud: [] : nelist(Question), it is empty'
+    """
     if rule.on is not None:
         if event is None:
             return f"it waits for an event of {rule.on}"

@@ -47,6 +47,18 @@ class Rule(NotebookValue):
     are the bindings and extras that the effect has as parameters, `names` its names for
     the state and the event; `text` is the text of a rule in a file, from its name on.
     Built by `rule`, `update` or a theory file.
+
+    >>> from ttr import Theory
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> drop = talk.rules["drop"]
+    >>> print(drop.name, drop.when)
+    drop [qud : nelist(Question)]
     """
 
     name: str
@@ -126,6 +138,17 @@ class Body:
 
     Paths that lead out of `value` start with the name of the state, the event or a
     binding. It is called like an effect in Python, with all of them.
+
+    >>> from ttr import Theory
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> print(talk.rules["drop"].effect.value)
+    [qud = rst(^.s.qud) : list(Question)]
     """
 
     value: Object

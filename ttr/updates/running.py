@@ -65,6 +65,21 @@ class Step(NotebookValue):
     `event` is the event that the rule took, with probability `p`, and `given` the
     uncertain event that it comes from. `created` are the paths of what had to be
     created, as the rule gave only its type; `seconds` is how long the rule took.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> start = record(qud=["q2", "q1"])
+    >>> after = run(talk.rules["drop"], start, type=talk.Board, model=Model(talk))
+    >>> print(after.trace[0])
+    drop
+      qud: − q2
     """
 
     rule: Rule
@@ -182,7 +197,22 @@ Watch: TypeAlias = Callable[[Step], object]
 
 
 class Run(NamedTuple):
-    """The state and the model after a run, and the steps that led there."""
+    """The state and the model after a run, and the steps that led there.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> drop, start = talk.rules["drop"], record(qud=["q2", "q1"])
+    >>> state, M, trace = run(drop, start, type=talk.Board, model=Model(talk))
+    >>> print(state, len(trace))
+    {qud = [q1]} 1
+    """
 
     state: Record
     model: Model
@@ -216,6 +246,20 @@ def run(
     `NoStateError` if the state is not of its type before the first or after any rule,
     `RuleFailedError` if a rule fails, `EndlessError` if a repetition does not end. The
     state and the model that are given never change.
+
+    >>> from ttr import Theory, record
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule push(s : Board, q : Question) :=
+    ...         [qud = [q] + s.qud : list(Question)]
+    ... ''')
+    >>> start = record(qud=[])
+    >>> push, asked = talk.rules["push"], ["q1", "q2"]
+    >>> after = run(push, start, type=talk.Board, model=Model(talk), events=asked)
+    >>> print(after.state)
+    {qud = [q2, q1]}
     """
     check_strategies("run", (algorithm,))
     if isinstance(events, str | bytes | NBest | Record | Mapping | TypeNode):

@@ -26,7 +26,20 @@ Measure: TypeAlias = str | Callable[[Record], object]
 
 @dataclass(frozen=True)
 class First:
-    """The first of these that applies."""
+    """The first of these that applies.
+
+    >>> from ttr import Theory
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ...     rule ask(s : Board) := [qud = [q1] : list(Question)]
+    ... ''')
+    >>> print(First((talk.rules["drop"], talk.rules["ask"])))
+    first(drop, ask)
+    """
 
     parts: tuple[Algorithm, ...]
 
@@ -41,7 +54,20 @@ class First:
 
 @dataclass(frozen=True)
 class All:
-    """Each of these that applies, in order; it applies if any of them does."""
+    """Each of these that applies, in order; it applies if any of them does.
+
+    >>> from ttr import Theory
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ...     rule ask(s : Board) := [qud = [q1] : list(Question)]
+    ... ''')
+    >>> print(All((talk.rules["drop"], talk.rules["ask"])))
+    all(drop, ask)
+    """
 
     parts: tuple[Algorithm, ...]
 
@@ -51,7 +77,20 @@ class All:
 
 @dataclass(frozen=True)
 class Seq:
-    """All of these, one after the other; it applies if all of them do."""
+    """All of these, one after the other; it applies if all of them do.
+
+    >>> from ttr import Theory
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ...     rule ask(s : Board) := [qud = [q1] : list(Question)]
+    ... ''')
+    >>> print(Seq((talk.rules["drop"], talk.rules["ask"])))
+    seq(drop, ask)
+    """
 
     parts: tuple[Algorithm, ...]
 
@@ -61,7 +100,19 @@ class Seq:
 
 @dataclass(frozen=True)
 class Maybe:
-    """This if it applies, else nothing; it always applies."""
+    """This if it applies, else nothing; it always applies.
+
+    >>> from ttr import Theory
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> print(Maybe(talk.rules["drop"]))
+    maybe(drop)
+    """
 
     part: Algorithm
 
@@ -74,6 +125,17 @@ class Repeat:
     """This as long as it applies, at least once.
 
     It applies at most so many `times`, and the `measure` becomes smaller each time.
+
+    >>> from ttr import Theory
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> print(Repeat(talk.rules["drop"], times=9, measure="qud"))
+    repeat(drop, 9, qud)
     """
 
     part: Algorithm
@@ -91,6 +153,16 @@ class ByClass:
     """Class after class, each rule that applies; it applies if any rule does.
 
     The order of the rules within a class is meant not to matter.
+
+    >>> from ttr import Rec
+    >>> from ttr.updates import by_class, rule
+    >>> @rule(when=Rec, kind="integrate")
+    ... def note(s): ...
+    >>> @rule(when=Rec, kind="plan")
+    ... def reply(s): ...
+    >>> order = by_class(reply, note, order=["integrate", "plan"])
+    >>> [(kind, [it.name for it in rules]) for kind, rules in order.classes]
+    [('integrate', ['note']), ('plan', ['reply'])]
     """
 
     classes: tuple[tuple[str, tuple[Rule, ...]], ...]
@@ -101,7 +173,20 @@ class ByClass:
 
 @dataclass(frozen=True)
 class Ask:
-    """The one of these that `choose` picks among those that apply."""
+    """The one of these that `choose` picks among those that apply.
+
+    >>> from ttr import Theory
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ...     rule ask(s : Board) := [qud = [q1] : list(Question)]
+    ... ''')
+    >>> print(Ask(tuple(talk.rules.values()), choose=lambda names, state: 0))
+    ask(drop, ask)
+    """
 
     parts: tuple[Algorithm, ...]
     choose: Choose
@@ -111,6 +196,13 @@ class Ask:
 
 
 Algorithm: TypeAlias = Rule | First | All | Seq | Maybe | Repeat | ByClass | Ask
+"""A rule, or a combination of rules: what `run` and `Game` play.
+
+>>> from ttr.semantics.gameboards import kos
+>>> from ttr.updates import Algorithm
+>>> isinstance(kos.ALGORITHM, Algorithm)
+True
+"""
 
 
 def _format_call(name: str, parts: Sequence[object]) -> str:
@@ -118,22 +210,90 @@ def _format_call(name: str, parts: Sequence[object]) -> str:
 
 
 def first(*parts: Algorithm) -> First:
-    """The first of these rules or strategies that applies."""
+    """The first of these rules or strategies that applies.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ...     rule ask(s : Board) := [qud = [q1] : list(Question)]
+    ... ''')
+    >>> either = first(talk.rules["drop"], talk.rules["ask"])
+    >>> for qud in (["q2", "q1"], []):
+    ...     after = run(either, record(qud=qud), type=talk.Board, model=Model(talk))
+    ...     print([str(step.rule) for step in after.trace], after.state)
+    ['drop'] {qud = [q1]}
+    ['ask'] {qud = [q1]}
+    """
     return First(check_strategies("first", parts))
 
 
 def all_(*parts: Algorithm) -> All:
-    """Each of these that applies, in order."""
+    """Each of these that applies, in order.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ...     rule ask(s : Board) := [qud = [q1] : list(Question)]
+    ... ''')
+    >>> both = all_(talk.rules["drop"], talk.rules["ask"])
+    >>> for qud in (["q2", "q1"], []):
+    ...     after = run(both, record(qud=qud), type=talk.Board, model=Model(talk))
+    ...     print([str(step.rule) for step in after.trace], after.state)
+    ['drop', 'ask'] {qud = [q1]}
+    ['ask'] {qud = [q1]}
+    """
     return All(check_strategies("all_", parts))
 
 
 def seq(*parts: Algorithm) -> Seq:
-    """All of these in order; if one does not apply, none does."""
+    """All of these in order; if one does not apply, none does.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> twice = seq(talk.rules["drop"], talk.rules["drop"])
+    >>> for qud in (["q2", "q1"], ["q2"]):
+    ...     after = run(twice, record(qud=qud), type=talk.Board, model=Model(talk))
+    ...     print(after.state)
+    {qud = []}
+    {qud = [q2]}
+    """
     return Seq(check_strategies("seq", parts))
 
 
 def maybe(part: Algorithm) -> Maybe:
-    """This if it applies, else nothing."""
+    """This if it applies, else nothing.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run, seq
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> once_or_twice = seq(talk.rules["drop"], maybe(talk.rules["drop"]))
+    >>> start = record(qud=["q2"])
+    >>> print(run(once_or_twice, start, type=talk.Board, model=Model(talk)).state)
+    {qud = []}
+    """
     check_strategies("maybe", (part,))
     return Maybe(part)
 
@@ -146,6 +306,20 @@ def repeat(
     It is an error to apply more than `times`, to return to an earlier state, or not to
     make the `measure` smaller. The measure is the path of a list or of a non-negative
     number, or a function from the state to one.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> forget, M = repeat(talk.rules["drop"], measure="qud"), Model(talk)
+    >>> after = run(forget, record(qud=["q2", "q1"]), type=talk.Board, model=M)
+    >>> print(after.state, len(after.trace))
+    {qud = []} 2
     """
     check_strategies("repeat", (part,))
     if times is not None and (type(times) is not int or times < 1):
@@ -162,6 +336,15 @@ def by_class(*rules: Rule, order: Sequence[str]) -> ByClass:
     """The rules class by class, in this order of the classes (their `kind`).
 
     Raises `UpdateError` if a rule is of no class in the order, or a class has no rule.
+
+    >>> from ttr import Rec
+    >>> from ttr.updates import rule
+    >>> @rule(when=Rec, kind="integrate")
+    ... def note(s): ...
+    >>> @rule(when=Rec, kind="plan")
+    ... def reply(s): ...
+    >>> print(by_class(reply, note, order=["integrate", "plan"]))
+    by_class(integrate, plan)
     """
     if isinstance(order, str):
         raise UpdateError(f"the order of classes is a list of words, found {order!r}")
@@ -190,6 +373,20 @@ def ask(*parts: Algorithm, choose: Choose) -> Ask:
 
     `choose` takes the names of those that apply and the state, and gives an index or
     None. Raises `UpdateError` if it cannot be called.
+
+    >>> from ttr import Model, Theory, record
+    >>> from ttr.updates import run
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ...     rule ask(s : Board) := [qud = [q1] : list(Question)]
+    ... ''')
+    >>> last = ask(*talk.rules.values(), choose=lambda names, state: len(names) - 1)
+    >>> print(run(last, record(qud=["q2"]), type=talk.Board, model=Model(talk)).state)
+    {qud = [q1]}
     """
     if not callable(choose):
         raise UpdateError(f"what chooses is a function, found {choose!r}")
@@ -205,7 +402,21 @@ def check_strategies(name: str, parts: tuple[object, ...]) -> tuple[Algorithm, .
 
 
 def rules_of(algorithm: Algorithm) -> tuple[Rule, ...]:
-    """The rules in a strategy, each once, in the order in which they stand."""
+    """The rules in a strategy, each once, in the order in which they stand.
+
+    >>> from ttr import Theory
+    >>> from ttr.updates import maybe, seq
+    >>> talk = Theory.parse('''
+    ...     basic Question
+    ...     object q1, q2 : Question
+    ...     Board := [qud : list(Question)]
+    ...     rule drop(s : [qud : nelist(Question)]) :=
+    ...         [qud = rst(s.qud) : list(Question)]
+    ... ''')
+    >>> drop = talk.rules["drop"]
+    >>> rules_of(seq(drop, maybe(drop)))
+    (<Rule drop>,)
+    """
     return tuple(dict.fromkeys(rule_occurrences(algorithm)))
 
 
@@ -239,7 +450,17 @@ def parts_of(algorithm: Algorithm) -> tuple[Algorithm, ...]:
 
 
 def replace_rules(algorithm: Algorithm, rules: Mapping[str, Rule]) -> Algorithm:
-    """The strategy with these rules in place of those with the same names."""
+    """The strategy with these rules in place of those with the same names.
+
+    >>> from dataclasses import replace
+    >>> from ttr import Rec
+    >>> from ttr.updates import first, rule
+    >>> @rule(when=Rec)
+    ... def greet(s): ...
+    >>> polite = replace(greet, doc="Greet whoever comes.")
+    >>> rules_of(replace_rules(first(greet), {"greet": polite}))[0].doc
+    'Greet whoever comes.'
+    """
     match algorithm:
         case Rule():
             return rules.get(algorithm.name, algorithm)

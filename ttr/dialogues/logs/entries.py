@@ -18,7 +18,19 @@ FORMAT, VERSION = "ttr", 1
 
 
 class LogError(TTRError):
-    """A log that cannot be written, read or replayed: where, and why."""
+    r"""A log that cannot be written, read or replayed: where, and why.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr.dialogues.logs import read_logs
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "a.jsonl")
+    ...     _ = file.write_text("hello\n")
+    ...     read_logs(file)
+    Traceback (most recent call last):
+        ...
+    ttr.dialogues.logs.entries.LogError: .../a.jsonl:1: this is no JSON
+    """
 
 
 class EntryError(Exception):
@@ -27,7 +39,26 @@ class EntryError(Exception):
 
 @dataclass(frozen=True)
 class Header:
-    """How a dialogue begins: the game that is played, and the state at the start."""
+    """How a dialogue begins: the game that is played, and the state at the start.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import read_logs, write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_log(Path(folder, "a.jsonl"), [play(theory.games["notes"], ["ann"])])
+    ...     [log] = read_logs(Path(folder, "a.jsonl"))
+    >>> log.header.start
+    '{heard = []}'
+    """
 
     game: str
     title: str
@@ -50,6 +81,25 @@ class Entry:
     and its words, `rules` for each rule its name, event, bindings and changes. `judged`
     are the facts that the model gained, and `names` how many names it has given out;
     `whole` is false if the turn has changed the model by more than facts.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import read_logs, write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_log(Path(folder, "a.jsonl"), [play(theory.games["notes"], ["ann"])])
+    ...     [log] = read_logs(Path(folder, "a.jsonl"))
+    >>> entry = log.entries[0]
+    >>> entry.turn, entry.line, entry.state
+    (1, 'U> ann', '{heard = [ann]}')
     """
 
     turn: int

@@ -24,7 +24,14 @@ from ttr.showing import Fold, NotebookValue, Part, Text, below, table
 
 
 class UnreadableLogError(LogError):
-    """A log that cannot be read at all: it is missing, or may not be opened."""
+    """A log that cannot be read at all: it is missing, or may not be opened.
+
+    >>> from ttr.dialogues.logs import read_logs
+    >>> read_logs(Path("nowhere.jsonl"))
+    Traceback (most recent call last):
+        ...
+    ttr.dialogues.logs.log_reader.UnreadableLogError: there is no file nowhere.jsonl
+    """
 
 
 @dataclass(frozen=True)
@@ -33,6 +40,24 @@ class Log(NotebookValue):
 
     `number` is the line of the header. `cut` says where the log is cut off in the
     middle of a turn, as when a process was killed; it is empty otherwise.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import read_logs, write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_log(Path(folder, "a.jsonl"), [play(theory.games["notes"], ["ann"])])
+    ...     [log] = read_logs(Path(folder, "a.jsonl"))
+    >>> len(log.entries), len(log.until(0).entries)
+    (1, 0)
     """
 
     file: str
@@ -91,6 +116,23 @@ def read_logs(path: Path) -> tuple[Log, ...]:
 
     Raises `LogError` for a damaged line, and `UnreadableLogError` for a file that
     cannot be read at all.
+
+    >>> import tempfile
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_log(Path(folder, "a.jsonl"), [play(theory.games["notes"], ["ann"])])
+    ...     [log] = read_logs(Path(folder, "a.jsonl"))
+    >>> [entry.line for entry in log.entries]
+    ['U> ann']
     """
     try:
         text = read_bytes(path, LOG)

@@ -27,7 +27,13 @@ from ttr.updates import Run, Step, Turn, nbest
 
 @dataclass(frozen=True)
 class Divergence(NotebookValue):
-    """The first difference of a log and its replay: what differs, and both values."""
+    """The first difference of a log and its replay: what differs, and both values.
+
+    >>> print(Divergence("a.jsonl:3", "the state", "{qud = []}", "{qud = [q1]}"))
+    a.jsonl:3: the state differs
+        logged: {qud = []}
+         found: {qud = [q1]}
+    """
 
     place: str
     what: str
@@ -50,6 +56,25 @@ class Replayed(NotebookValue):
     """A log that was replayed: the dialogue, and where it differs, if it does.
 
     It ends with the first turn that differs.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import read_logs, write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = Setting.of(theory.games["notes"], theory)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_log(Path(folder, "a.jsonl"), [play(notes.game, ["ann"])])
+    ...     [log] = read_logs(Path(folder, "a.jsonl"))
+    >>> replay(log, notes).divergence is None
+    True
     """
 
     dialogue: Dialogue
@@ -73,6 +98,25 @@ def replay(log: Log, setting: Setting, *, from_: int = 0) -> Replayed:
     The state and the facts of that turn are taken from the log, and all later turns are
     compared. Raises `LogError` where the log has no such turn, or cannot be taken up
     there.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import read_logs, write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = Setting.of(theory.games["notes"], theory)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_log(Path(folder, "a.jsonl"), [play(notes.game, ["ann"])])
+    ...     [log] = read_logs(Path(folder, "a.jsonl"))
+    >>> print(replay(log, notes).dialogue.now.state)
+    {heard = [ann]}
     """
     now = start = run_after(log, setting, from_)
     trials: list[Trial] = []
@@ -95,6 +139,25 @@ def run_after(log: Log, setting: Setting, turn: int) -> Run:
     """The state and the model after a turn of a log; turn 0 is the start.
 
     Raises `LogError` where the log has no such turn, or does not say all of it.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import read_logs, write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = Setting.of(theory.games["notes"], theory)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_log(Path(folder, "a.jsonl"), [play(notes.game, ["ann"])])
+    ...     [log] = read_logs(Path(folder, "a.jsonl"))
+    >>> print(run_after(log, notes, 0).state, run_after(log, notes, 1).state)
+    {heard = []} {heard = [ann]}
     """
     if not 0 <= turn <= len(log.entries):
         raise LogError(
@@ -121,6 +184,29 @@ def continue_log(log: Log, setting: Setting) -> tuple[LogFile, Run]:
     """A log file to write on, and the state and the model at the log's end.
 
     The beginning of a turn that was cut off is removed. Raises `LogError`.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import read_logs, write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann, bo : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = Setting.of(theory.games["notes"], theory)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "a.jsonl")
+    ...     write_log(path, [play(notes.game, ["ann"])])
+    ...     [log] = read_logs(path)
+    ...     file, so_far = continue_log(log, notes)
+    ...     with file:
+    ...         file.write(notes.game.take(so_far, "bo"))
+    ...     print(read_logs(path)[0].entries[-1].state)
+    {heard = [bo, ann]}
     """
     run = run_after(log, setting, len(log.entries))
     turns = len(log.entries)
@@ -129,7 +215,29 @@ def continue_log(log: Log, setting: Setting) -> tuple[LogFile, Run]:
 
 
 def story_of(log: Log, setting: Setting, folder: Path | None = None) -> str:
-    """The text of the story that a log tells, as a file in a folder would have it."""
+    """The text of the story that a log tells, as a file in a folder would have it.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.logs import read_logs, write_log
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = Setting.of(theory.games["notes"], theory, "notes.ttr notes")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_log(Path(folder, "a.jsonl"), [play(notes.game, ["ann"])])
+    ...     [log] = read_logs(Path(folder, "a.jsonl"))
+    >>> print(story_of(log, notes))
+    --- a dialogue
+    @ game notes.ttr notes
+    U> ann
+    """
     if folder is not None:
         reference = setting.reference_from(folder)
         setting = replace(setting, reference=reference, folder=folder)

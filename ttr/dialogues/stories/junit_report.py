@@ -18,6 +18,9 @@ class Outcome:
     """The result of a story: where it differs, or why it could not be played.
 
     With neither, it went as written.
+
+    >>> Outcome("hello.dlg", "a greeting", 0.25).as_written
+    True
     """
 
     file: str
@@ -38,7 +41,11 @@ class Outcome:
 
 
 def summary(file: str, outcomes: Sequence[Outcome]) -> str:
-    """A line on the results of the stories of a file."""
+    """A line on the results of the stories of a file.
+
+    >>> summary("hello.dlg", [Outcome("hello.dlg", "a greeting", 0.25)])
+    'hello.dlg: 1 story as written'
+    """
     count = len(outcomes)
     told = f"{count} {'story' if count == 1 else 'stories'}"
     wrong = sum(not one.as_written for one in outcomes)
@@ -48,7 +55,11 @@ def summary(file: str, outcomes: Sequence[Outcome]) -> str:
 
 
 def facts(one: Outcome) -> dict[str, Any]:
-    """The result of a story for machines, as a JSON object."""
+    """The result of a story for machines, as a JSON object.
+
+    >>> facts(Outcome("hello.dlg", "a greeting", 0.25))
+    {'file': 'hello.dlg', 'title': 'a greeting', 'difference': None}
+    """
     told: dict[str, Any] = {"file": one.file, "title": one.title, "difference": None}
     if one.error is not None:
         return {**told, "error": str(one.error)}

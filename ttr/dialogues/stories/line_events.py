@@ -114,7 +114,11 @@ def _alternative_events(line: Line, begin: int, read: _Read) -> NBest | None:
 
 
 class Alternative(NamedTuple):
-    """What was perhaps said or done, with its probability and place in the line."""
+    """What was perhaps said or done, with its probability and place in the line.
+
+    >>> Alternative("This is a cup.", p=0.7, begin=4)
+    Alternative(text='This is a cup.', p=0.7, begin=4)
+    """
 
     text: str
     p: float
@@ -125,6 +129,11 @@ def alternatives(line: Line, begin: int = 0) -> tuple[Alternative, ...]:
     """The alternatives in a line: texts, each followed by its probability.
 
     Raises `StoryError` for one without a probability.
+
+    >>> from ttr.dialogues.stories import Line
+    >>> heard = Line("a.dlg", 3, "U?", "a cup 0.7 | a cap 0.2")
+    >>> [(it.text, it.p) for it in alternatives(heard)]
+    [('a cup', 0.7), ('a cap', 0.2)]
     """
     parts = re.finditer(r"(?:(?!\s\|\s).)+", line.text[begin:])
     return tuple(_read_alternative(line, begin + it.start(), it[0]) for it in parts)

@@ -11,6 +11,12 @@ from ttr.showing import NotebookValue, Part, Text
 from ttr.updates import Step
 
 SILENCE = "silence"
+"""What is found, or expected, where the system says nothing.
+
+>>> from ttr.dialogues.stories import SILENCE
+>>> print(SILENCE)
+silence
+"""
 
 _EXPECTED, _FOUND = "  expected: ", "     found: "
 
@@ -23,6 +29,12 @@ class Mismatch(NotebookValue):
     """A line of a story that differs from what was played: `expected` and `found`.
 
     `trace` has the rules that ran in the turn before.
+
+    >>> from ttr.dialogues.stories import Line
+    >>> print(Mismatch(Line("a.dlg", 3, "S>", "Hello."), "Hello.", "Good day."))
+    a.dlg:3
+      expected: Hello.
+         found: Good day.
     """
 
     line: Line

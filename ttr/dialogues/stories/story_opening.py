@@ -24,10 +24,25 @@ from ttr.types.objects import Record
 def setting_of(
     story: Story, consent: Consent = OWN_FOLDER, read: ReadText = read_theory_text
 ) -> Setting:
-    """The setting that a story names; raises `StoryError` and `NotAllowedError`.
+    r"""The setting that a story names; raises `StoryError` and `NotAllowedError`.
 
     Python that it names runs if it lies in the story's folder or below, or where there
     is consent. `read` reads the text of a theory that it names.
+
+    >>> import tempfile
+    >>> from ttr.dialogues.stories import read_stories
+    >>> text = '''
+    ...     basic Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... '''
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "notes.ttr").write_text(text)
+    ...     file = Path(folder, "a.dlg")
+    ...     _ = file.write_text("--- nothing happens\n@ game notes.ttr notes\nU>\n")
+    ...     setting_of(read_stories(file)[0]).reference
+    'notes.ttr notes'
     """
     check_consent(story, consent)
     if story.game is None:
@@ -45,7 +60,17 @@ def setting_of(
 
 
 def check_consent(story: Story, consent: Consent) -> None:
-    """Raises `NotAllowedError` where a story names something without consent."""
+    """Raises `NotAllowedError` where a story names something without consent.
+
+    >>> from ttr.dialogues.stories import Line
+    >>> story = Story("a talk", (), Line("a.dlg", 1, "@", "game ../games.py:door"))
+    >>> check_consent(story, OWN_FOLDER)
+    Traceback (most recent call last):
+        ...
+    ttr.safety.consent.NotAllowedError: a.dlg:1: ../games.py lies in another folder:
+    allow it with --allow .., in Python with allow=['..'], or name the game yourself,
+    --game ../games.py:door
+    """
     if story.game is None:
         return
     try:
@@ -73,6 +98,20 @@ def opening(story: Story, setting: Setting) -> Setting:
     """The setting with the start of the story, if the story says one.
 
     Raises `StoryError` for a start that is no state of the game.
+
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.stories import Line
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = Setting.of(theory.games["notes"], theory)
+    >>> story = Story("later", (Line("a.dlg", 1, "@", "start {heard = [ann]}"),))
+    >>> print(opening(story, notes).game.start)
+    {heard = [ann]}
     """
     first = story.lines[0]
     if not _says_start(first):

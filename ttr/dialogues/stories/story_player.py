@@ -32,6 +32,20 @@ class Played(NotebookValue):
     """A story that was played: the dialogue, and where it differs, if it does.
 
     It ends where it first differs.
+
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.stories import Line
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> story = Story("one name", (Line("a.dlg", 1, "U>", "ann"),))
+    >>> played = play(story, Setting.of(theory.games["notes"], theory))
+    >>> print(played.dialogue.now.state, played.mismatch)
+    {heard = [ann]} None
     """
 
     story: Story
@@ -62,6 +76,25 @@ def play(
 
     `echo` is given each line as it is played, `witness` each turn when it is over.
     Raises `StoryError` for a line that cannot be played.
+
+    >>> from ttr import Theory
+    >>> from ttr.dialogues.stories import Line
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> story = Story("one name", (Line("a.dlg", 1, "U>", "ann"),))
+    >>> story = Story("an answer", (*story.lines, Line("a.dlg", 2, "S>", "Hello.")))
+    >>> print(play(story, Setting.of(theory.games["notes"], theory)).mismatch)
+    a.dlg:2
+      expected: Hello.
+         found: silence
+      the rules of this turn:
+        note
+          heard: + ann
     """
     setting = setting or setting_of(story)
     opened = opening(story, setting)
@@ -197,7 +230,13 @@ def fits(line: Line, words: str) -> bool:
 
 
 def failure_reason(judgement: Judgement) -> str:
-    """Where and why a judgement of the state fails."""
+    """Where and why a judgement of the state fails.
+
+    >>> from ttr import Ind, ListOf, Model, record, rectype
+    >>> Board = rectype(qud=ListOf(Ind))
+    >>> print(failure_reason(Model().judge(record(qud=["q1"]), Board)))
+    at qud: q1 : Ind, nothing says so
+    """
     failed = judgement.why.failure()
     if failed is None:
         return f"it is so with probability {judgement.p}"

@@ -45,6 +45,10 @@ class Line:
     """A line of a story: its place, its mark and the text after it.
 
     `column` is where the text begins in the line as `written` in the file.
+
+    >>> line = Line("a.dlg", 3, "S>", "Hello.")
+    >>> print(line.place, line.wrong("nobody greets here").message)
+    a.dlg:3 a.dlg:3: nobody greets here
     """
 
     file: str
@@ -70,7 +74,13 @@ class Line:
 
 @dataclass(frozen=True)
 class Story(NotebookValue):
-    """A dialogue with a title; `game` is the line that names its game, if any."""
+    """A dialogue with a title; `game` is the line that names its game, if any.
+
+    >>> from ttr.dialogues.stories import Line
+    >>> story = Story("a greeting", (Line("a.dlg", 1, "U>", "Hello."),))
+    >>> [line.mark for line in story.lines]
+    ['U>']
+    """
 
     title: str
     lines: tuple[Line, ...]

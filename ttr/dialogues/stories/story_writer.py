@@ -52,7 +52,24 @@ def format_story(
     *,
     start: Record | None = None,
 ) -> str:
-    """The text of a story of trials in words, from a start if one is given."""
+    """The text of a story of trials in words, from a start if one is given.
+
+    >>> from ttr import Theory
+    >>> from ttr.testing import play
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     object ann : Ind
+    ...     Board := [heard : list(Ind)]
+    ...     rule note(s : Board, e : Ind) := [heard = [e] + s.heard : list(Ind)]
+    ...     game notes({heard = []} : Board) := note
+    ... ''')
+    >>> notes = Setting.of(theory.games["notes"], theory, "notes.ttr notes")
+    >>> trials = [it.in_words(notes) for it in play(notes.game, ["ann"]).trials]
+    >>> print(format_story("one name", trials, notes))
+    --- one name
+    @ game notes.ttr notes
+    U> ann
+    """
     lines = [f"--- {line_of(' '.join(title.split()))}"]
     if setting.reference:
         lines.append(f"@ game {setting.reference}")

@@ -48,7 +48,13 @@ class LexicalEntry:
 
 @dataclass(frozen=True, eq=False)
 class Lexicon:
-    """Words by class, and the theories that say what they mean."""
+    """Words by class, and the theories that say what they mean.
+
+    >>> from ttr.semantics.fragment import english
+    >>> words = english()
+    >>> print(words.meaning("NOUN", "dogs"), "dog" in words.forms)
+    dog True
+    """
 
     words: Mapping[str, Mapping[str, LexicalEntry]]
     theories: tuple[Theory, ...]
@@ -113,7 +119,11 @@ class Lexicon:
 
 @cache
 def english() -> Lexicon:
-    """The lexicon that comes with the fragment, `grammars/fragment.en.ttr`."""
+    """The lexicon that comes with the fragment, `grammars/fragment.en.ttr`.
+
+    >>> english().meaning("NOUN", "dog")
+    Pred('dog', Basic('Ind'))
+    """
     return lexicon(_read_shipped_theory())
 
 

@@ -36,7 +36,15 @@ class Phrase:
 
 
 class OutsideFragmentError(TTRError):
-    """A sentence with a word or a construction that the fragment does not have."""
+    """A sentence with a word or a construction that the fragment does not have.
+
+    >>> from ttr.semantics.fragment import understand
+    >>> understand("Every dog gavotted.")
+    Traceback (most recent call last):
+        ...
+    ttr.semantics.fragment.sentence_parsing.OutsideFragmentError: the lexicon has no
+    word 'gavotted'
+    """
 
 
 def parse_sentence(text: str, words: Lexicon) -> Phrase:

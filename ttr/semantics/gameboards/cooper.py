@@ -41,10 +41,29 @@ __all__ = [
 ]
 
 assert_that = Pred("assert", Ind, Ind, RecType)
+"""The predicate of assertions: speaker, addressee and what is said.
+
+>>> from ttr import Ind, Pred, rectype
+>>> from ttr.semantics.gameboards.cooper import assert_that
+>>> print(assert_that("a", "b", rectype(e=Pred("run", Ind)("sam"))))
+assert(a, b, [e : run(sam)])
+"""
 acknowledge = Pred("acknowledge", Ind, Ind, RecType)
+"""The predicate of acknowledgements: speaker, addressee and what was said.
+
+>>> from ttr import Ind, Pred, rectype
+>>> from ttr.semantics.gameboards.cooper import acknowledge
+>>> print(acknowledge("b", "a", rectype(e=Pred("run", Ind)("sam"))))
+acknowledge(b, a, [e : run(sam)])
+"""
 
 MOVE: RecordType = rectype(spkr=Ind, addr=Ind, content=RecType)
-"""The type of moves: somebody says something to somebody."""
+"""The type of moves: somebody says something to somebody.
+
+>>> from ttr.semantics.gameboards.cooper import MOVE
+>>> print(MOVE)
+[addr : Ind, content : RecType, spkr : Ind]
+"""
 
 ASSERTION: RecordType = rectype(
     spkr=Ind,
@@ -52,6 +71,12 @@ ASSERTION: RecordType = rectype(
     content=RecType,
     e=assert_that(this.spkr, this.addr, this.content),
 )
+"""The type of assertions.
+
+>>> from ttr.semantics.gameboards.cooper import ASSERTION, MOVE
+>>> ASSERTION <= MOVE
+True
+"""
 
 ACKNOWLEDGEMENT: RecordType = rectype(
     spkr=Ind,
@@ -59,6 +84,12 @@ ACKNOWLEDGEMENT: RecordType = rectype(
     content=RecType,
     e=acknowledge(this.spkr, this.addr, this.content),
 )
+"""The type of acknowledgements.
+
+>>> from ttr.semantics.gameboards.cooper import ACKNOWLEDGEMENT, MOVE
+>>> ACKNOWLEDGEMENT <= MOVE
+True
+"""
 
 _AGENDA = ListOf(Universe("RecType", 1))
 
@@ -70,6 +101,10 @@ BOARD: RecordType = rectype(
 
 The types on the agenda mention types, namely what is to be said, so they are record
 types of level 1. Before anything has been said, `latest` is the empty record.
+
+>>> from ttr.semantics.gameboards.cooper import BOARD
+>>> print(BOARD["shared"])
+[commitments : RecType, latest : Rec]
 """
 
 _MINE = rectype(me=(Ind @ outer.s.private.self) @ outer.e.spkr)
@@ -117,7 +152,12 @@ def plan_acknowledgement(s: Record) -> Record:
 ALGORITHM: Algorithm = all_(
     integrate_acknowledgement, first(make_move, hear_move), plan_acknowledgement
 )
-"""Integrate an acknowledgement, record the latest move, then plan."""
+"""Integrate an acknowledgement, record the latest move, then plan.
+
+>>> from ttr.semantics.gameboards.cooper import ALGORITHM
+>>> print(ALGORITHM)
+all(integrate_acknowledgement, first(make_move, hear_move), plan_acknowledgement)
+"""
 
 
 def asserting(spkr: str, addr: str, content: TypeNode) -> RecordType:
@@ -132,7 +172,11 @@ def asserting(spkr: str, addr: str, content: TypeNode) -> RecordType:
 
 
 def acknowledging(spkr: str, addr: str, content: TypeNode) -> RecordType:
-    """The type of acknowledgements by spkr to addr of this content."""
+    """The type of acknowledgements by spkr to addr of this content.
+
+    >>> print(acknowledging("b", "a", rectype(e=Pred("run", Ind)("sam")))["e"])
+    acknowledge(.spkr, .addr, .content)
+    """
     return _move_type(acknowledge, spkr, addr, content)
 
 

@@ -69,16 +69,64 @@ if not TYPE_CHECKING:
 # A move is a ptype, of the situations in which somebody greets, or asks, somebody.
 
 Move = Basic("Move")
-"""The types of moves."""
+"""The types of moves.
+
+>>> from ttr import Ind, Model
+>>> from ttr.semantics.gameboards.kos import Move, greet, with_moves
+>>> M = with_moves(Model().given("a", Ind).given("b", Ind))
+>>> M.judge(greet("a", "b"), Move).holds
+True
+"""
 
 Short = Basic("Short")
-"""Short answers: the names of objects, yes and no."""
+"""Short answers: the names of objects, yes and no.
+
+>>> from ttr import Ind, Model
+>>> from ttr.semantics.gameboards.kos import Short, with_moves
+>>> M = with_moves(Model().given("kim", Ind))
+>>> [M.judge(it, Short).holds for it in ("kim", "yes")]
+[True, True]
+"""
 
 greet, counter_greet = Pred("greet", Ind, Ind), Pred("counter_greet", Ind, Ind)
+"""The moves that greet somebody and greet back.
+
+>>> from ttr.semantics.gameboards.kos import counter_greet, greet
+>>> print(greet("a", "b"), counter_greet("b", "a"))
+greet(a, b) counter_greet(b, a)
+"""
 part = Pred("part", Ind, Ind)
+"""The move that says goodbye.
+
+>>> from ttr.semantics.gameboards.kos import part
+>>> print(part("a", "b"))
+part(a, b)
+"""
 ask = Pred("ask", Ind, Ind, Question)
+r"""The move that asks a question.
+
+>>> from ttr import Ind, Pred
+>>> from ttr.semantics.gameboards.kos import ask
+>>> from ttr.semantics.questions import which
+>>> print(ask("a", "b", which(Pred("leave", Ind))))
+ask(a, b, \r:[x : Ind]. [e : leave(r.x)])
+"""
 answer = Pred("answer", Ind, Ind, Short)
+"""The move that gives a short answer.
+
+>>> from ttr.semantics.gameboards.kos import answer
+>>> print(answer("b", "a", "kim"))
+answer(b, a, kim)
+"""
 assert_that, accept = Pred("assert", Ind, Ind, Type), Pred("accept", Ind, Ind, Type)
+"""The moves that assert a proposition and accept one.
+
+>>> from ttr import Ind, Pred, rectype
+>>> from ttr.semantics.gameboards.kos import accept, assert_that
+>>> left = rectype(e=Pred("leave", Ind)("kim"))
+>>> print(assert_that("a", "b", left), accept("b", "a", left))
+assert(a, b, [e : leave(kim)]) accept(b, a, [e : leave(kim)])
+"""
 
 Greeting, CounterGreeting = Basic("Greeting"), Basic("CounterGreeting")
 Parting, Asking, Answering = Basic("Parting"), Basic("Asking"), Basic("Answering")
@@ -110,7 +158,12 @@ def _is_move(value: Object) -> bool:
 
 
 def with_moves(model: Model) -> Model:
-    """The model in which moves and questions are of their types by their form."""
+    """The model in which moves and questions are of their types by their form.
+
+    >>> M = with_moves(Model().given("a", Ind).given("b", Ind))
+    >>> M.judge(greet("a", "b"), Move).holds, M.judge("a", Move).holds
+    (True, False)
+    """
     model = with_questions(model)
     model = model.witnessed(Move, by=_is_move)
     for T, pred in _KINDS.items():
@@ -136,10 +189,19 @@ DGB: RecordType = rectype(
 
 The facts are agreed on; `pending` has the moves that are not yet grounded. The first of
 the moves, pending or not, is the latest; the first of the questions is the maximal one.
+
+>>> from ttr.semantics.gameboards.kos import DGB
+>>> print(", ".join(DGB))
+addr, facts, moves, pending, qud, spkr
 """
 
 UTTERANCE: RecordType = rectype(spkr=Ind, addr=Ind, move=Move)
-"""The type of utterances: speaker, addressee and move."""
+"""The type of utterances: speaker, addressee and move.
+
+>>> from ttr.semantics.gameboards.kos import UTTERANCE
+>>> print(UTTERANCE)
+[addr : Ind, move : Move, spkr : Ind]
+"""
 
 
 def utterance(move: PType) -> Record:
@@ -291,6 +353,11 @@ ALGORITHM: Algorithm = all_(
 """Take the turn, hear, then ground all that can be grounded.
 
 What cannot be grounded stays pending: a reason to ask for clarification.
+
+>>> from ttr.semantics.gameboards.kos import ALGORITHM
+>>> print(ALGORITHM)
+all(take_turn, hear, repeat(first(open_with_greeting, greet_back, ask_qud, assert_qud,
+answer_qud, accept_fact, close_with_parting), pending))
 """
 
 

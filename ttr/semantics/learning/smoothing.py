@@ -11,7 +11,11 @@ from ttr.semantics.argument_checks import in_one_line
 
 @dataclass(frozen=True)
 class Smoothing:
-    """A frequency n/N becomes (n + a)/(N + 2a), where a is the pseudocount."""
+    """A frequency n/N becomes (n + a)/(N + 2a), where a is the pseudocount.
+
+    >>> Smoothing("mine", Fraction(1, 10)).pseudocount
+    Fraction(1, 10)
+    """
 
     name: str
     pseudocount: Fraction
@@ -53,10 +57,29 @@ def lidstone(pseudocount: float) -> Smoothing:
 
 
 NO_SMOOTHING = Smoothing("no smoothing", Fraction(0))
-"""Frequencies as they are: what was never observed has the probability 0."""
+"""Frequencies as they are: what was never observed has the probability 0.
+
+>>> from ttr.semantics.learning import NO_SMOOTHING
+>>> print(NO_SMOOTHING, NO_SMOOTHING.pseudocount)
+no smoothing 0
+"""
 
 LAPLACE = Smoothing("Laplace", Fraction(1))
-"""Laplace's rule of succession: one observation for and one against."""
+"""Laplace's rule of succession: one observation for and one against.
+
+>>> from ttr import Basic
+>>> from ttr.judging import proposition
+>>> from ttr.semantics.learning import LAPLACE, Counts, posterior
+>>> Apple, Pear, Red = Basic("Apple"), Basic("Pear"), Basic("Red")
+>>> seen = Counts().learned(proposition("a", Apple & Red), proposition("b", Pear))
+>>> print(posterior(seen, [Apple, Pear], [Red], smoothing=LAPLACE)[Apple])
+0.6667
+"""
 
 JEFFREYS = Smoothing("Jeffreys", Fraction(1, 2))
-"""Half an observation for and half against."""
+"""Half an observation for and half against.
+
+>>> from ttr.semantics.learning import JEFFREYS
+>>> print(JEFFREYS, JEFFREYS.pseudocount)
+Jeffreys 1/2
+"""

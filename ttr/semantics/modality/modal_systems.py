@@ -167,6 +167,11 @@ def modal_system(
 
     Raises `IllFormedError` where there is none, and where they are of different
     theories: they must share axioms, exclusions and open types.
+
+    >>> Rain = Basic("Rain")
+    >>> days = modal_system(mon=Model().given("s", Rain), tue=Model())
+    >>> print(days.restrictive.possible(Rain))
+    yes: something is of Rain in mon
     """
     found = combine_labels("modal_system", models, named)
     if not found:

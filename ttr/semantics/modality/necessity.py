@@ -30,6 +30,14 @@ from ttr.types.syntax import (
 )
 
 nec, poss = Pred("nec", Type), Pred("poss", Type)
+"""Predicates of types: that something is of a type in every possibility, or in some.
+
+>>> from ttr import Basic
+>>> from ttr.semantics.modality import nec, poss
+>>> Rain = Basic("Rain")
+>>> print(nec(Rain), poss(Rain))
+nec(Rain) poss(Rain)
+"""
 
 
 def necessarily(T: TypeNode, /) -> PType:
@@ -108,6 +116,14 @@ class ModalAnswer:
     `possibility` is the name of the possibility that decides: in which what is possible
     is so, or what is not necessary is not so. For subtyping and equivalence, `counter`
     is the judgement there of a witness of S that is not of T.
+
+    >>> from ttr import Basic, Model
+    >>> from ttr.semantics.modality import modal_system
+    >>> Rain = Basic("Rain")
+    >>> days = modal_system(mon=Model().given("s", Rain), tue=Model())
+    >>> answer = days.restrictive.necessary(Rain)
+    >>> print(answer, answer.possibility, sep="; ")
+    no: nothing is of Rain in tue; tue
     """
 
     p: Degree

@@ -19,7 +19,13 @@ from ttr.types.substitution import follow_path
 
 
 class Method(Protocol):
-    """A way to classify and to learn from feedback; it has no state of its own."""
+    """A way to classify and to learn from feedback; it has no state of its own.
+
+    >>> from ttr.semantics.perceptual import Perceptron, blank
+    >>> method: Method = Perceptron()
+    >>> method.degree(blank(2), (0.9, 0.1)), method.confirmed(blank(2), (0.9, 0.1))["w"]
+    (0.0, (0.9, 0.1))
+    """
 
     def degree(self, params: Record, x: Object, /) -> object:
         """The degree of the word for the percept: in [0, 1], or an interval."""
@@ -40,6 +46,12 @@ class Classifier:
 
     The percept is what is at the paths; or what `through`, a function from handles to
     what was sensed, makes of that. Where it gives None, nothing can be seen.
+
+    >>> from ttr import record
+    >>> from ttr.semantics.perceptual import Perceptron
+    >>> classifier = Classifier(Perceptron(), ("pos",))
+    >>> classifier.percept(record(x="o1", pos=[0.9, 0.1]))
+    (0.9, 0.1)
     """
 
     method: Method

@@ -34,7 +34,20 @@ def combined_type(*meanings: Meaning) -> TypeNode:
 
 
 def in_model(M: Model, meanings: tuple[Meaning, ...], *situations: Record) -> Model:
-    """The model with all of these meanings in it; see `Meaning.in_model`."""
+    """The model with all of these meanings in it; see `Meaning.in_model`.
+
+    >>> from ttr import Ind, Model, Pred, fun, outer, record, rectype
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, meaning
+    >>> interp = fun(r=rectype(x=Ind, pos=RealVector))(
+    ...     rectype(c=Pred("right", Ind)(outer.r.x))
+    ... )
+    >>> right = meaning(interp, Perceptron(), record(w=[1, 0], t=0.5), of="pos")
+    >>> s = record(x="o1", pos=[0.9, 0.1])
+    >>> M = in_model(Model().given("o1", Ind), (right,), s)
+    >>> print(M.perceive(s, right.type))
+    {c = e1, pos = [0.9, 0.1], x = o1} : [pos : RealVector, x : Ind, c : right(x)]   p =
+    1
+    """
     for it in as_tuple(meanings, "meanings"):
         M = as_meaning(it).in_model(M, *situations)
     return M
@@ -44,5 +57,15 @@ def perceive(M: Model, r: Record, *meanings: Meaning) -> Judgement:
     """Judge whether all of the words hold in a situation.
 
     Each classifier judges its percept; distinct judgements are independent.
+
+    >>> from ttr import Ind, Model, Pred, fun, outer, record, rectype
+    >>> from ttr.semantics.perceptual import GradedPerceptron, RealVector, meaning
+    >>> interp = fun(r=rectype(x=Ind, pos=RealVector))(
+    ...     rectype(c=Pred("right", Ind)(outer.r.x))
+    ... )
+    >>> right = meaning(interp, GradedPerceptron(), record(w=[1, 0], t=0.5), of="pos")
+    >>> s = record(x="o1", pos=[0.7, 0.1])
+    >>> print(perceive(Model().given("o1", Ind), s, right).p)
+    0.8808
     """
     return in_model(M, meanings, r).perceive(r, combined_type(*meanings))

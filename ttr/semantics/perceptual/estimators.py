@@ -20,6 +20,13 @@ def as_learner(
     An estimator with `partial_fit` learns example by example, and needs all its classes
     beforehand. One with only `fit` is fitted anew to all examples each time. Raises
     `TTRError` for what is no probabilistic classifier.
+
+    >>> from sklearn.naive_bayes import GaussianNB
+    >>> learner = as_learner(GaussianNB(), classes=["cup", "bowl"])
+    >>> for height, word in [(9.0, "cup"), (4.0, "bowl"), (8.0, "cup"), (5.0, "bowl")]:
+    ...     learner.learn_one((height,), word)
+    >>> {word: round(p, 2) for word, p in learner.predict_proba_one((8.5,)).items()}
+    {'bowl': 0.0, 'cup': 1.0}
     """
     labels = as_tuple(classes, "classes")
     if not callable(getattr(estimator, "predict_proba", None)):

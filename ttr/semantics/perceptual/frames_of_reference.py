@@ -30,7 +30,14 @@ from ttr.types.syntax import RecordType
 Frame: RecordType = rectype(
     origin=RealVector, axes=rectype(right=RealVector, front=RealVector)
 )
-"""The type of frames of reference."""
+"""The type of frames of reference.
+
+>>> from ttr.semantics.perceptual import Frame, absolute
+>>> print(Frame)
+[axes : [front : RealVector, right : RealVector], origin : RealVector]
+>>> sorted(absolute([2, 3])) == sorted(Frame)
+True
+"""
 
 
 def absolute(ground: Object) -> Record:
@@ -43,7 +50,11 @@ def absolute(ground: Object) -> Record:
 
 
 def intrinsic(ground: Object, facing: Object) -> Record:
-    """The frame of the ground itself, by where it faces: its own front and right."""
+    """The frame of the ground itself, by where it faces: its own front and right.
+
+    >>> print(intrinsic([0, 0], facing=[0, -1]).axes)
+    {front = [0.0, -1.0], right = [-1.0, 0.0]}
+    """
     return _frame(_place(ground, "the ground"), _direction(facing, "facing"))
 
 
@@ -52,6 +63,9 @@ def relative(ground: Object, viewer: Object) -> Record:
 
     So front and back are those of someone who faces the viewer, while left and right
     are the viewer's own, as in English.
+
+    >>> print(relative([0, 0], viewer=[0, -5]).axes)
+    {front = [0.0, -1.0], right = [1.0, 0.0]}
     """
     place, eye = _place(ground, "the ground"), _place(viewer, "the viewer")
     x, y = _direction([eye[0] - place[0], eye[1] - place[1]], "the way to the viewer")

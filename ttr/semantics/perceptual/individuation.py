@@ -25,20 +25,45 @@ from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import Basic, Function, Ind, PType, RecordType, Type
 
 Points = Basic("PointMap")
-"""The type of point maps."""
+"""The type of point maps.
+
+>>> from ttr import Model
+>>> from ttr.semantics.perceptual import PointMap, Points
+>>> cloud = PointMap([[0, 1], [1, 0]])
+>>> print(Model().given(cloud, Points).judge(cloud, Points))
+<PointMap 2> : PointMap   p = 1
+"""
 
 Region = rectype(reg=Points, pfun=Ind >> Type)
-"""The type of what a detector finds: points, and a property of the thing there."""
+"""The type of what a detector finds: points, and a property of the thing there.
+
+>>> from ttr.semantics.perceptual import Region
+>>> print(Region)
+[pfun : (Ind -> Type), reg : PointMap]
+"""
 
 INDIVIDUATE = fun(r=Region)(
     rectype(a=Ind, loc=Points @ outer.r.reg, c=outer.r.pfun(this.a))
 )
-r"""λr:Region. [a : Ind, loc = r.reg : PointMap, c : r.pfun(a)]"""
+r"""λr:Region. [a : Ind, loc = r.reg : PointMap, c : r.pfun(a)]
+
+>>> from ttr import Model, Pred, fun, Ind, record, this
+>>> from ttr.semantics.perceptual import INDIVIDUATE, PointMap, Points
+>>> dog, cloud = fun(x=Ind)(Pred("dog", Ind)(this.x)), PointMap([[0, 1]])
+>>> M = Model().given(cloud, Points)
+>>> print(M.apply(INDIVIDUATE, record(reg=cloud, pfun=dog)))
+[a : Ind, loc = <PointMap 1> : PointMap, c : (\x:Ind. dog(x))(a)]
+"""
 
 
 @dataclass(frozen=True)
 class PointMap:
-    """Points with equally many numbers each. It prints as the number of points."""
+    """Points with equally many numbers each. It prints as the number of points.
+
+    >>> cloud = PointMap([[0, 1], [2, 3]])
+    >>> cloud.centre, cloud.size
+    ((1.0, 2.0), (2.0, 2.0))
+    """
 
     points: tuple[Vector, ...]
 
@@ -153,6 +178,20 @@ def detections(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ..
 
     The words are meanings that classify `reg`. A region gets the predicate of the word
     with the highest degree, the first of equals, if that degree is at least a half.
+
+    >>> from ttr import Pred, record
+    >>> from ttr.semantics.perceptual import GradedPerceptron, meaning
+    >>> bg = rectype(a=Ind, reg=Points)
+    >>> tall = meaning(
+    ...     fun(r=bg)(rectype(c=Pred("tall", Ind)(outer.r.a))),
+    ...     GradedPerceptron(),
+    ...     record(w=[0, 1], t=1),
+    ...     of="reg",
+    ...     through=lambda region: region.size,
+    ... )
+    >>> tower, plate = PointMap([[0, 0], [0, 2]]), PointMap([[0, 0], [2, 0]])
+    >>> [len(it.reg) for it in detections([tower, plate], tall)]
+    [2]
     """
     found: list[Record] = []
     meanings = [as_meaning(word) for word in words]
@@ -168,7 +207,14 @@ def detections(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ..
 
 
 class Individual(NamedTuple):
-    """An individual assumed in a region: a record of a type, and the model with it."""
+    """An individual assumed in a region: a record of a type, and the model with it.
+
+    >>> from ttr import Pred
+    >>> dog = fun(x=Ind)(Pred("dog", Ind)(this.x))
+    >>> sit, T, M = individuate(Model(), record(reg=PointMap([[0, 1]]), pfun=dog, p=1))
+    >>> M.judge(sit, T).holds
+    True
+    """
 
     sit: Record
     type: RecordType

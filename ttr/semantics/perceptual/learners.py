@@ -28,7 +28,21 @@ _SLACK = 1e-6
 
 
 class Learner(Protocol):
-    """An object that learns from one example at a time, and gives degrees to labels."""
+    """An object that learns from one example at a time, and gives degrees to labels.
+
+    >>> from ttr.semantics.perceptual import learner_params
+    >>> class Majority:
+    ...     def __init__(self):
+    ...         self.seen = []
+    ...     def learn_one(self, x, y):
+    ...         self.seen.append(y)
+    ...     def predict_proba_one(self, x):
+    ...         return {y: self.seen.count(y) / len(self.seen) for y in self.seen}
+    >>> learner: Learner = Majority()
+    >>> learner.learn_one((9.0,), "cup")
+    >>> learner.predict_proba_one((8.0,))
+    {'cup': 1.0}
+    """
 
     def learn_one(self, x: Any, y: Any, /) -> object:
         """Take x as an example of the label."""
@@ -51,6 +65,12 @@ def learner_params(
     `labels`, or none. `copied` makes the copy that is given the next lesson; it has to
     copy what was learned, which `clone` of scikit-learn and river does not. Raises
     `TTRError` for what is no learner.
+
+    >>> from sklearn.naive_bayes import GaussianNB
+    >>> from ttr.semantics.perceptual import as_learner
+    >>> params = learner_params(as_learner(GaussianNB(), classes=["bowl", "cup"]))
+    >>> print(sorted(params))
+    ['labels', 'learner']
     """
     lacking = missing_methods(learner, "learn_one", "predict_proba_one")
     if lacking:
@@ -145,6 +165,17 @@ class ByLearner:
     To confirm is to teach the label, to reject is to teach the label `other`. Where
     there is no `other`, a rejection teaches nothing and raises `UnsupportedError`; say
     what the thing is instead.
+
+    >>> from sklearn.naive_bayes import GaussianNB
+    >>> from ttr.semantics.perceptual import as_learner
+    >>> cup = ByLearner("cup", other="bowl")
+    >>> params = learner_params(as_learner(GaussianNB(), classes=["bowl", "cup"]))
+    >>> for height in (9.0, 8.0):
+    ...     params = cup.confirmed(params, (height,))
+    >>> for height in (4.0, 5.0):
+    ...     params = cup.rejected(params, (height,))
+    >>> cup.degree(params, (8.5,)) > 0.9
+    True
     """
 
     label: object

@@ -67,6 +67,15 @@ class Meaning(NotebookValue):
     """A perceptual meaning: a view of the record {params, bg, clf, interp}.
 
     Meanings are equal when their records are. Raises `TTRError` for any other record.
+
+    >>> from ttr import Ind, Pred, record, rectype, this
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, blank
+    >>> from ttr.semantics.perceptual import interpretation, meaning
+    >>> T = rectype(x=Ind, pos=RealVector, c=Pred("right", Ind)(this.x))
+    >>> right = meaning(interpretation(T, "c"), Perceptron(), blank(2), of="pos")
+    >>> s = record(x="o1", pos=[0.9, 0.1])
+    >>> print(right.classify(s), right.confirmed(s).classify(s))
+    ~right(o1) right(o1)
     """
 
     record: Record

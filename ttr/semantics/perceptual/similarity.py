@@ -22,6 +22,10 @@ class Agreement(NotebookValue):
     `both`, `first`, `second` and `neither` count the situations by who would say the
     word; `apart` is the mean distance of their degrees, where an interval counts as its
     midpoint.
+
+    >>> found = Agreement(both=4, first=1, second=1, neither=4, apart=0.1)
+    >>> found.share, round(found.kappa, 2)
+    (0.8, 0.6)
     """
 
     both: int
@@ -71,7 +75,19 @@ class Agreement(NotebookValue):
 
 
 def agreement(one: Meaning, other: Meaning, situations: Iterable[Record]) -> Agreement:
-    """How alike two meanings judge some situations; `TTRError` where there are none."""
+    """How alike two meanings judge some situations; `TTRError` where there are none.
+
+    >>> from ttr import Ind, Pred, fun, outer, record, rectype
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, meaning
+    >>> interp = fun(r=rectype(x=Ind, pos=RealVector))(
+    ...     rectype(c=Pred("right", Ind)(outer.r.x))
+    ... )
+    >>> mine = meaning(interp, Perceptron(), record(w=[1.0, 0.0], t=0.5), of="pos")
+    >>> yours = mine.with_params(record(w=[1.0, 0.0], t=0.8))
+    >>> scenes = [record(x="o", pos=[x, 0.0]) for x in (0.2, 0.4, 0.6, 0.9)]
+    >>> agreement(mine, yours, scenes).share
+    0.75
+    """
     one, other = as_meaning(one), as_meaning(other)
     pairs = [
         (one.degree(r), other.degree(r)) for r in as_tuple(situations, "situations")
@@ -95,7 +111,13 @@ def _midpoint(p: Degree) -> float:
 
 @dataclass(frozen=True)
 class Convergence(NotebookValue):
-    """The agreement of two speakers before a series of exchanges and after each."""
+    """The agreement of two speakers before a series of exchanges and after each.
+
+    >>> before = Agreement(both=2, first=3, second=0, neither=5, apart=0.3)
+    >>> after = Agreement(both=5, first=0, second=0, neither=5, apart=0.0)
+    >>> [it.share for it in Convergence((before, after)).series]
+    [0.7, 1.0]
+    """
 
     series: tuple[Agreement, ...]
 
@@ -118,7 +140,19 @@ class Convergence(NotebookValue):
 def convergence(
     teacher: Speaker, pupils: Sequence[Speaker], word: str, situations: Iterable[Record]
 ) -> Convergence:
-    """The agreement of a teacher with each of the pupils on these situations."""
+    """The agreement of a teacher with each of the pupils on these situations.
+
+    >>> from ttr import Ind, Pred, record, rectype, this
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, blank
+    >>> from ttr.semantics.perceptual import history, interpretation, meaning
+    >>> T = rectype(x=Ind, pos=RealVector, c=Pred("right", Ind)(this.x))
+    >>> right = meaning(interpretation(T, "c"), Perceptron(), blank(2), of="pos")
+    >>> ann = Speaker("ann", {"right": right.with_params(record(w=[1, 0], t=0.5))})
+    >>> scenes = [record(x="o1", pos=[x, 0.0]) for x in (0.9, 0.7, -0.8, 0.2)]
+    >>> pupils = history(ann, Speaker("bo", {"right": right}), "right", scenes)
+    >>> [it.share for it in convergence(ann, pupils, "right", scenes).series]
+    [0.5, 0.5, 0.5, 0.75, 1.0]
+    """
     probes = as_tuple(situations, "situations")
     meant = as_speaker(teacher)[word]
     learned = [as_speaker(it)[word] for it in as_tuple(pupils, "pupils")]

@@ -19,7 +19,17 @@ _FEW = 6
 
 
 def says(meaning: Meaning, r: Record) -> bool:
-    """Would somebody with this meaning say the word? Its degree is at least a half."""
+    """Would somebody with this meaning say the word? Its degree is at least a half.
+
+    >>> from ttr import Ind, Pred, record, rectype, this
+    >>> from ttr.semantics.perceptual import GradedPerceptron, RealVector
+    >>> from ttr.semantics.perceptual import interpretation, meaning
+    >>> T = rectype(x=Ind, pos=RealVector, c=Pred("right", Ind)(this.x))
+    >>> weights = record(w=[1, 0], t=0.5)
+    >>> right = meaning(interpretation(T, "c"), GradedPerceptron(), weights, of="pos")
+    >>> [says(right, record(x="o1", pos=[x, 0.0])) for x in (0.2, 0.7)]
+    [False, True]
+    """
     return meaning.degree(r).lo >= 0.5
 
 
@@ -29,6 +39,15 @@ class Speaker(NotebookValue):
 
     Meanings of a speaker that share a learner go on sharing it: what it learns for one
     of them, it has learned for all.
+
+    >>> from ttr import Ind, Pred, record, rectype, this
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, blank
+    >>> from ttr.semantics.perceptual import interpretation, meaning
+    >>> T = rectype(x=Ind, pos=RealVector, c=Pred("right", Ind)(this.x))
+    >>> right = meaning(interpretation(T, "c"), Perceptron(), blank(2), of="pos")
+    >>> bo, s = Speaker("bo", {"right": right}), record(x="o1", pos=[0.9, 0.1])
+    >>> print(bo.degrees(s)["right"], bo.confirmed("right", s).degrees(s)["right"])
+    0 1
     """
 
     name: str
@@ -137,6 +156,16 @@ def exchange(teacher: Speaker, pupil: Speaker, word: str, r: Record) -> Speaker:
 
     Where they disagree, the pupil is corrected; else nothing changes. Source: the game
     of Larsson 2013.
+
+    >>> from ttr import Ind, Pred, record, rectype, this
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, blank
+    >>> from ttr.semantics.perceptual import interpretation, meaning
+    >>> T = rectype(x=Ind, pos=RealVector, c=Pred("right", Ind)(this.x))
+    >>> right = meaning(interpretation(T, "c"), Perceptron(), blank(2), of="pos")
+    >>> ann = Speaker("ann", {"right": right.with_params(record(w=[1, 0], t=0.5))})
+    >>> bo, s = Speaker("bo", {"right": right}), record(x="o1", pos=[0.9, 0.1])
+    >>> print(exchange(ann, bo, "right", s).degrees(s)["right"])
+    1
     """
     teacher, pupil = as_speaker(teacher), as_speaker(pupil)
     wanted = says(teacher[word], r)
@@ -148,7 +177,19 @@ def exchange(teacher: Speaker, pupil: Speaker, word: str, r: Record) -> Speaker:
 def history(
     teacher: Speaker, pupil: Speaker, word: str, situations: Iterable[Record]
 ) -> tuple[Speaker, ...]:
-    """The pupil before any exchange, and after that about each of the situations."""
+    """The pupil before any exchange, and after that about each of the situations.
+
+    >>> from ttr import Ind, Pred, record, rectype, this
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, blank
+    >>> from ttr.semantics.perceptual import interpretation, meaning
+    >>> T = rectype(x=Ind, pos=RealVector, c=Pred("right", Ind)(this.x))
+    >>> right = meaning(interpretation(T, "c"), Perceptron(), blank(2), of="pos")
+    >>> ann = Speaker("ann", {"right": right.with_params(record(w=[1, 0], t=0.5))})
+    >>> scenes = [record(x="o1", pos=[x, 0.0]) for x in (0.9, 0.2)]
+    >>> pupils = history(ann, Speaker("bo", {"right": right}), "right", scenes)
+    >>> [says(pupil.meanings["right"], scenes[0]) for pupil in pupils]
+    [False, True, True]
+    """
     pupils = [as_speaker(pupil)]
     for r in as_tuple(situations, "situations"):
         pupils.append(exchange(teacher, pupils[-1], word, r))

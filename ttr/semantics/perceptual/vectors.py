@@ -12,7 +12,13 @@ from ttr.types.objects import Object
 from ttr.types.syntax import Basic
 
 RealVector = Basic("RealVector")
-"""The type of lists of numbers, and of arrays with one axis."""
+"""The type of lists of numbers, and of arrays with one axis.
+
+>>> from ttr import Ind, rectype
+>>> from ttr.semantics.perceptual import RealVector
+>>> print(rectype(x=Ind, pos=RealVector))
+[pos : RealVector, x : Ind]
+"""
 
 Vector = tuple[float, ...]
 

@@ -17,6 +17,12 @@ class Antecedents:
     are not Q. The last is there only after a quantifier that falls, as in "Few dogs
     bark. They sleep instead.", where P is not empty. All of P are offered only if the
     quantifier is about them, as "most dogs" is; "a dog" and "two dogs" are not.
+
+    >>> from ttr.semantics.quantifiers import Extension, antecedents, every, quantify
+    >>> dogs, barkers = Extension.of(["fido", "rex"]), Extension.of(["fido", "rex"])
+    >>> found = antecedents(quantify(every, dogs, barkers))
+    >>> print(found.refset, found.compset)
+    {fido, rex} None
     """
 
     refset: FiniteSet

@@ -32,6 +32,11 @@ class Truth:
     """How certain something is, why, and on which uncertain judgements it rests.
 
     What has none of these `atoms` in common is independent.
+
+    >>> from ttr import Ind, Model
+    >>> from ttr.semantics.quantifiers import truth
+    >>> print(truth(Model().given("fido", Ind, 0.7), Ind).p)
+    0.7
     """
 
     p: Degree

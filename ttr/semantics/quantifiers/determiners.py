@@ -62,28 +62,110 @@ class Determiner:
 
 
 exist = Determiner("exist")
+""""a", "some": at least one.
+
+>>> from ttr.semantics.quantifiers import Extension, exist, quantify
+>>> dogs, barkers = Extension.of(["fido", "rex"]), Extension.of(["rex"])
+>>> quantify(exist, dogs, barkers).holds
+True
+"""
 exist_pl = Determiner("exist_pl")
+"""Plural "some": at least two.
+
+>>> from ttr.semantics.quantifiers import Extension, exist_pl, quantify
+>>> dogs, barkers = Extension.of(["fido", "rex"]), Extension.of(["rex"])
+>>> quantify(exist_pl, dogs, barkers).holds
+False
+"""
 every = Determiner("every")
+""""every", "all": none of them is missing.
+
+>>> from ttr.semantics.quantifiers import Extension, every, quantify
+>>> dogs, barkers = Extension.of(["fido", "rex"]), Extension.of(["rex"])
+>>> quantify(every, dogs, barkers).holds
+False
+"""
 no = Determiner("no")
+""""no": none.
+
+>>> from ttr.semantics.quantifiers import Extension, no, quantify
+>>> dogs, barkers = Extension.of(["fido", "rex"]), Extension.of(["kim"])
+>>> quantify(no, dogs, barkers).holds
+True
+"""
 not_every = Determiner("not_every")
+""""not every": one at least is missing.
+
+>>> from ttr.semantics.quantifiers import Extension, not_every, quantify
+>>> dogs, barkers = Extension.of(["fido", "rex"]), Extension.of(["rex"])
+>>> quantify(not_every, dogs, barkers).holds
+True
+"""
 most = Determiner("most")
+""""most": more than the share that `Thresholds.most` says, by default a half.
+
+>>> from ttr.semantics.quantifiers import Extension, most, quantify
+>>> dogs = Extension.of(["fido", "rex", "sam"])
+>>> quantify(most, dogs, Extension.of(["fido", "rex"])).holds
+True
+"""
 many = Determiner("many")
+""""many": so many as `Thresholds.many` says, by default a third.
+
+>>> from ttr.semantics.quantifiers import Extension, Thresholds, many, quantify, share
+>>> dogs, barkers = Extension.of(["fido", "rex", "sam"]), Extension.of(["fido"])
+>>> half = Thresholds(many=share("at least", 0.5))
+>>> quantify(many, dogs, barkers).holds, quantify(many, dogs, barkers, half).holds
+(True, False)
+"""
 few = Determiner("few")
+""""few": fewer than the share that `Thresholds.few` says, by default a third.
+
+>>> from ttr.semantics.quantifiers import Extension, few, quantify
+>>> dogs = Extension.of(["fido", "rex", "sam", "kim"])
+>>> quantify(few, dogs, Extension.of(["fido"])).holds
+True
+"""
 several = Determiner("several")
+""""several": so many as `Thresholds.several` says, by default two.
+
+>>> from ttr.semantics.quantifiers import Extension, quantify, several
+>>> dogs, barkers = Extension.of(["fido", "rex", "sam"]), Extension.of(["fido", "sam"])
+>>> quantify(several, dogs, barkers).holds
+True
+"""
 
 
 def at_least(n: int) -> Determiner:
-    """The quantifier "at least n"."""
+    """The quantifier "at least n".
+
+    >>> from ttr.semantics.quantifiers import Extension, quantify
+    >>> dogs = Extension.of(["fido", "rex", "sam"])
+    >>> quantify(at_least(2), dogs, Extension.of(["fido", "sam"])).holds
+    True
+    """
     return _determiner_with_number("at_least", n)
 
 
 def at_most(n: int) -> Determiner:
-    """The quantifier "at most n"."""
+    """The quantifier "at most n".
+
+    >>> from ttr.semantics.quantifiers import Extension, quantify
+    >>> dogs = Extension.of(["fido", "rex", "sam"])
+    >>> quantify(at_most(1), dogs, Extension.of(["fido", "sam"])).holds
+    False
+    """
     return _determiner_with_number("at_most", n)
 
 
 def exactly(n: int) -> Determiner:
-    """The quantifier "exactly n", which neither rises nor falls."""
+    """The quantifier "exactly n", which neither rises nor falls.
+
+    >>> from ttr.semantics.quantifiers import Extension, quantify
+    >>> dogs = Extension.of(["fido", "rex", "sam"])
+    >>> quantify(exactly(2), dogs, Extension.of(["fido", "sam"])).holds
+    True
+    """
     return _determiner_with_number("exactly", n)
 
 
@@ -101,7 +183,12 @@ _DEMANDS: dict[str, tuple[Threshold, ...]] = {
 }
 
 DETERMINERS = (exist, exist_pl, every, no, not_every, most, many, few, several)
-"""The quantifiers without a number."""
+"""The quantifiers without a number.
+
+>>> from ttr.semantics.quantifiers import DETERMINERS
+>>> print(*DETERMINERS)
+some two or more every no not every most many few several
+"""
 
 _BY_PRED = {one.pred: one for one in DETERMINERS}
 _BY_NUMBER = {one(0).pred: one(0).name for one in (at_least, at_most, exactly)}

@@ -21,7 +21,13 @@ Members = Mapping[object, Member]
 
 
 class Case(NamedTuple):
-    """One of P, with what is known of its being Q."""
+    """One of P, with what is known of its being Q.
+
+    >>> from ttr.semantics.quantifiers import Extension, every, quantify
+    >>> dogs, barkers = Extension.of(["fido", "rex"]), Extension.of(["fido"])
+    >>> [case.sit for case in quantify(every, dogs, barkers).refset]
+    ['fido']
+    """
 
     sit: Object
     chances: Chances

@@ -41,7 +41,17 @@ from ttr.types.syntax import Function, PType, TypeNode, kind_of
 
 
 class UndefinedError(TTRError):
-    """A proposition that is neither true nor false: what it presupposes is not so."""
+    r"""A proposition that is neither true nor false: what it presupposes is not so.
+
+    >>> from ttr import Ind, Model, Pred
+    >>> from ttr.semantics.quantifiers import most, settle
+    >>> settle(Model(), most(Pred("dog", Ind), Pred("bark", Ind))).holds
+    Traceback (most recent call last):
+        ...
+    ttr.semantics.quantifiers.quantified_propositions.UndefinedError: most(\x:Ind.
+    dog(x), \x:Ind. bark(x)) is neither true nor false: it asks for a share, and nothing
+    is of \x:Ind. dog(x)
+    """
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +60,12 @@ class Quantification:
 
     `maxset` are those that certainly are P, `refset` those that are Q too, `compset`
     those that are not, `open_` those of which it is not certain.
+
+    >>> from ttr.semantics.quantifiers import Extension, most, quantify
+    >>> dogs = Extension.of(["fido", "rex", "sam"], "dog")
+    >>> found = quantify(most, dogs, Extension.of(["fido", "sam"], "bark"))
+    >>> found.holds, [it.sit for it in found.refset], [it.sit for it in found.compset]
+    (True, ['fido', 'sam'], ['rex'])
     """
 
     type: PType

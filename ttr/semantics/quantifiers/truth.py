@@ -50,6 +50,11 @@ absent = Pred("absent", Type)
 """Sentence negation: `absent(T)` is true if nothing is of T.
 
 It is not `~T`, which whatever is not of T is of.
+
+>>> from ttr import Basic, Model
+>>> from ttr.semantics.quantifiers import absent, truth
+>>> print(truth(Model(), absent(Basic("Rain"))).p)
+1
 """
 
 

@@ -54,7 +54,12 @@ ALL: tuple[Property, ...] = (
     NOTHING_DROPPED,
     NO_DEAD_RULE,
 )
-"""Every property, P1 to P27."""
+"""Every property, P1 to P27.
+
+>>> from ttr.testing import ALL
+>>> print(*ALL[:3], sep="; ")
+P2 pure rules; P1 type preservation; P4 termination
+"""
 
 OF_GAMES = (TAKES_TURNS, DONE_ONCE, IN_TURN, EMPTIES, ANSWERED, NOTHING_DROPPED)
 """Properties of games only: they may not hold from states drawn at random."""

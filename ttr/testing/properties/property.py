@@ -26,6 +26,14 @@ class Property:
     why many dialogues together break it, by the rules that they covered; so does
     `across`, by what they put on and took off the lists of the state. `needs` are the
     roles without which it cannot be checked.
+
+    >>> def find_long_states(dialogue, roles):
+    ...     for turn, state in enumerate(dialogue.states):
+    ...         if len(state.qud) > 3:
+    ...             yield turn, "too much is under discussion"
+    >>> short = Property("M1", "short", "QUD stays short.", each=find_long_states)
+    >>> print(short)
+    M1 short
     """
 
     name: str
@@ -54,7 +62,14 @@ class Property:
 
 @dataclass(frozen=True)
 class Breach:
-    """That a dialogue breaks a property, in which turn, and why."""
+    """That a dialogue breaks a property, in which turn, and why.
+
+    >>> from ttr.testing import ALL
+    >>> print(Breach(ALL[0], 2, "it changed qud in place"))
+    P2 pure rules: a rule never changes the state that it is given, whether it applies
+    or not.
+    turn 2: it changed qud in place
+    """
 
     property: Property
     turn: int

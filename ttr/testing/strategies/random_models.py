@@ -18,10 +18,17 @@ from ttr.types.syntax import Basic, PType, TypeNode
 def models(
     theory: Theory | None = None, *, degrees: st.SearchStrategy[Any] | None = None
 ) -> st.SearchStrategy[Model]:
-    """Models of a theory with random facts about a few objects.
+    r"""Models of a theory with random facts about a few objects.
 
     `degrees` draws their probabilities, as numbers or intervals; by default all facts
     are certain. Raises `TTRError` if `degrees` is no strategy.
+
+    >>> from hypothesis import find
+    >>> from ttr import Theory
+    >>> pets = Theory.parse("basic Ind\npred dog(Ind)")
+    >>> M = find(models(pets), lambda M: M.witnesses(pets.Ind))
+    >>> print(M.judge(*M.witnesses(pets.Ind)[0:1], pets.Ind).p)
+    1
     """
     if degrees is None:
         degrees = st.just(1.0)

@@ -34,7 +34,12 @@ def types(
 def record_types(
     theory: Theory | None = None, *, depth: int = DEPTH
 ) -> st.SearchStrategy[RecordType]:
-    """Well-formed record types, drawn as `types` does."""
+    """Well-formed record types, drawn as `types` does.
+
+    >>> from hypothesis import find
+    >>> print(find(record_types(), lambda T: len(T.labels) == 2))
+    [x : A, y : A]
+    """
     return random_types.record_types(Words.of(theory), (), _check_depth(depth))
 
 
@@ -44,6 +49,10 @@ def objects(
     """Objects of every kind that has a notation, with the names of a theory.
 
     They are names, numbers, records, lists, sets, strings of events, functions, types.
+
+    >>> from hypothesis import find
+    >>> find(objects(), lambda it: isinstance(it, tuple) and len(it) == 2)
+    ('a', 'a')
     """
     return random_types.objects(Words.of(theory), (), _check_depth(depth))
 

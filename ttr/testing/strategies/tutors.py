@@ -53,6 +53,10 @@ class Tutor:
     `contradicts` their last answer, `repeats` what they said last, is `silent`, or
     `mumbles`, so that two things may have been heard, with probabilities. A tutor who
     cannot do one of these answers. Raises `TTRError` for what is no share.
+
+    >>> chatty = Tutor(moves=("Hello.", "This is a cup."), repeats=0.2, answers=0.64)
+    >>> chatty.moves
+    ('Hello.', 'This is a cup.')
     """
 
     moves: Acts = ()

@@ -109,6 +109,14 @@ def faults_alone(rule: Rule) -> tuple[Fault, ...]:
     """What is wrong with a rule, whatever states it is meant for.
 
     Raises `UpdateError` for what is no rule.
+
+    >>> from ttr import Ind, outer, rectype, replace
+    >>> from ttr.updates import rule
+    >>> @rule(when=rectype(spkr=Ind), where=rectype(you=Ind @ outer.s.addr))
+    ... def take_turn(s, you):
+    ...     return replace(s, spkr=you)
+    >>> [fault.message for fault in faults_alone(take_turn)]
+    ['the rule take_turn reads s.addr, but s has no addr']
     """
     if not isinstance(rule, Rule):
         raise UpdateError(f"faults_alone takes a rule, found {rule!r}")

@@ -42,6 +42,16 @@ class Domain:
     `plans` maps issues, which are questions that users ask, to the actions by which the
     system finds an answer; `model` says which objects are of which sorts. Raises
     `TTRError` where an issue is no question, or something in a plan is no action.
+
+    >>> from ttr import Basic, Model, Pred
+    >>> from ttr.semantics.gameboards.ibis.moves import findout
+    >>> from ttr.semantics.questions import which
+    >>> City = Basic("City")
+    >>> price, to = which(Pred("price", City)), which(Pred("dest_city", City))
+    >>> M = Model().given("paris", City)
+    >>> travel = Domain({price: [findout(to)]}, lambda *_: None, M)
+    >>> [*travel.issues()] == [price], [*travel.dependent_issues(to)] == [price]
+    (True, True)
     """
 
     plans: Mapping[Object, Sequence[Object]]

@@ -25,6 +25,12 @@ def algorithm(domain: Domain) -> Algorithm:
 
     Both are grounded and integrated move by move, then the plan is carried out. After
     the user's turn the system selects what to say; after its own, whether to go on.
+
+    >>> from ttr import Model
+    >>> from ttr.semantics.gameboards.ibis import Domain
+    >>> from ttr.updates import rules_of
+    >>> len(rules_of(algorithm(Domain({}, lambda *_: None, Model()))))
+    34
     """
     carry_out, select = maybe(plan_execution(domain)), selection(domain)
     integrated = maybe(own_integration(domain))
@@ -45,6 +51,12 @@ def game(
 
     `hear` reads the user's texts, and `say` puts the system's utterances into words;
     `theory` has the names that stories may use.
+
+    >>> from ttr import Model
+    >>> from ttr.semantics.gameboards.ibis import Domain
+    >>> empty = game("silent desk", Domain({}, lambda *_: None, Model()))
+    >>> print(empty.take(empty.begin()).said[0].type)
+    [moves = [greet(sys)] : list(Move), spkr = sys : Participant]
     """
     return Game(
         name,

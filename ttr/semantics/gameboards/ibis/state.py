@@ -48,6 +48,11 @@ STATE: RecordType = rectype(
 questions under discussion, the maximal one first, and `lu` the latest utterance.
 `next_moves` are the moves that the system has selected, and `output` has the type of
 the utterance that it will make of them.
+
+>>> from ttr.semantics.gameboards.ibis import STATE
+>>> print(STATE["shared"])
+[com : list(Proposition), lu : [moves : list(Move), speaker : Participant], qud :
+list(Question)]
 """
 
 START: Record = record(
@@ -57,10 +62,20 @@ START: Record = record(
     output=[],
     program="run",
 )
-"""The state in which a dialogue begins: the system is to greet."""
+"""The state in which a dialogue begins: the system is to greet.
+
+>>> from ttr.semantics.gameboards.ibis import START
+>>> print(*START.private.agenda)
+say(greet(sys))
+"""
 
 USER: RecordType = rectype(spkr=Participant @ USR, moves=ListOf(Move))
-"""The type of utterances of the user."""
+"""The type of utterances of the user.
+
+>>> from ttr.semantics.gameboards.ibis import USER
+>>> print(USER)
+[moves : list(Move), spkr = usr : Participant]
+"""
 
 OWN: RecordType = rectype(spkr=Participant @ SYS, moves=ListOf(Move))
 """The type of utterances of the system."""
