@@ -16,7 +16,16 @@ Sent = TypeVar("Sent", bound=Message, contravariant=True)
 
 
 class Subscription(Protocol):
-    """Listening to a topic, until it is closed."""
+    """Listening to a topic, until it is closed.
+
+    >>> from kille.bus import LocalBus, Text, Topic
+    >>> bus = LocalBus()
+    >>> listening: Subscription = bus.subscribe(Topic("words", Text), print)
+    >>> listening.trouble
+    ''
+    >>> listening.close(), bus.close()
+    (None, None)
+    """
 
     @property
     def trouble(self) -> str:
@@ -32,7 +41,16 @@ class Subscription(Protocol):
 
 
 class Publisher(Protocol[Sent]):
-    """A way to send messages under a topic."""
+    """A way to send messages under a topic.
+
+    >>> from kille.bus import LocalBus, Text, Topic
+    >>> bus = LocalBus()
+    >>> speaking: Publisher[Text] = bus.publisher(Topic("words", Text))
+    >>> speaking.publish(Text("Hello."))
+    >>> speaking.listeners
+    0
+    >>> bus.close()
+    """
 
     @property
     def listeners(self) -> int:
@@ -55,6 +73,14 @@ class Bus(Protocol):
     messages one at a time, in a thread of its own: it may take long, and may send
     messages itself. An error in it is logged, and it goes on with the next message.
     BusError if a topic is used with two kinds of messages.
+
+    >>> from kille.bus import LocalBus, Text, Topic
+    >>> bus: Bus = LocalBus()
+    >>> words = Topic("words", Text)
+    >>> listening = bus.subscribe(words, print)
+    >>> bus.publisher(words).listeners
+    1
+    >>> bus.close()
     """
 
     def publisher(self, topic: Topic[M]) -> Publisher[M]:

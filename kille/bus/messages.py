@@ -20,19 +20,35 @@ _NAME = re.compile(r"/?[A-Za-z]\w*(/[A-Za-z]\w*)*", re.ASCII)
 
 
 class BusError(Exception):
-    """Something that a bus cannot do: one line says what, and what to do."""
+    """Something that a bus cannot do: one line says what, and what to do.
+
+    >>> from kille.bus import Text, Topic
+    >>> Topic("user input", Text)
+    Traceback (most recent call last):
+        ...
+    kille.bus.messages.BusError: `user input` cannot name a topic: write letters, digits
+    and _, parted by /, such as camera/rgb/image_color
+    """
 
 
 @dataclass(frozen=True)
 class Text:
-    """What somebody says."""
+    """What somebody says.
+
+    >>> Text("This is a cup.")
+    Text(text='This is a cup.')
+    """
 
     text: str
 
 
 @dataclass(frozen=True)
 class Facts:
-    """Names and values, as JSON has them."""
+    """Names and values, as JSON has them.
+
+    >>> Facts({"command": "look", "things": ["cup", "book"]}).facts["things"]
+    ['cup', 'book']
+    """
 
     facts: Mapping[str, Any]
 
@@ -43,6 +59,10 @@ class Image:
 
     Pixels are (H, W, 3) uint8 RGB, or (H, W): float32 metres of depth, NaN for none,
     uint16 millimetres, 0 for none, or uint8 grey.
+
+    >>> import numpy as np
+    >>> Image(np.zeros((480, 640, 3), np.uint8), stamp=0).pixels.shape
+    (480, 640, 3)
     """
 
     pixels: Array
@@ -54,7 +74,12 @@ class Image:
 
 @dataclass(frozen=True)
 class Camera:
-    """The pinhole model of a camera in pixels, for pictures of this size."""
+    """The pinhole model of a camera in pixels, for pictures of this size.
+
+    >>> kinect = Camera(fx=525.0, fy=525.0, cx=319.5, cy=239.5, width=640, height=480)
+    >>> kinect.width, kinect.stamp
+    (640, 0)
+    """
 
     fx: float
     fy: float
@@ -67,7 +92,13 @@ class Camera:
 
 @dataclass(frozen=True, eq=False)
 class Bundle:
-    """Facts with arrays, by name."""
+    """Facts with arrays, by name.
+
+    >>> import numpy as np
+    >>> seen = Bundle({"name": "cup"}, {"mask": np.ones((2, 3), bool)})
+    >>> seen.facts["name"], seen.arrays["mask"].shape
+    ('cup', (2, 3))
+    """
 
     facts: Mapping[str, Any]
     arrays: Mapping[str, Array] = field(default_factory=dict)
@@ -78,6 +109,12 @@ class Bundle:
 
 
 Message = Text | Facts | Image | Camera | Bundle
+"""What a topic may carry.
+
+>>> from kille.bus import Message, Text
+>>> isinstance(Text("Hello."), Message)
+True
+"""
 
 M = TypeVar("M", bound=Message)
 

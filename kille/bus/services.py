@@ -42,7 +42,12 @@ _DONE = 1000
 
 @dataclass(frozen=True)
 class Service(Generic[A]):
-    """Two topics, for questions and answers; `who` is the command that answers."""
+    """Two topics, for questions and answers; `who` is the command that answers.
+
+    >>> sums = Service(Topic("asked", Facts), Topic("told", Facts), "a calculator")
+    >>> sums.questions.name
+    'asked'
+    """
 
     questions: Topic[Facts]
     answers: Topic[A]
@@ -56,6 +61,14 @@ def serve(
 
     `answer` raises BusError for a wrong question, and the asker gets its message. Any
     other error is logged here, and the asker learns that the question failed.
+
+    >>> from kille.bus import Asking, LocalBus
+    >>> bus = LocalBus()
+    >>> sums = Service(Topic("asked", Facts), Topic("told", Facts), "a calculator")
+    >>> serving = serve(bus, sums, lambda asked: Facts({"sum": sum(asked["of"])}))
+    >>> Asking(bus, sums, patience=5).ask({"of": [2, 3]})["sum"]
+    5
+    >>> bus.close()
     """
     return _Serving(bus, service, answer)
 

@@ -28,7 +28,14 @@ Signs = tuple[Record, ...]
 
 
 class Description(NamedTuple):
-    """A phrase that is true of one thing only, and its words."""
+    """A phrase that is true of one thing only, and its words.
+
+    >>> from kille.dialogue.meanings import adjective, noun
+    >>> from kille.dialogue.reference import meant_by
+    >>> words = (adjective("red"), noun("cup"))
+    >>> [it.form for it in Description(meant_by(words), words).signs]
+    ['red', 'cup']
+    """
 
     phrase: RecordType
     signs: tuple[Record, ...]
@@ -49,6 +56,15 @@ def describe(
     noun is one of `nouns`, or what the robot would call x. Among the shortest ones the
     highest context score decides. A description that only just holds is given if no
     longer one is clear.
+
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> things = [Thing("cup", "red", place=(2, 3)), Thing("cup", "blue", place=(7, 3))]
+    >>> game = simulated_game(World(tuple(things), focus=1))
+    >>> run = game.take(game.begin(), game.hear("This is a cup.")).run
+    >>> found = describe(run.state, run.model, "o1")
+    >>> [it.form for it in found.signs]
+    ['red', 'cup']
     """
     types = types or packaged_types()
     describing = _Describing(

@@ -57,7 +57,12 @@ __all__ = [
 ]
 
 LANGUAGES = ("en", "sv")
-"""The languages that there is a grammar and a lexicon of."""
+"""The languages that there is a grammar and a lexicon of.
+
+>>> from kille.dialogue.language import LANGUAGES
+>>> LANGUAGES
+('en', 'sv')
+"""
 
 _LONGEST = 400
 """Characters; no sentence of the grammar has more."""
@@ -98,7 +103,12 @@ _SENTENCE = re.compile(r"[^.!?…\n]+[.!?…\n]*")
 
 @dataclass(frozen=True)
 class Utterance:
-    """What was said: the text, and the type of the event of saying it."""
+    """What was said: the text, and the type of the event of saying it.
+
+    >>> [said] = understand("This is a red cup.")
+    >>> [it.form for it in said.readings[0].signs]
+    ['red cup']
+    """
 
     text: str
     type: RecordType
@@ -124,6 +134,10 @@ class Sentence:
 
     Without any reading it was not understood. How probable each is says `weights`;
     without any they are equally so.
+
+    >>> [said] = understand("This is a cup.")
+    >>> said.text, len(said.readings)
+    ('This is a cup.', 1)
     """
 
     text: str
@@ -197,7 +211,11 @@ def _robots_grammar(language: str, _: _Changes) -> Grammar:
 
 
 def grammar_text(language: str) -> str:
-    """The grammar of a language, in Lark's notation."""
+    """The grammar of a language, in Lark's notation.
+
+    >>> "start" in grammar_text("en")
+    True
+    """
     return source("tutor.{}.lark", language)
 
 

@@ -68,7 +68,12 @@ __all__ = [
 
 
 KINDS = ("noun", "adjective", "relation")
-"""The kinds of words, by the names of the predicates that stand for them."""
+"""The kinds of words, by the names of the predicates that stand for them.
+
+>>> from kille.dialogue.meanings import KINDS
+>>> KINDS
+('noun', 'adjective', 'relation')
+"""
 
 
 _P = ParamSpec("_P")
@@ -201,7 +206,11 @@ def _in_place(own: Pred, template: RecordType, pattern: Pred) -> RecordType:
 
 @cache
 def packaged_types() -> DialogueTypes:
-    """The types of the packaged `tutor.ttr`."""
+    """The types of the packaged `tutor.ttr`.
+
+    >>> print(packaged_types()["Phrase"])
+    [look : Look, x : Ind]
+    """
     return DialogueTypes(packaged_theory())
 
 
@@ -216,7 +225,11 @@ def types_of(theory: Theory | DialogueTypes | None) -> DialogueTypes:
 
 
 def theory() -> Theory:
-    """The packaged theory of the dialogue."""
+    """The packaged theory of the dialogue.
+
+    >>> print(theory()["Phrase"])
+    [look : Look, x : Ind]
+    """
     return packaged_types().theory
 
 
@@ -255,7 +268,11 @@ def sign(form: str, kind: str, article: str = "", means: str = "") -> Record:
 
 
 def noun(form: str, article: str = "") -> Record:
-    """The sign of a noun."""
+    """The sign of a noun.
+
+    >>> print(noun("cup", "a").meaning)
+    [look : Look, x : Ind, c : cup(x, look)]
+    """
     return sign(form, "noun", article)
 
 
@@ -269,7 +286,12 @@ def adjective(form: str) -> Record:
 
 
 def relation(form: str) -> Record:
-    """The sign of a relation, such as "to the left of"."""
+    """The sign of a relation, such as "to the left of".
+
+    >>> print(relation("behind").meaning)
+    [frame : Front, look : Look, landmark : [look = ^.look : Look, x : Ind], target :
+    [look = ^.look : Look, x : Ind], rel : behind(target.x, landmark.x, look, frame)]
+    """
     return sign(form, "relation")
 
 
@@ -293,7 +315,11 @@ def meaning_in(form: str, template: str) -> RecordType:
 
 
 def meaning_at(sign: Record, template: str) -> RecordType:
-    """What a sign means in another place: a noun as said of a target, for example."""
+    """What a sign means in another place: a noun as said of a target, for example.
+
+    >>> print(meaning_at(noun("cup"), "Naming"))
+    [look : Look, target : [look = ^.look : Look, x : Ind], c : cup(target.x, look)]
+    """
     return packaged_types().meaning_at(sign, template)
 
 
@@ -384,7 +410,11 @@ def _with(T: TypeNode, pattern: Pred, own: Pred) -> TypeNode:
 
 
 def word_of(sign: Record) -> Pred:
-    """The predicate that is a sign's own: the one that its meaning mentions."""
+    """The predicate that is a sign's own: the one that its meaning mentions.
+
+    >>> print(word_of(noun("teddy bear")), word_of(adjective("red")))
+    teddy_bear is_red
+    """
     own = _first_predicate(sign.meaning)
     if own is None:
         raise TypeError(f"the meaning of {sign.form!r} has no predicate of its own")
@@ -408,12 +438,22 @@ def replace_word(T: RecordType, sign: Record, other: Record) -> RecordType:
 
 
 def mentions(T: TypeNode, sign: Record) -> bool:
-    """Whether the sign's predicate occurs in a type."""
+    """Whether the sign's predicate occurs in a type.
+
+    >>> content = meaning_in("cup", "Naming")
+    >>> mentions(content, noun("cup")), mentions(content, noun("mug"))
+    (True, False)
+    """
     return word_of(sign) in set(_predicates(T))
 
 
 CLAIMS = ("c", "a", "rel")
-"""The labels under which the claim of a sentence stands: what its word is true of."""
+"""The labels under which the claim of a sentence stands: what its word is true of.
+
+>>> from kille.dialogue.meanings import CLAIMS, noun
+>>> [label for label in CLAIMS if label in noun("cup").meaning]
+['c']
+"""
 
 
 ALSO = "also"
@@ -456,7 +496,12 @@ def _not(claim: TypeNode) -> TypeNode:
 
 
 def claims(content: RecordType, sign: Record) -> bool:
-    """Whether a sign is the word that a content is the claim of."""
+    """Whether a sign is the word that a content is the claim of.
+
+    >>> content = meaning_in("cup", "Naming")
+    >>> claims(content, noun("cup")), claims(content, noun("mug"))
+    (True, False)
+    """
     return any(word_of(sign) in set(_predicates(it)) for it in _claims(content))
 
 
@@ -467,7 +512,12 @@ def _claims(content: RecordType) -> Iterator[TypeNode]:
 
 
 def is_denial(content: RecordType) -> bool:
-    """Whether a content says that its word is not true of its target."""
+    """Whether a content says that its word is not true of its target.
+
+    >>> content = meaning_in("cup", "Naming")
+    >>> is_denial(content), is_denial(denial(content))
+    (False, True)
+    """
     return any(isinstance(claim, Negation) for claim in _claims(content))
 
 
@@ -517,7 +567,11 @@ def values_at(T: RecordType, label: str) -> tuple[Object, ...]:
 
 
 def predicate_at(T: RecordType, label: str) -> Pred:
-    """The predicate of the ptype that a field has."""
+    """The predicate of the ptype that a field has.
+
+    >>> print(predicate_at(noun("cup").meaning, "c"))
+    cup
+    """
     field = T[label]
     if isinstance(field, PType):
         return field.pred

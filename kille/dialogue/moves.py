@@ -65,7 +65,11 @@ CLAIMED = {
 
 
 def answering(move: str, *, types: DialogueTypes | None = None) -> RecordType:
-    """The states in which this is the latest move and no answer is planned yet."""
+    """The states in which this is the latest move and no answer is planned yet.
+
+    >>> print(answering("Greet")["shared"])
+    [latest : [addr : Ind, spkr : Ind, e : greet(spkr, addr)]]
+    """
     types = types or packaged_types()
     return types.derive(unanswered_states, types.record_type(move))
 
@@ -97,6 +101,11 @@ def plan(
     the tutor may confirm afterwards; `asks` are the issues that it puts under
     discussion. `teaches` and `forgets` are what it learns and unlearns before it says
     so, and `does` what else it does, under the labels that the type Said has for it.
+
+    >>> from kille.dialogue.state import initial
+    >>> s = plan(initial(), "Greet")
+    >>> print(s.private.agenda[0]["e"])
+    greet(.spkr, .addr)
     """
     types = types or packaged_types()
     said = types.record_type("Said")
@@ -128,12 +137,27 @@ def _speech_type(types: DialogueTypes, act: str) -> RecordType:
 
 
 def issue(ask: str, options: Iterable[Record]) -> Record:
-    """The question which of these moves the tutor meant."""
+    """The question which of these moves the tutor meant.
+
+    >>> from kille.dialogue.meanings import meaning_in
+    >>> from kille.dialogue.state import initial
+    >>> s = plan(initial(), "AssertName", meaning_in("cup", "Naming"))
+    >>> issue("which", []).ask
+    'which'
+    """
     return record(ask=ask, options=tuple(options))
 
 
 def content_of(s: Record) -> RecordType:
-    """What the latest move is about."""
+    """What the latest move is about.
+
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> turn = game.take(game.begin(), game.hear("This is a cup."))
+    >>> print(content_of(turn.state)["c"])
+    cup(.target.x, .look)
+    """
     content: RecordType = s.shared.latest.content
     return content
 
@@ -188,7 +212,13 @@ def instead(
 def number_field(
     s: Record, x: str, *, types: DialogueTypes | None = None
 ) -> dict[str, TypeNode]:
-    """The field of a content that says which number a thing in view has."""
+    """The field of a content that says which number a thing in view has.
+
+    >>> from kille.dialogue.state import initial
+    >>> s = replace(initial(), {"view.things": ["o1", "o2"]})
+    >>> print(number_field(s, "o2")["number"])
+    Text@"2"
+    """
     types = types or packaged_types()
     return {"number": types["Text"] @ str(1 + s.view.things.index(x))}
 
@@ -196,7 +226,14 @@ def number_field(
 def change_act(
     planned: RecordType, act: str, *, types: DialogueTypes | None = None
 ) -> RecordType:
-    """A planned move that is made in other words: the same, by another act."""
+    """A planned move that is made in other words: the same, by another act.
+
+    >>> from kille.dialogue.meanings import meaning_in
+    >>> from kille.dialogue.state import initial
+    >>> s = plan(initial(), "AssertName", meaning_in("cup", "Naming"))
+    >>> print(change_act(s.private.agenda[0], "HedgeName")["e"])
+    hedge_name(.spkr, .addr)
+    """
     types = types or packaged_types()
     return set_to(planned, e=types.record_type(act)["e"])
 
@@ -213,6 +250,12 @@ def placement(
     """That x, a target, and y, a landmark, stand so, by these signs in the latest look.
 
     Without a relation it says only that both are there.
+
+    >>> from kille.dialogue.meanings import noun, relation
+    >>> from kille.dialogue.state import initial
+    >>> cup, book = noun("cup"), noun("book")
+    >>> print(placement(initial(), "o1", cup, "o2", book, relation("behind"))["rel"])
+    behind(.target.x, .landmark.x, .look, .frame)
     """
     types = types or packaged_types()
     content = types.record_type("Relating")
@@ -234,5 +277,11 @@ def _individual(content: RecordType, part: str, sign: Record, x: str) -> RecordT
 
 
 def words_in(known: Iterable[Record], *contents: RecordType) -> Sequence[Record]:
-    """The words that are known and occur in one of the contents."""
+    """The words that are known and occur in one of the contents.
+
+    >>> from kille.dialogue.meanings import meaning_in, noun
+    >>> found = words_in([noun("cup"), noun("mug")], meaning_in("cup", "Naming"))
+    >>> [it.form for it in found]
+    ['cup']
+    """
     return [sign for sign in known if any(mentions(one, sign) for one in contents)]

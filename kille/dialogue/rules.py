@@ -33,7 +33,13 @@ TYPES = "types"
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class NamedRule(Rule):
-    """A rule on types known by their names; it can be played once it is bound."""
+    """A rule on types known by their names; it can be played once it is bound.
+
+    >>> @rule(answers="Greet")
+    ... def be_silent(s): ...
+    >>> isinstance(be_silent, NamedRule), be_silent.name
+    (True, 'be_silent')
+    """
 
     of: Effect
     condition: When
@@ -123,7 +129,13 @@ def reply(move: str, act: str, doc: str) -> NamedRule:
 
 
 def bind(algorithm: Algorithm, types: DialogueTypes) -> Algorithm:
-    """The strategy with its rules on the types of a theory; other rules stay."""
+    """The strategy with its rules on the types of a theory; other rules stay.
+
+    >>> from kille.dialogue.meanings import packaged_types
+    >>> bound = bind(reply("Thank", "Welcome", "Thanks."), packaged_types())
+    >>> print(bound.when["shared"])
+    [latest : [addr : Ind, spkr : Ind, e : thank(spkr, addr)]]
+    """
     return types.derive(_bind, algorithm)
 
 

@@ -36,14 +36,29 @@ __all__ = [
 ]
 
 MODES = ("driven", "assisted", "autonomous")
-"""Who brings learning about: the tutor, both, or the robot as well by itself."""
+"""Who brings learning about: the tutor, both, or the robot as well by itself.
+
+>>> from kille.dialogue.strategies import MODES
+>>> MODES
+('driven', 'assisted', 'autonomous')
+"""
 
 WORDINGS = ("paper", "four", "varied")
 """The ways to word what one is sure of: the paper's, the four bands after it, and the
-paper's in varied words."""
+paper's in varied words.
+
+>>> from kille.dialogue.strategies import WORDINGS, strategy
+>>> [strategy(wording=wording).bands.sure for wording in WORDINGS]
+[0.6, 0.8, 0.6]
+"""
 
 TURNS = ("answering", "lively")
-"""When the robot speaks: when it is spoken to, or also after some silence."""
+"""When the robot speaks: when it is spoken to, or also after some silence.
+
+>>> from kille.dialogue.strategies import TURNS
+>>> TURNS
+('answering', 'lively')
+"""
 
 _NEVER = {"remark": 0.0, "ask": 0.0}
 """The silences of a robot that speaks when it is spoken to."""
@@ -53,14 +68,24 @@ _DIGITS = 9
 
 
 class Stake(NamedTuple):
-    """What saying or doing something is worth, if it is right and if it is wrong."""
+    """What saying or doing something is worth, if it is right and if it is wrong.
+
+    >>> bold, shy = Stake(right=1.0, wrong=-0.5), Stake(right=0.2, wrong=-0.1)
+    >>> expected_value(bold, 0.6) > expected_value(shy, 0.6)
+    True
+    """
 
     right: float
     wrong: float
 
 
 class Option(NamedTuple):
-    """Something that could be done, how probably it is right, and what it is worth."""
+    """Something that could be done, how probably it is right, and what it is worth.
+
+    >>> say = Option("say", p=0.9, stake=Stake(right=1.0, wrong=-1.0))
+    >>> best([say]).name
+    'say'
+    """
 
     name: str
     p: float

@@ -94,6 +94,10 @@ def hear(
     """The event of saying this, or None if it is not understood.
 
     Of several sentences it is the first.
+
+    >>> event = hear("This is a cup.")
+    >>> print(event["e"])
+    instruct(.spkr, .addr)
     """
     return hear_sentences(understand(text, language, types=types)[0])
 
@@ -104,6 +108,11 @@ def hear_sentences(
     """The event that one of these sentences was said, each so probable.
 
     Its alternatives are all the ways in which they can be read.
+
+    >>> from kille.dialogue.language import understand
+    >>> [cup], [cap] = understand("This is a cup."), understand("This is a cap.")
+    >>> [round(p, 1) for _, p in hear_sentences(cup, cap, p=(0.7, 0.2))]
+    [0.7, 0.2]
     """
     weighed = [
         (reading.type, q * share)
@@ -133,6 +142,11 @@ def say(move: Judgement, language: str = "en", wording: str = "paper") -> str:
     """The robot's sentence for a move of its own.
 
     Raises `TypeError` for anything else.
+
+    >>> game = tutoring()
+    >>> turn = game.take(game.begin(), game.hear("Hello."))
+    >>> say(turn.said[0])
+    'Hello.'
     """
     planned, made = move.type, move.sit
     if not isinstance(planned, RecordType) or not isinstance(made, Record):

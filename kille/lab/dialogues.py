@@ -20,6 +20,10 @@ class Turn(NamedTuple):
     happened; then `given` is the look or the command, from which it can be played
     again. `words` are how many they said; `asks` says whether the robot asked something
     of its own accord, `corrects` whether they corrected the robot.
+
+    >>> turn = Turn(1, "teach", "This is a cup.", "instruct", "", "Okay.")
+    >>> turn.answer
+    'Okay.'
     """
 
     number: int
@@ -43,6 +47,10 @@ class Answer(NamedTuple):
     `think`, `hedge`, `admit`). `degrees` are those of all words that it could have
     said. `accepted` says whether the tutor might well have said it, too; `judge` is
     what another person would have said, if one was asked.
+
+    >>> answer = Answer(2, "test", "noun", "cup", "cup", "assert", 0.8, {"cup": 0.8})
+    >>> answer.is_right
+    True
     """
 
     turn: int
@@ -85,7 +93,14 @@ def margin(degrees: Mapping[str, float], word: str) -> float:
 
 @dataclass(frozen=True)
 class Played:
-    """A dialogue as it went."""
+    """A dialogue as it went.
+
+    >>> asked = Turn(1, "test", "What is this?", "ask_name", "", "This is a cup.")
+    >>> answer = Answer(1, "test", "noun", "cup", "cup", "assert")
+    >>> played = Played((asked,), (answer,))
+    >>> sum(it.is_right for it in played.answers), len(played.turns)
+    (1, 1)
+    """
 
     turns: tuple[Turn, ...]
     answers: tuple[Answer, ...]

@@ -31,6 +31,9 @@ class Estimate(NamedTuple):
     """A number, its 95 % confidence interval, and with how many decimals it is shown.
 
     The ends of an interval that is not known are NaN.
+
+    >>> format_cell(Estimate(0.5, 0.25, 0.75, decimals=2))
+    '0.50 [0.25, 0.75]'
     """
 
     value: float
@@ -43,6 +46,13 @@ UNKNOWN = Estimate(math.nan, math.nan, math.nan)
 """The estimate of what there is nothing of."""
 
 Cell: TypeAlias = str | float | int | Estimate | None
+"""What a table has in one place: words, a number, or nothing.
+
+>>> from kille.lab.results import Cell, Estimate, format_cell
+>>> cells: list[Cell] = ["cup", 12, Estimate(0.5, 0.25, 0.75), None]
+>>> [format_cell(cell) for cell in cells]
+['cup', '12', '0.500 [0.250, 0.750]', '–']
+"""
 
 Kind: TypeAlias = Literal[
     "confusion",
@@ -56,11 +66,25 @@ Kind: TypeAlias = Literal[
 ]
 
 Progress: TypeAlias = Callable[[float, str], None]
-"""Hears which share in [0, 1] is done, and what is being done now."""
+"""Hears which share in [0, 1] is done, and what is being done now.
+
+>>> from kille.lab.results import Progress, silent
+>>> watch: Progress = lambda share, doing: print(f"{share:.0%} {doing}")
+>>> watch(0.5, "playing")
+50% playing
+"""
 
 
 class ExperimentError(Exception):
-    """Nothing can be measured with this data or these methods: one line says why."""
+    """Nothing can be measured with this data or these methods: one line says why.
+
+    >>> from kille.lab.theories.candidates import candidates
+    >>> candidates(["protoype"], {"prototype": dict})
+    Traceback (most recent call last):
+        ...
+    kille.lab.results.ExperimentError: there is no method protoype: did you mean
+    prototype? Your own is named FILE.py:NAME or MODULE:NAME
+    """
 
 
 @dataclass(frozen=True)
@@ -69,6 +93,10 @@ class Table(NotebookValue):
 
     None is a value that is not known; the note is a sentence to show below the table.
     `links` says where a cell leads to on a page, by its row and column.
+
+    >>> table = Table("Words", ("word", "right"), (("cup", 0.9), ("mug", None)))
+    >>> table.has_numbers(1)
+    True
     """
 
     title: str
@@ -105,6 +133,10 @@ class Figure(NotebookValue):
     - reliability: series {name: {x, y, low, high, counts}}, xlabel, ylabel
 
     The note is a sentence to show below the figure.
+
+    >>> bars = Figure("bars", "Words", {"labels": ["cup"], "values": [3]})
+    >>> bars.data["labels"]
+    ['cup']
     """
 
     kind: Kind
@@ -127,6 +159,10 @@ class Result(NotebookValue):
     """All that was found out; `facts` are for machines only.
 
     The text says in a paragraph what there is to see.
+
+    >>> table = Table("Words", ("word", "right"), (("cup", 0.9),))
+    >>> [it.title for it in Result("What was found", (table,)).tables]
+    ['Words']
     """
 
     title: str
@@ -140,7 +176,10 @@ class Result(NotebookValue):
 
 
 def silent(share: float, doing: str) -> None:
-    """Progress that nobody watches."""
+    """Progress that nobody watches.
+
+    >>> silent(0.5, "playing")
+    """
 
 
 def format_cell(cell: Cell) -> str:

@@ -19,7 +19,12 @@ from ttr.safety.consent import Consent
 __all__ = ["PERSON", "Named", "Phase", "Run", "Study", "Theory"]
 
 PERSON = "person"
-"""The mode of a theory that is none: a person plays the robot."""
+"""The mode of a theory that is none: a person plays the robot.
+
+>>> from kille.lab.study import PERSON, Theory
+>>> Theory("wizard", mode=PERSON).mode
+'person'
+"""
 
 Settings = Mapping[str, Any]
 
@@ -46,6 +51,10 @@ class Theory:
     `grammar` a folder with a grammar and a lexicon of one's own, `meanings` types that
     are defined otherwise than in `tutor.ttr`, or a file in its place. `learners` say,
     for nouns, adjectives and relations, what judges the words.
+
+    >>> shy = Theory("shy", wording="four", strategy={"bands": {"sure": 0.9}})
+    >>> shy.language, shy.wording
+    ('en', 'four')
     """
 
     name: str
@@ -65,7 +74,12 @@ class Theory:
 
 @dataclass(frozen=True)
 class Named:
-    """A tutor, or scenes: its name in the study, its kind, and the settings of that."""
+    """A tutor, or scenes: its name in the study, its kind, and the settings of that.
+
+    >>> ann = Named("ann", "simulated", {"errs": 0.1})
+    >>> ann.kind, ann.settings["errs"]
+    ('simulated', 0.1)
+    """
 
     name: str
     kind: str
@@ -77,6 +91,9 @@ class Phase:
     """A part of every dialogue: what the tutor does in it, and for how long.
 
     `do` is one of those of `kille.lab.protocols.phases`; `settings` are its own.
+
+    >>> Phase("places", "teach", {"what": "relations"}).do
+    'teach'
     """
 
     name: str
@@ -116,6 +133,23 @@ class Study:
 
     `main` is one of `MAIN_MEASURES`; `contrasts` are the theories that are compared,
     the second of each two with the first, or if there are none, every two.
+
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> [str(run) for run in cups.runs()]
+    ['plain/ann/table/1']
     """
 
     title: str

@@ -12,11 +12,34 @@ from kille.safety.databases import printable_name
 
 
 class MemoryFileError(Exception):
-    """A memory file that cannot be opened, read or written."""
+    """A memory file that cannot be opened, read or written.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.memory import Memory
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "memory.db")
+    ...     _ = file.write_text("no memory at all")
+    ...     Memory.open(file)
+    Traceback (most recent call last):
+        ...
+    kille.memory.errors.MemoryFileError: .../memory.db is not a kille memory: move it
+    away, or name another file with --memory; if it was one, kille memory check
+    .../memory.db --salvage NEW may save the rest
+    """
 
 
 class NoSuchLessonError(LookupError):
-    """The memory has no lesson of this number or word."""
+    """The memory has no lesson of this number or word.
+
+    >>> from kille.memory import Memory
+    >>> with Memory.transient() as memory:
+    ...     memory.lesson(7)
+    Traceback (most recent call last):
+        ...
+    kille.memory.errors.NoSuchLessonError: the memory of this session has no lesson 7:
+    kille memory show WORD lists those in a word
+    """
 
 
 class NotKeptError(Exception):

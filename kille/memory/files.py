@@ -43,7 +43,13 @@ Mode = Literal["mode=rw", "mode=ro", "mode=ro&immutable=1"]
 
 
 def default_path() -> Path:
-    """The memory of this user: `KILLE_MEMORY`, or `memory.db` in the data folder."""
+    """The memory of this user: `KILLE_MEMORY`, or `memory.db` in the data folder.
+
+    >>> from unittest.mock import patch
+    >>> with patch.dict(os.environ, KILLE_MEMORY="words.db"):
+    ...     default_path().name
+    'words.db'
+    """
     chosen = os.environ.get("KILLE_MEMORY")
     if chosen:
         return Path(chosen).expanduser()

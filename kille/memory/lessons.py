@@ -19,6 +19,11 @@ Kind = Literal["object", "attribute", "relation", "subkind", "criterion"]
 
 A lesson of the kind "subkind" says what the kind of thing that it names is a kind of,
 one of the kind "criterion" by what things of that kind are known.
+
+>>> from typing import get_args
+>>> from kille.memory import Kind
+>>> get_args(Kind)
+('object', 'attribute', 'relation', 'subkind', 'criterion')
 """
 
 By = Literal["cue", "quality", "part"]
@@ -44,6 +49,10 @@ class Word:
     said when it was first taught ("can of paint"), `article` what stood before it then,
     "" where that is unknown. Raises ValueError for a name that is empty or longer than
     LONGEST_WORD, and for characters that no word has: those that steer a terminal.
+
+    >>> tin = Word("can_of_paint", "can of paint", "object", article="a")
+    >>> tin.surface
+    'can of paint'
     """
 
     name: str
@@ -59,7 +68,11 @@ class Word:
 
 @dataclass(frozen=True)
 class Dialogue:
-    """The fact that a dialogue began, at a time in ISO 8601."""
+    """The fact that a dialogue began, at a time in ISO 8601.
+
+    >>> Dialogue(1, "2026-01-31T12:00:00").began
+    '2026-01-31T12:00:00'
+    """
 
     number: int
     began: str
@@ -71,6 +84,10 @@ class Turn:
 
     `judgement` is what it was understood to be, in the notation of TTR; `time` is the
     wall clock's, as ISO 8601 text.
+
+    >>> turn = Turn(1, 1, "tutor", "This is a cup.", "", "2026-01-31T12:00:00")
+    >>> turn.speaker, turn.text
+    ('tutor', 'This is a cup.')
     """
 
     dialogue: int
@@ -88,6 +105,10 @@ class Scan:
     descriptors (n, 128) uint8; points (n, 3) float32 in metres, NaN where there was
     no depth. Raises ValueError for arrays of another shape or type, which would not
     come back as they were.
+
+    >>> scan = Scan(np.zeros((2, 128), np.uint8), np.zeros((2, 3), np.float32))
+    >>> len(scan.descriptors)
+    2
     """
 
     descriptors: NDArray[np.uint8]
@@ -107,6 +128,10 @@ class Sighting:
     metres, None where the sensor has no depth. `traits` are those of the object as a
     whole, vectors (k,) float32 by the name of the cue. Raises ValueError for numbers
     that are not finite and for vectors of another shape or type.
+
+    >>> size = np.array([0.1, 0.2, 0.3], np.float32)
+    >>> Sighting("kinect", 12.5, (), None, {"size": size}).traits["size"].shape
+    (3,)
     """
 
     sensor: str
@@ -129,6 +154,11 @@ class Arrangement:
     `target` and `landmark` are names of words, or empty for a thing that has none;
     `configuration` says how the target stands to the landmark. Raises ValueError for
     numbers that are not finite and for names that are none.
+
+    >>> from kille.scene import Configuration
+    >>> behind = Arrangement("kinect", 12.5, "cup", "book", Configuration((0, 0.2, 0)))
+    >>> behind.configuration.offset
+    (0, 0.2, 0)
     """
 
     sensor: str
@@ -151,6 +181,9 @@ class Subsumption:
     """What a kind of thing was said to be a kind of: the `upper` word.
 
     It was only said, so that there is neither a sensor nor a picture.
+
+    >>> Subsumption(Word("vessel", "vessel", "object", "a")).upper.name
+    'vessel'
     """
 
     upper: Word
@@ -170,6 +203,9 @@ class Criterion:
     are so, or have it, from 0 to 1. For a cue it is how much this counts: 0 where it
     does not matter, 1 where it is what matters. It was only said, so that there is
     neither a sensor nor a picture. Raises ValueError for another degree or name.
+
+    >>> Criterion("quality", "red", "red", 0.9).degree
+    0.9
     """
 
     by: By
@@ -197,6 +233,11 @@ class Lesson:
     """The fact that a turn taught a word; `key` identifies the lesson for good.
 
     It `holds`, or it is one in what the word does not hold of: "this is not a cup".
+
+    >>> cup = Word("cup", "cup", "object", "a")
+    >>> turn = Turn(1, 1, "tutor", "This is a cup.", "", "2026-01-31T12:00:00")
+    >>> Lesson(7, cup, turn, holds=False).word.name
+    'cup'
     """
 
     key: int
@@ -207,28 +248,54 @@ class Lesson:
 
 @dataclass(frozen=True, eq=False)
 class ObjectLesson(Lesson):
-    """A lesson in a name or an attribute of an object, with what was seen."""
+    """A lesson in a name or an attribute of an object, with what was seen.
+
+    >>> cup = Word("cup", "cup", "object", "a")
+    >>> turn = Turn(1, 1, "tutor", "This is a cup.", "", "2026-01-31T12:00:00")
+    >>> ObjectLesson(7, cup, turn, Sighting("kinect", 12.5, (), None)).seen.sensor
+    'kinect'
+    """
 
     seen: Sighting
 
 
 @dataclass(frozen=True)
 class RelationLesson(Lesson):
-    """A lesson in a spatial relation, with what was seen."""
+    """A lesson in a spatial relation, with what was seen.
+
+    >>> from kille.scene import Configuration
+    >>> turn = Turn(1, 1, "tutor", "It is behind it.", "", "2026-01-31T12:00:00")
+    >>> word, placed = Word("behind", "behind", "relation"), Configuration((0, 0.2, 0))
+    >>> seen = Arrangement("kinect", 12.5, "cup", "book", placed)
+    >>> RelationLesson(7, word, turn, seen).seen.landmark
+    'book'
+    """
 
     seen: Arrangement
 
 
 @dataclass(frozen=True)
 class KindLesson(Lesson):
-    """A lesson that one kind of thing is a kind of another: an axiom."""
+    """A lesson that one kind of thing is a kind of another: an axiom.
+
+    >>> cup, vessel = (Word(it, it, "subkind", "a") for it in ("cup", "vessel"))
+    >>> turn = Turn(1, 1, "tutor", "A cup is a vessel.", "", "2026-01-31T12:00:00")
+    >>> KindLesson(7, cup, turn, Subsumption(vessel)).seen.upper.name
+    'vessel'
+    """
 
     seen: Subsumption
 
 
 @dataclass(frozen=True)
 class CriterionLesson(Lesson):
-    """A lesson by what things of a kind are known."""
+    """A lesson by what things of a kind are known.
+
+    >>> turn = Turn(1, 1, "tutor", "Cups have handles.", "", "2026-01-31T12:00:00")
+    >>> handles = Criterion("part", "handle", "handle", 1.0, "a")
+    >>> CriterionLesson(7, Word("cup", "cup", "criterion", "a"), turn, handles).seen.by
+    'part'
+    """
 
     seen: Criterion
 

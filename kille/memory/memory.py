@@ -46,6 +46,14 @@ class MemoryReader:
 
     Made by `Memory.open_to_read`; it is its own context manager. `place` says in words
     where the memory is. Any method raises MemoryFileError when the file fails it.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "memory.db")
+    ...     Memory.open(file).close()
+    ...     with Memory.open_to_read(file) as reader:
+    ...         reader.words()
+    ()
     """
 
     def __init__(self, connection: sqlite3.Connection, place: str) -> None:

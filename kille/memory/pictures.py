@@ -18,6 +18,14 @@ class Crop:
     thing is; `depth` a PNG of 16 bits, in millimetres, 0 where there was no reading,
     None where the sensor has no depth. `intrinsics` are those of this picture, so that
     it is a frame of its own. Raises ValueError for bytes that are no such picture.
+
+    >>> import cv2
+    >>> import numpy as np
+    >>> picture = np.zeros((8, 8, 3), np.uint8)
+    >>> jpeg = cv2.imencode(".jpg", picture)[1].tobytes()
+    >>> mask = cv2.imencode(".png", picture[:, :, 0])[1].tobytes()
+    >>> Crop(jpeg, mask).depth is None
+    True
     """
 
     colour: bytes
@@ -44,6 +52,14 @@ class Picture:
     that the word was taught of: the thing itself, or target and landmark. Of a single
     thing there is a crop. Raises ValueError for bytes that are no JPEG, and for boxes
     that are not whole numbers of pixels.
+
+    >>> import cv2
+    >>> import numpy as np
+    >>> picture = np.zeros((8, 8, 3), np.uint8)
+    >>> jpeg = cv2.imencode(".jpg", picture)[1].tobytes()
+    >>> from kille.scene import Box
+    >>> len(Picture(jpeg, (Box(1, 1, 4, 4),)).boxes)
+    1
     """
 
     frame: bytes

@@ -52,7 +52,12 @@ FARTHEST = 3.0
 
 @dataclass(frozen=True)
 class Weighing:
-    """How evidence is weighed: b, r, v, a, the kernel of each cue, and u."""
+    """How evidence is weighed: b, r, v, a, the kernel of each cue, and u.
+
+    >>> packaged = weighing()
+    >>> "colour" in packaged.kernels
+    True
+    """
 
     base: float
     score: float
@@ -97,7 +102,13 @@ def _as_far(unlike: Numbers) -> Numbers:
 @dataclass(frozen=True, eq=False)
 class Evidence:
     """What each cue adds for each word, (words,) each, and the base they are added
-    to."""
+    to.
+
+    >>> added = {"colour": np.array([1.0, -1.0])}
+    >>> degrees = Evidence(("cup", "book"), 0.0, added).degrees()
+    >>> max(degrees, key=degrees.get)
+    'cup'
+    """
 
     labels: tuple[str, ...]
     base: float

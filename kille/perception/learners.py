@@ -14,7 +14,17 @@ from typing import Protocol, TypeVar
 __all__ = ["Key", "Learner", "check_degrees", "check_learner", "own_key"]
 
 Key = int | str
-"""Identifies an observation, so that it can be forgotten."""
+"""Identifies an observation, so that it can be forgotten.
+
+>>> from kille.perception.learners import Key
+>>> from kille.perception.relations import RelationMemory
+>>> from kille.scene import Configuration
+>>> key: Key = "the lesson of Monday"
+>>> memory, left = RelationMemory(), Configuration((-0.3, 0, 0))
+>>> memory.learn_one(left, "left", key=key)
+>>> memory.nearest(left, "left")
+'the lesson of Monday'
+"""
 
 X = TypeVar("X")
 X_contra = TypeVar("X_contra", contravariant=True)
@@ -23,7 +33,17 @@ _SLACK = 1e-5  # products of float32 depend on how many are made at once
 
 
 class Learner(Protocol[X_contra]):
-    """Learns words from one observation at a time, and tells how well each fits."""
+    """Learns words from one observation at a time, and tells how well each fits.
+
+    >>> from kille.scene import Configuration
+    >>> left, right = Configuration((-0.3, 0, 0)), Configuration((0.3, 0, 0))
+    >>> from kille.perception.relations import RelationMemory
+    >>> learner: Learner[Configuration] = RelationMemory()
+    >>> learner.learn_one(left, "left", key=1)
+    >>> learner.forget(1)
+    >>> learner.predict_proba_one(left)
+    {}
+    """
 
     def learn_one(self, x: X_contra, label: str, *, key: Key | None = None) -> None:
         """Learn that the word applies to x; ValueError if the key is taken.
@@ -71,6 +91,15 @@ def check_learner(
 
     AssertionError names the law that does not hold; ValueError if the examples are of
     fewer than two words.
+
+    >>> from kille.scene import Configuration
+    >>> left, right = Configuration((-0.3, 0, 0)), Configuration((0.3, 0, 0))
+    >>> from kille.perception.relations import RelationMemory
+    >>> check_learner(RelationMemory, [(left, "left"), (right, "right")] * 2)
+    >>> check_learner(RelationMemory, [(left, "left")])
+    Traceback (most recent call last):
+        ...
+    ValueError: check_learner needs examples of at least two words
     """
     if len({label for _, label in examples}) < 2:
         raise ValueError("check_learner needs examples of at least two words")

@@ -34,9 +34,21 @@ OBJECTS: Mapping[str, Callable[[], Learner[Percept]]] = {
     "votes": PooledVotes,
     "embedding": _with_embedding,
 }
+"""The learners of words for things, by name.
+
+>>> from kille.perception.methods import OBJECTS
+>>> sorted(OBJECTS)
+['default', 'embedding', 'kille', 'votes']
+"""
 
 RELATIONS: Mapping[str, Callable[[], Learner[Configuration]]] = {
     "default": RelationMemory,
     "kille": PaperRelations,
     "angle": AngleRule,
 }
+"""The learners of spatial words, by name.
+
+>>> from kille.perception.methods import RELATIONS
+>>> sorted(RELATIONS)
+['angle', 'default', 'kille']
+"""

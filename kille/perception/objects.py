@@ -58,6 +58,14 @@ class ObjectMemory:
     are and built anew from them. `weighed` says how evidence is weighed, and `cues`
     which traits are measured beside those that a percept has; `builder` when the index
     of features is built, see `kille.perception.index`.
+
+    >>> from kille.perception.look import look
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> percept = look(open_synthetic("synthetic:desk?seed=7")).percepts[0]
+    >>> memory = ObjectMemory()
+    >>> memory.learn_one(percept, "cup")
+    >>> [*memory.predict_proba_one(percept)]
+    ['cup']
     """
 
     def __init__(
@@ -316,6 +324,12 @@ def kept_features(x: Percept) -> Features:
     """The features that a lesson stores: each one once, from some scans of the look.
 
     The first scan is kept whole, and of three later ones what the earlier lack.
+
+    >>> from kille.perception.look import look
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> percept = look(open_synthetic("synthetic:desk?seed=7")).percepts[0]
+    >>> kept_features(percept).descriptors.shape[1]
+    128
     """
     if x not in _KEPT:
         _KEPT[x] = _merge_scans(x)

@@ -59,7 +59,14 @@ _LEAST_PIXELS = 24
 
 @dataclass(frozen=True, eq=False)
 class SegmentedFrame:
-    """A segmented frame: its regions, nearest first, and the direction that is up."""
+    """A segmented frame: its regions, nearest first, and the direction that is up.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> regions, up = segment(frame).regions, segment(frame).up
+    >>> len(regions), len(up)
+    (3, 3)
+    """
 
     regions: tuple[Region, ...]
     up: Direction
@@ -73,17 +80,35 @@ def segment(frame: Frame) -> SegmentedFrame:
 
     Without depth there is one region, a guess, whose place is unknown. Without a table,
     things are the pieces that are near and not as large as a wall.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> len(segment(frame).regions)
+    3
     """
     return _segment_by(frame, partial(_things, rounds=default_rounds()))
 
 
 def merging_by(rounds: Rounds) -> Segmentation:
-    """A segmentation like `segment` that merges surfaces by these rounds."""
+    """A segmentation like `segment` that merges surfaces by these rounds.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> from kille.perception.segment import segment
+    >>> len(merging_by(())(frame).regions) >= len(segment(frame).regions)
+    True
+    """
     return partial(_segment_by, labeller=partial(_things, rounds=rounds))
 
 
 def segment_by_contact(frame: Frame) -> SegmentedFrame:
-    """The connected pieces in view, nearest first; things that touch are one piece."""
+    """The connected pieces in view, nearest first; things that touch are one piece.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> len(segment_by_contact(frame).regions)
+    5
+    """
     return _segment_by(frame, _pieces)
 
 
@@ -91,29 +116,62 @@ SEGMENTATIONS: Mapping[str, Segmentation] = {
     "default": segment,
     "plain": segment_by_contact,
 }
-"""The ways to segment a frame, by name."""
+"""The ways to segment a frame, by name.
+
+>>> from kille.perception.segment import SEGMENTATIONS
+>>> sorted(SEGMENTATIONS)
+['default', 'plain']
+"""
 
 
 def region_of(frame: Frame, mask: Mask) -> Region:
-    """The region of these pixels (H, W), as when a tutor traces an outline."""
+    """The region of these pixels (H, W), as when a tutor traces an outline.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> mask = np.zeros(frame.colour.shape[:2], bool)
+    >>> mask[100:120, 200:240] = True
+    >>> region_of(frame, mask).box
+    Box(left=200, top=100, right=240, bottom=120)
+    """
     left, top, width, height = cv2.boundingRect(mask.astype(np.uint8))
     box = Box(left, top, left + width, top + height)
     return Region(mask, box, _place(frame, mask, box))
 
 
 def whole(frame: Frame) -> Region:
-    """The whole picture as one region, whose place is unknown."""
+    """The whole picture as one region, whose place is unknown.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> bool(whole(frame).mask.all()), whole(frame).place
+    (True, None)
+    """
     height, width = frame.colour.shape[:2]
     return Region(np.ones((height, width), bool), Box(0, 0, width, height), None)
 
 
 def nearness(region: Region) -> float:
-    """Metres from the camera to the middle of the region, infinite if unknown."""
+    """Metres from the camera to the middle of the region, infinite if unknown.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> near, *far = map(nearness, segment(frame).regions)
+    >>> all(near <= it for it in far), nearness(whole(frame))
+    (True, inf)
+    """
     return float("inf") if region.place is None else float(np.linalg.norm(region.place))
 
 
 def overlap(one: Region, other: Region) -> float:
-    """The pixels in both regions divided by those in either, from 0 to 1."""
+    """The pixels in both regions divided by those in either, from 0 to 1.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> one = whole(frame)
+    >>> overlap(one, one)
+    1.0
+    """
     left, top = max(one.box.left, other.box.left), max(one.box.top, other.box.top)
     right = min(one.box.right, other.box.right)
     bottom = min(one.box.bottom, other.box.bottom)

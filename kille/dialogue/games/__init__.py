@@ -130,4 +130,10 @@ def games_with(*answers: Rule) -> Algorithm:
 
 
 TUTORING = games_with()
-"""What becomes of every event: heard, said, cut off, glanced at, watched or seen."""
+"""What becomes of every event: heard, said, cut off, glanced at, watched or seen.
+
+>>> from kille.dialogue.games import TUTORING
+>>> from ttr.updates import rules_of
+>>> len({rule.name for rule in rules_of(TUTORING)}) > 100
+True
+"""

@@ -33,6 +33,16 @@ def ranking(
 
     The words are signs, in the order of the phrase: "red", "cup", "to the left of",
     "book". Where nothing fits, no thing has a share.
+
+    >>> from kille.dialogue.meanings import noun
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> things = Thing("cup", "red", place=(2, 3)), Thing("book", "red", place=(7, 3))
+    >>> game = simulated_game(World(things, focus=1))
+    >>> run = game.take(game.begin(), game.hear("This is a cup.")).run
+    >>> [shares] = ranking(run.state, run.model, [noun("cup")])
+    >>> max(shares, key=shares.get)
+    'o1'
     """
     types = types or packaged_types()
     said: list[Record] = []
@@ -49,7 +59,16 @@ def ranking(
 def said_by(
     words: Sequence[Record], *, types: DialogueTypes | None = None
 ) -> PhraseParts:
-    """The parts of a phrase of these words, without putting its type together first."""
+    """The parts of a phrase of these words, without putting its type together first.
+
+    >>> from kille.dialogue.meanings import adjective, noun
+    >>> parts = said_by([adjective("red"), noun("cup")])
+    >>> parts
+    PhraseParts(thing=None, claims=(Pred('is_red', Basic('Ind'), Basic('Look'))(this.x,
+    this.look), Pred('cup', Basic('Ind'), Basic('Look'))(this.x, this.look)),
+    qualities=frozenset({Pred('is_red', Basic('Ind'), Basic('Look'))}), relations=(),
+    choices=(), landmark=None)
+    """
     types = types or packaged_types()
     at = next((i for i, it in enumerate(words) if it.kind == "relation"), None)
     before = [take_apart(sign.meaning) for sign in words[:at]]

@@ -33,7 +33,13 @@ from ttr.types import Singleton
 from ttr.types.objects import Object
 
 PARTS = ("target", "landmark")
-"""The labels of the noun phrases in a content."""
+"""The labels of the noun phrases in a content.
+
+>>> from kille.dialogue.meanings import relation
+>>> from kille.dialogue.reference import PARTS
+>>> print(*(relation("behind").meaning[label] for label in PARTS))
+[look = ^.look : Look, x : Ind] [look = ^.look : Look, x : Ind]
+"""
 
 INSIDE = "inside"
 """The role of what a phrase mentions besides its own thing."""
@@ -54,7 +60,17 @@ class PhraseFit(NamedTuple):
 
 @dataclass(frozen=True)
 class Reading:
-    """A way to set the phrases of a content to things, and how probably they fit."""
+    """A way to set the phrases of a content to things, and how probably they fit.
+
+    >>> from kille.dialogue.state import initial
+    >>> from kille.dialogue.meanings import meaning_in
+    >>> fit = PhraseFit(p=0.8, weakest=0.8, firm=0.9, things=("o1",))
+    >>> reading = Reading(initial(), meaning_in("cup", "Naming"), (("target", fit),))
+    >>> reading.p, reading.things
+    (0.8, {'target': 'o1'})
+    >>> print(reading.content["target"])
+    [look = ^.look : Look, x = o1 : Ind]
+    """
 
     s: Record
     open: RecordType
@@ -95,7 +111,13 @@ _Found = TypeVar("_Found", PhraseFit, Reading)
 
 
 def phrases(content: RecordType) -> tuple[str, ...]:
-    """The labels of the phrases in a content that are not set to any thing yet."""
+    """The labels of the phrases in a content that are not set to any thing yet.
+
+    >>> from kille.dialogue.meanings import meaning_in, set_at
+    >>> content = meaning_in("cup", "Naming")
+    >>> phrases(content), phrases(set_at(content, "target.x", "o1"))
+    (('target',), ())
+    """
     return tuple(
         label
         for label in PARTS
@@ -104,7 +126,12 @@ def phrases(content: RecordType) -> tuple[str, ...]:
 
 
 def thing_at(content: RecordType, label: str) -> str | None:
-    """The thing that a phrase is set to."""
+    """The thing that a phrase is set to.
+
+    >>> from kille.dialogue.meanings import meaning_in
+    >>> thing_at(set_at(meaning_in("cup", "Naming"), "target.x", "o1"), "target")
+    'o1'
+    """
     part = content.get(label)
     if isinstance(part, RecordType) and isinstance(part["x"], Singleton):
         return str(part["x"].value)
@@ -146,7 +173,12 @@ def _taught_thing(content: RecordType) -> tuple[str | None, bool]:
 
 
 def phrase_at(content: RecordType, label: str) -> RecordType:
-    """The phrase of a content that has this label."""
+    """The phrase of a content that has this label.
+
+    >>> from kille.dialogue.meanings import meaning_in
+    >>> print(phrase_at(meaning_in("cup", "Naming"), "target"))
+    [look = ^.look : Look, x : Ind]
+    """
     phrase = content[label]
     if not isinstance(phrase, RecordType):
         raise TypeError(f"the phrase {label} of {content} is no record type")
@@ -159,6 +191,11 @@ def in_view(
     """The content as it is seen now: in the latest look, and in its perspective.
 
     The perspective is that of the talk, where the content does not have one of its own.
+
+    >>> from kille.dialogue.meanings import meaning_in
+    >>> from kille.dialogue.state import initial
+    >>> print(in_view(initial(), meaning_in("cup", "Naming"))["look"])
+    Look@look0
     """
     types = types or packaged_types()
     if "look" not in content:
@@ -174,7 +211,12 @@ def in_view(
 
 
 def things_in(content: RecordType) -> list[str]:
-    """The things that a content is set to, those of its phrases first."""
+    """The things that a content is set to, those of its phrases first.
+
+    >>> from kille.dialogue.meanings import meaning_in
+    >>> things_in(set_at(meaning_in("cup", "Naming"), "target.x", "o1"))
+    ['o1']
+    """
     return list(roles_in(content))
 
 
@@ -182,6 +224,10 @@ def roles_in(content: RecordType) -> dict[str, str]:
     """The things that a content is set to, each with its role there.
 
     It is the label of a phrase, or `inside` for what stands in a phrase.
+
+    >>> from kille.dialogue.meanings import meaning_in
+    >>> roles_in(set_at(meaning_in("cup", "Naming"), "target.x", "o1"))
+    {'o1': 'target'}
     """
     things = {x: it for it in PARTS if (x := thing_at(content, it)) is not None}
     for label in PARTS:
@@ -197,6 +243,16 @@ def possible_readings(
     """The ways in which the phrases of a content can be set to things in view.
 
     Two phrases are set to two things. Readings without any probability are left out.
+
+    >>> from kille.dialogue.language import understand
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> run = game.take(game.begin(), game.hear("This is a cup.")).run
+    >>> [said] = understand("Where is the cup?")
+    >>> found = possible_readings(run.state, run.model, said.readings[0].content)
+    >>> [it.things for it in found]
+    [{'target': 'o1'}]
     """
     types = types or packaged_types()
     content = _take_from_claim(s, content, types=types)
@@ -267,12 +323,32 @@ def _things_without_words(
 
 
 def fitting_readings(s: Record, readings: Iterable[Reading]) -> list[Reading]:
-    """The readings worth thinking of, the most probable first."""
+    """The readings worth thinking of, the most probable first.
+
+    >>> from kille.dialogue.language import understand
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> run = game.take(game.begin(), game.hear("This is a cup.")).run
+    >>> [said] = understand("Where is the cup?")
+    >>> found = possible_readings(run.state, run.model, said.readings[0].content)
+    >>> [it.things for it in fitting_readings(run.state, found)]
+    [{'target': 'o1'}]
+    """
     return _worth_thinking_of(s, readings)
 
 
 def fits_well(s: Record, fits: Mapping[str, PhraseFit]) -> list[str]:
-    """The things that fit a phrase so well that they are worth thinking of."""
+    """The things that fit a phrase so well that they are worth thinking of.
+
+    >>> from kille.dialogue.state import initial
+    >>> fits = {
+    ...     "o1": PhraseFit(p=0.9, weakest=0.9, firm=0.9, things=("o1",)),
+    ...     "o2": PhraseFit(p=0.1, weakest=0.1, firm=0.1, things=("o2",)),
+    ... }
+    >>> fits_well(initial(), fits)
+    ['o1']
+    """
     return [fit.things[0] for fit in _worth_thinking_of(s, fits.values())]
 
 
@@ -306,6 +382,16 @@ def intended_readings(
     """The readings that are meant: one, unless the talk leaves open which.
 
     If a phrase fits several things, the one that was just talked about is meant.
+
+    >>> from kille.dialogue.language import understand
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> run = game.take(game.begin(), game.hear("This is a cup.")).run
+    >>> [said] = understand("Where is the cup?")
+    >>> found = possible_readings(run.state, run.model, said.readings[0].content)
+    >>> [it.things for it in intended_readings(run.state, found)]
+    [{'target': 'o1'}]
     """
     types = types or packaged_types()
     meant = fitting_readings(s, readings)
@@ -334,7 +420,17 @@ def _chooses(phrase: RecordType, *, types: DialogueTypes) -> bool:
 
 
 class PhraseJudge:
-    """Judges phrases of the things in view, in one state: each claim once."""
+    """Judges phrases of the things in view, in one state: each claim once.
+
+    >>> from kille.dialogue.meanings import noun
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> run = game.take(game.begin(), game.hear("This is a cup.")).run
+    >>> fits = PhraseJudge(run.state, run.model).fits(noun("cup").meaning)
+    >>> round(fits["o1"].p, 1)
+    1.0
+    """
 
     def __init__(
         self, s: Record, model: Model, *, types: DialogueTypes | None = None

@@ -80,7 +80,12 @@ def _notice(x: str, role: str, move: float) -> Record:
 
 
 class ThingSalience(NamedTuple):
-    """How salient a thing is to the eye and in the talk, as degrees from 0 to 1."""
+    """How salient a thing is to the eye and in the talk, as degrees from 0 to 1.
+
+    >>> cup = ThingSalience("o1", visual=0.5, linguistic=0.7, is_shown=False)
+    >>> max(cup.visual, cup.linguistic)
+    0.7
+    """
 
     x: str
     visual: float
@@ -247,6 +252,14 @@ def across(
 
     The witness function of `across` says how far to the right a thing is; without one
     the order is that of the view.
+
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> things = Thing("cup", "red", place=(7, 3)), Thing("book", "red", place=(2, 3))
+    >>> game = simulated_game(World(things))
+    >>> run = game.take(game.begin(), game.hear("Look!")).run
+    >>> across(run.state, run.model, ["o1", "o2"])
+    ['o2', 'o1']
     """
     place = (types or packaged_types())["across"]
     order = {str(x): i for i, x in enumerate(s.view.things)}

@@ -20,7 +20,12 @@ from kille.lab.versions import versions
 
 @dataclass(frozen=True)
 class About:
-    """What a log is of: the study, how many dialogues it has, and what made them."""
+    """What a log is of: the study, how many dialogues it has, and what made them.
+
+    >>> made = About("Cups", "", Path("cups.toml"), 4, "2026-01-31 12:00", {}, {})
+    >>> made.title, made.planned
+    ('Cups', 4)
+    """
 
     title: str
     source: str

@@ -19,7 +19,16 @@ LONGEST = 300
 
 
 class RunError(StudyError):
-    """Dialogues that cannot be played, kept or found: one line, with a way out."""
+    """Dialogues that cannot be played, kept or found: one line, with a way out.
+
+    >>> from pathlib import Path
+    >>> from kille.lab.log import about
+    >>> about(Path("nowhere"))
+    Traceback (most recent call last):
+        ...
+    kille.lab.log.outcomes.RunError: there is no log.db in nowhere: name a folder of
+    results, such as kille experiment run makes
+    """
 
     def __init__(self, fault: str) -> None:
         super().__init__([fault])
@@ -29,7 +38,13 @@ class RunError(StudyError):
 
 
 class Finished(NamedTuple):
-    """A dialogue as it went, and how many seconds it took."""
+    """A dialogue as it went, and how many seconds it took.
+
+    >>> from kille.lab.study import Run
+    >>> finished = Finished(Run("both", "Ann", "table", 1), Played((), ()), 0.5)
+    >>> print(finished.run)
+    both/Ann/table/1
+    """
 
     run: Run
     played: Played
@@ -37,7 +52,13 @@ class Finished(NamedTuple):
 
 
 class Broken(NamedTuple):
-    """A dialogue that could not be played to its end: why in one line, and where."""
+    """A dialogue that could not be played to its end: why in one line, and where.
+
+    >>> from kille.lab.study import Run
+    >>> broken = Broken(Run("both", "Ann", "table", 1), "the tutor left", "", 0.5)
+    >>> print(broken.run, broken.reason)
+    both/Ann/table/1 the tutor left
+    """
 
     run: Run
     reason: str
@@ -46,6 +67,13 @@ class Broken(NamedTuple):
 
 
 Outcome: TypeAlias = Finished | Broken
+"""What became of a run.
+
+>>> from kille.lab.log import Broken, Outcome
+>>> from kille.lab.study import Run
+>>> isinstance(Broken(Run("both", "Ann", "table", 1), "left", "", 0.5), Outcome)
+True
+"""
 
 PlayAll: TypeAlias = Callable[[Sequence[Run]], Generator[Outcome, None, None]]
 """Plays many dialogues; what became of them, as they end."""

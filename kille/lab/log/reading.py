@@ -32,6 +32,30 @@ def read(folder: Path) -> Iterator[Finished]:
     """All dialogues that were played to their end, in the order of the study.
 
     RunError where there is no log.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     [str(it.run) for it in read(Path(folder))]
+    ['plain/ann/table/1']
     """
     for it in outcomes(folder):
         if isinstance(it, Finished):
@@ -39,14 +63,64 @@ def read(folder: Path) -> Iterator[Finished]:
 
 
 def broken_runs(folder: Path) -> tuple[Broken, ...]:
-    """All dialogues that broke, in the order of the study."""
+    """All dialogues that broke, in the order of the study.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     broken_runs(Path(folder))
+    ()
+    """
     with _open_log(folder) as connection:
         rows = connection.execute(f"{_RUNS} WHERE reason <> '' ORDER BY place")
         return tuple(_read_broken(row) for row in rows)
 
 
 def outcomes(folder: Path) -> Iterator[Outcome]:
-    """What became of all runs so far, in the order of the study."""
+    """What became of all runs so far, in the order of the study.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     [it.seconds for it in outcomes(Path(folder))]
+    [0.5]
+    """
     with _open_log(folder) as connection:
         rows = connection.execute(f"{_RUNS} ORDER BY place")
         for row in rows:
@@ -57,6 +131,30 @@ def find_outcome(folder: Path, name: str) -> Outcome:
     """Find what became of a run by its name, or by its number from 1.
 
     RunError where there is no such run in the log.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     print(find_outcome(Path(folder), "1").run)
+    plain/ann/table/1
     """
     with _open_log(folder) as connection:
         for row in connection.execute(f"{_RUNS} ORDER BY place"):
@@ -68,14 +166,64 @@ def find_outcome(folder: Path, name: str) -> Outcome:
 
 
 def count_outcomes(folder: Path) -> int:
-    """Count the runs that are over, finished or broken."""
+    """Count the runs that are over, finished or broken.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     count_outcomes(Path(folder))
+    1
+    """
     with _open_log(folder) as connection:
         (found,) = connection.execute("SELECT count(*) FROM runs").fetchone()
         return int(found)
 
 
 def about(folder: Path) -> About:
-    """What the log in a folder is of; RunError where there is none."""
+    """What the log in a folder is of; RunError where there is none.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     about(Path(folder)).planned
+    1
+    """
     with _open_log(folder) as connection:
         return about_in(connection, folder)
 
@@ -92,6 +240,30 @@ def study(folder: Path, consent: Consent = NO_PYTHON) -> Study:
 
     A log says itself where its files are. So none of the Python that it names may be
     run, unless there is consent to that.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     study(Path(folder)).title
+    'Cups'
     """
     from kille.lab.study_files import parse
 

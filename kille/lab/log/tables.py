@@ -32,6 +32,31 @@ def write_tables(folder: Path) -> tuple[Path, ...]:
     """Write all tables beside the log in a folder, and return their files.
 
     RunError where there is no log, or they cannot be written.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     files = {file.name for file in write_tables(Path(folder))}
+    >>> "answers.csv" in files
+    True
     """
     counted = fact_names(folder)
     with ExitStack() as files:

@@ -24,7 +24,32 @@ from ttr.aliases import Alias
 
 
 class Log:
-    """The log of a study that is open to write; `open` makes or continues one."""
+    """The log of a study that is open to write; `open` makes or continues one.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     (Path(folder) / "log.db").exists()
+    True
+    """
 
     def __init__(self, study: Study, folder: Path, connection: sqlite3.Connection):
         self.folder = folder

@@ -19,7 +19,16 @@ _Judge = Callable[[ScoredAnswer], str | None]
 
 
 def vocabulary(dialogues: Iterable[ScoredDialogue]) -> Vocabulary:
-    """All words of the answers, by kind, in order."""
+    """All words of the answers, by kind, in order.
+
+    >>> from kille.lab.dialogues import Answer, Played
+    >>> from kille.lab.measures import score_dialogue
+    >>> from kille.lab.study import Run
+    >>> answer = Answer(2, "test", "noun", "cup", "mug", "assert")
+    >>> run = Run("a", "Ann", "table", 1)
+    >>> vocabulary([score_dialogue(run, Played((), (answer,)), 0.1)])
+    {'noun': ['', 'cup', 'mug']}
+    """
     found: dict[str, set[str]] = {}
     for dialogue in dialogues:
         for it in dialogue.answers:
@@ -36,6 +45,9 @@ def kappas(words: Vocabulary) -> tuple[Measure, Measure, Measure]:
     last of the three is the ceiling that people set: a robot cannot agree better with
     both of two who do not agree with each other.
     Source: Cohen 1960; Barlow, Lai and Azen 1991 on kappa in strata.
+
+    >>> [it.name for it in kappas({"noun": ("cup", "mug")})]
+    ['κ robot–tutor', 'κ robot–judge', 'κ tutor–judge']
     """
 
     def measure(

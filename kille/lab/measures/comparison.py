@@ -66,7 +66,18 @@ class Contrast(NamedTuple):
 def in_pairs(
     one: Sequence[ScoredDialogue], other: Sequence[ScoredDialogue]
 ) -> list[Pair]:
-    """Pair the dialogues that two theories had with the same tutor, scene and seed."""
+    """Pair the dialogues that two theories had with the same tutor, scene and seed.
+
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.measures import score_dialogue
+    >>> from kille.lab.study import Run
+    >>> one, other = (
+    ...     [score_dialogue(Run(theory, "Ann", "table", 1), Played((), ()), 0.1)]
+    ...     for theory in ("old", "new")
+    ... )
+    >>> [(a.run.theory, b.run.theory) for a, b in in_pairs(one, other)]
+    [('old', 'new')]
+    """
     others = {it.pair: it for it in other}
     found = [(it, others[it.pair]) for it in one if it.pair in others]
     return sorted(found, key=lambda it: it[0].pair)
@@ -81,6 +92,20 @@ def differences(
     `permutation_p`. Pairs are resampled and exchanged alike for all measures; those
     count in which the measure is known for both dialogues. A measure that is the same
     in each pair, as by design, is left out.
+
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.measures import Measure, score_dialogue
+    >>> from kille.lab.study import Run
+    >>> lessons = Measure(
+    ...     "lessons", "how often it was taught", lambda it: np.array([it.lessons, 1.0])
+    ... )
+    >>> def taught(theory, seed, times):
+    ...     run, played = Run(theory, "Ann", "table", seed), Played((), (), times)
+    ...     return score_dialogue(run, played, 0.1)
+    >>> pairs = [(taught("old", n, 5), taught("new", n, 3 - n % 2)) for n in range(8)]
+    >>> found = differences([lessons], pairs, np.random.default_rng(1))["lessons"]
+    >>> float(found.estimate.value), found.pairs
+    (-2.5, 8)
     """
     draws = resample_counts(len(pairs), chance)
     stays = exchanges(len(pairs), chance)
@@ -200,6 +225,9 @@ def mcnemar_of(pairs: Sequence[Pair]) -> McNemar:
     Two questions are the same if both are the n-th of a phase and have the same right
     answer. The test takes answers to be independent, which those of one dialogue are
     not: p is too small rather than too large.
+
+    >>> mcnemar_of([])
+    McNemar(one=0, other=0, p=1.0)
     """
     one = other = 0
     for first, second in pairs:
@@ -241,7 +269,12 @@ def contrasts(
     measures: Sequence[Measure],
     chance: np.random.Generator,
 ) -> list[Contrast]:
-    """Compare theories two by two; those without a pair of dialogues are left out."""
+    """Compare theories two by two; those without a pair of dialogues are left out.
+
+    >>> chance = np.random.default_rng(1)
+    >>> contrasts({"old": [], "new": []}, [("old", "new")], [], chance)
+    []
+    """
     found = []
     for one, other in which:
         pairs = in_pairs(theories[one], theories[other])

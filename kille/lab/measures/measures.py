@@ -43,6 +43,15 @@ class Measure:
     `better` is 1 where more is better, -1 where less is, 0 where it depends. `of` gives
     the value for the last axis, NaN where it is not known. It is shown with so many
     `decimals`.
+
+    >>> lessons = Measure(
+    ...     "lessons",
+    ...     "how often it was taught",
+    ...     lambda dialogue: np.array([dialogue.lessons, 1.0]),
+    ...     better=-1,
+    ... )
+    >>> lessons.name, lessons.better
+    ('lessons', -1)
     """
 
     name: str
@@ -59,7 +68,19 @@ def tallies(measure: Measure, dialogues: Iterable[ScoredDialogue]) -> Vector:
 
 
 def value(measure: Measure, dialogues: Sequence[ScoredDialogue]) -> float:
-    """The measure over the dialogues together; NaN of none."""
+    """The measure over the dialogues together; NaN of none.
+
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.measures import score_dialogue
+    >>> from kille.lab.study import Run
+    >>> lessons = Measure(
+    ...     "lessons", "how often it was taught", lambda it: np.array([it.lessons, 1.0])
+    ... )
+    >>> run = Run("a", "Ann", "table", 1)
+    >>> played = [Played((), (), lessons=n) for n in (2, 4)]
+    >>> float(value(lessons, [score_dialogue(run, it, 0.1) for it in played]))
+    3.0
+    """
     if not dialogues:
         return float("nan")
     return float(measure.of(tallies(measure, dialogues).sum(axis=0)))
@@ -91,7 +112,19 @@ def estimate(
     chance: np.random.Generator,
     rounds: int = ROUNDS,
 ) -> Estimate:
-    """The measure over the dialogues, with the 95 % interval of resampled dialogues."""
+    """The measure over the dialogues, with the 95 % interval of resampled dialogues.
+
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.measures import score_dialogue
+    >>> from kille.lab.study import Run
+    >>> lessons = Measure(
+    ...     "lessons", "how often it was taught", lambda it: np.array([it.lessons, 1.0])
+    ... )
+    >>> run = Run("a", "Ann", "table", 1)
+    >>> dialogues = [score_dialogue(run, Played((), (), lessons=3), 0.1)] * 5
+    >>> float(estimate(lessons, dialogues, np.random.default_rng(1)).value)
+    3.0
+    """
     if not dialogues:
         return UNKNOWN
     draws = resample_counts(len(dialogues), chance, rounds)

@@ -65,7 +65,14 @@ class Effort(NamedTuple):
 
 @dataclass(frozen=True)
 class ScoredDialogue:
-    """A dialogue as it is measured."""
+    """A dialogue as it is measured.
+
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.study import Run
+    >>> run = Run("a", "Ann", "table", 1)
+    >>> score_dialogue(run, Played((), (), lessons=3), 0.1).lessons
+    3
+    """
 
     run: Run
     answers: tuple[ScoredAnswer, ...]

@@ -37,7 +37,13 @@ __all__ = [
 __getattr__ = former_names(__name__, {"Band": "Interval"})
 
 Interval = tuple[float, float]
-"""The lower and the upper end of a confidence interval."""
+"""The lower and the upper end of a confidence interval.
+
+>>> from kille.lab.measures.statistics import Interval, wilson
+>>> low_high: Interval = wilson(10, 10)
+>>> round(low_high[0], 2)
+0.72
+"""
 
 Degrees = Mapping[str, float]
 

@@ -43,6 +43,24 @@ def play(study: Study, run: Run) -> Played:
 
     A tutor is told if a move of theirs cannot be made, and may make another.
     Whatever a theory, a learner or a tutor of one's own raises ends it.
+
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "ask"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> played = play(cups, next(cups.runs()))
+    >>> len(played.turns) > 0
+    True
     """
     with _seed_generators(run):
         return _play(study, run)

@@ -43,6 +43,12 @@ if TYPE_CHECKING:
 __all__ = ["MISSING", "can_draw", "drawing", "jpeg", "pdf", "svg"]
 
 MISSING = "no figures: they need matplotlib, pip install 'kille[plots]'"
+"""What is said where figures cannot be drawn.
+
+>>> from kille.lab.reports.drawing import MISSING
+>>> print(MISSING)
+no figures: they need matplotlib, pip install 'kille[plots]'
+"""
 
 _TICKS = 13  # up to this many measured places each have a number on the axis
 _SETTINGS: Any = {
@@ -66,12 +72,23 @@ _SETTINGS: Any = {
 
 
 def can_draw() -> bool:
-    """Is matplotlib installed?"""
+    """Is matplotlib installed?
+
+    >>> can_draw() in (True, False)
+    True
+    """
     return find_spec("matplotlib") is not None
 
 
 def drawing(figure: Figure) -> Drawing:
-    """The figure drawn, without its title; ImportError without matplotlib."""
+    """The figure drawn, without its title; ImportError without matplotlib.
+
+    >>> from kille.lab.results import Figure
+    >>> counts = {"labels": ["cup"], "values": [3], "ylabel": ""}
+    >>> bars = Figure("bars", "Words", counts)
+    >>> drawing(bars) is not None
+    True
+    """
     from matplotlib import rc_context
 
     with rc_context(_SETTINGS):
@@ -94,6 +111,12 @@ def svg(figure: Figure, number: int = 0) -> str:
     """The figure as SVG, to be figure `number` of a page.
 
     The ink is `currentColor`. The same figure is the same text.
+
+    >>> from kille.lab.results import Figure
+    >>> counts = {"labels": ["cup"], "values": [3], "ylabel": ""}
+    >>> bars = Figure("bars", "Words", counts)
+    >>> "<svg" in svg(bars)
+    True
     """
     from matplotlib import rc_context
 
@@ -115,6 +138,12 @@ def pdf(figure: Figure) -> bytes:
     """The figure as a PDF file for a paper; ImportError without matplotlib.
 
     The same figure is the same file.
+
+    >>> from kille.lab.results import Figure
+    >>> counts = {"labels": ["cup"], "values": [3], "ylabel": ""}
+    >>> bars = Figure("bars", "Words", counts)
+    >>> pdf(bars)[:5]
+    b'%PDF-'
     """
     from matplotlib import rc_context
 
@@ -126,7 +155,12 @@ def pdf(figure: Figure) -> bytes:
 
 
 def jpeg(picture: Any) -> bytes:
-    """A picture (H, W, 3) of RGB as a JPEG file; ImportError without matplotlib."""
+    """A picture (H, W, 3) of RGB as a JPEG file; ImportError without matplotlib.
+
+    >>> import numpy as np
+    >>> jpeg(np.zeros((8, 8, 3), np.uint8))[:2].hex()
+    'ffd8'
+    """
     from matplotlib.image import imsave
 
     file, pixels = io.BytesIO(), np.ascontiguousarray(picture, np.uint8)

@@ -33,7 +33,33 @@ _USUAL = ".results"
 
 
 class Report(NamedTuple):
-    """A page that was written, and the results on it."""
+    """A page that was written, and the results on it.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     made = report(Path(folder), study=cups)
+    >>> made.page.name, len(made.results) > 0
+    ('report.html', True)
+    """
 
     page: Path
     results: list[Result]
@@ -44,6 +70,30 @@ def report(folder: Path, *, command: str = "", study: Study | None = None) -> Re
 
     It is of this study, or else of the one in the log, whose Python is not run. Raises
     StudyError where there are no results, TTRError where the page cannot be written.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with Log.open(cups, Path(folder)) as log:
+    ...         for run in cups.runs():
+    ...             _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     report(Path(folder), study=cups).page.name
+    'report.html'
     """
     page = folder / _NAME
     subject = _subject(folder, command, study or log.study(folder))
@@ -61,6 +111,32 @@ def compare(
     """Write a report of two folders of results side by side.
 
     To show their theories, Python is run only with consent.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     one, other = Path(folder, "one"), Path(folder, "other")
+    ...     for it in (one, other):
+    ...         with Log.open(cups, it) as log:
+    ...             for run in cups.runs():
+    ...                 _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     compare(one, other, Path(folder, "both.html")).page.name
+    'both.html'
     """
     return Report(page, write(_subject_of_two(one, other, command, consent), page))
 
@@ -68,7 +144,35 @@ def compare(
 def compare_results(
     one: Path, other: Path, consent: Consent = NO_PYTHON
 ) -> list[Result]:
-    """The results of two folders side by side, for a terminal."""
+    """The results of two folders side by side, for a terminal.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.dialogues import Played
+    >>> from kille.lab.log import Finished, Log
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     one, other = Path(folder, "one"), Path(folder, "other")
+    ...     for it in (one, other):
+    ...         with Log.open(cups, it) as log:
+    ...             for run in cups.runs():
+    ...                 _ = log.write(Finished(run, Played((), ()), 0.5))
+    ...     found = compare_results(one, other)
+    >>> len(found) > 0
+    True
+    """
     subject = _subject_of_two(one, other, "", consent)
     everything = [it for them in subject.theories.values() for it in them]
     return results_of(subject, places_of(list(subject.theories), everything, ""))

@@ -86,7 +86,12 @@ def page(
     about: Mapping[str, str],
     failures: Sequence[str] = (),
 ) -> str:
-    """The page; `about` says under which heads what it was made of, and how."""
+    """The page; `about` says under which heads what it was made of, and how.
+
+    >>> found = Result("What was found", text="Nothing.")
+    >>> "<h1>Cups" in page("Cups", [found], {"made with": "kille report"})
+    True
+    """
     parts = dict(enumerate(results, start=1))
     command = about.get("command", "")
     return whole_page(
@@ -113,7 +118,11 @@ _END = "</body></html>"
 
 
 def beginning(title: str, style: str = "") -> Iterator[str]:
-    """The head of a page and its title, with further style sheets if it needs any."""
+    """The head of a page and its title, with further style sheets if it needs any.
+
+    >>> "<title>Cups</title>" in "".join(beginning("Cups"))
+    True
+    """
     yield "<!DOCTYPE html>"
     yield '<html lang="en"><head><meta charset="utf-8">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
@@ -122,7 +131,11 @@ def beginning(title: str, style: str = "") -> Iterator[str]:
 
 
 def ending(about: Mapping[str, str]) -> Iterator[str]:
-    """How all that was made, and the end of the page."""
+    """How all that was made, and the end of the page.
+
+    >>> "</html>" in "".join(ending({"made with": "kille report"}))
+    True
+    """
     yield element("h2", "How this was made") + description_list(about.items())
     yield _END
 
@@ -148,6 +161,10 @@ def section(number: int, result: Result, drawn: str = "") -> Iterator[str]:
     """A part of a page, to which `#part-NUMBER` leads.
 
     `drawn` is the folder in which the figures lie as PDF files, if they do.
+
+    >>> text = "".join(section(1, Result("What was found", text="Nothing.")))
+    >>> 'id="part-1"' in text
+    True
     """
     yield f"<section>{element('h2', result.title, id=f'part-{number}')}"
     if result.text:

@@ -15,7 +15,16 @@ __all__ = ["Reply", "Robot"]
 
 
 class Robot(Protocol):
-    """Who is taught."""
+    """Who is taught.
+
+    >>> from kille.lab.robots.simulated import SimulatedRobot
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> robot: Robot = SimulatedRobot(game)
+    >>> robot.hear("This is a cup.").text
+    'OK, I learned a cup.'
+    """
 
     def see(self, occasion: Occasion) -> Reply:
         """Be shown something, while the tutor has the floor."""

@@ -59,6 +59,13 @@ class Reply:
 
     `rules` are those that ran. `number` says which thing of the world a name of its own
     is for, if it is for any.
+
+    >>> from kille.dialogue.tutoring import tutoring
+    >>> game = tutoring()
+    >>> turn = game.take(game.begin(), game.hear("Hello."))
+    >>> reply = Reply(game.say(turn.said[0]), turn.said, turn.state, turn.model)
+    >>> reply.text, reply.acts
+    ('Hello.', ('greet_back',))
     """
 
     text: str

@@ -21,7 +21,13 @@ from kille.lab.study import Run, Study
 MISSING = "Dask is not installed: pip install 'kille[cluster]'"
 
 Crew: TypeAlias = Callable[[Study, Play], AbstractContextManager[PlayAll]]
-"""Those who play a study, as long as they are needed."""
+"""Those who play a study, as long as they are needed.
+
+>>> from kille.lab.running import Crew, crew
+>>> by: Crew = crew(1)
+>>> callable(by)
+True
+"""
 
 
 @contextmanager
@@ -55,6 +61,9 @@ def crew(workers: int | None = None, scheduler: Scheduler | None = None) -> Crew
 
     By default it is one process for each core; one is this process itself. RunError
     where a cluster is asked for, and Dask is missing or certificates cannot be used.
+
+    >>> crew(1) is alone
+    True
     """
     if scheduler:
         scheduler.check()
@@ -78,7 +87,29 @@ def cores() -> int:
 
 @contextmanager
 def alone(study: Study, play: Play) -> Iterator[PlayAll]:
-    """This process plays all by itself, one dialogue after the other."""
+    """This process plays all by itself, one dialogue after the other.
+
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> from kille.lab.dialogues import Played
+    >>> def play(study, run):
+    ...     return Played((), (), lessons=run.seed)
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with alone(cups, play) as play_all:
+    ...     [it.played.lessons for it in play_all(cups.runs())]
+    [1]
+    """
 
     def play_all(runs: Sequence[Run]) -> Generator[Outcome, None, None]:
         with one_thread():

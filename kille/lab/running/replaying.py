@@ -14,7 +14,11 @@ from kille.lab.study import Study
 
 
 class Difference(NamedTuple):
-    """The first difference between two dialogues: where, and both values."""
+    """The first difference between two dialogues: where, and both values.
+
+    >>> Difference("turn 3", "This is a cup.", "This is a mug.").now
+    'This is a mug.'
+    """
 
     where: str
     before: str
@@ -27,7 +31,32 @@ def replay(
     play: Play | None = None,
     by: Crew | None = None,
 ) -> Iterator[tuple[Outcome, Difference | None]]:
-    """Play these dialogues again; yield each with its first difference, or None."""
+    """Play these dialogues again; yield each with its first difference, or None.
+
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> from kille.lab.dialogues import Played
+    >>> def play(study, run):
+    ...     return Played((), (), lessons=run.seed)
+    >>> from kille.lab.log import Finished
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> [run] = cups.runs()
+    >>> before = Finished(run, Played((), (), lessons=2), 0.5)
+    >>> [(_, difference)] = replay(cups, [before], play)
+    >>> difference
+    Difference(where='at the end, lessons', before='2', now='1')
+    """
     known = {it.run: it for it in befores}
     with play_runs(study, tuple(known), play, by) as outcomes:
         for now in outcomes:

@@ -18,7 +18,11 @@ from kille.lab.study import Study
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a study has come: how many of its dialogues are over, or broke."""
+    """How far a study has come: how many of its dialogues are over, or broke.
+
+    >>> Progress(over=3, planned=10, broken=1).planned
+    10
+    """
 
     over: int
     planned: int
@@ -27,7 +31,11 @@ class Progress:
 
 @dataclass(frozen=True)
 class Summary:
-    """What came of running a study: how many dialogues there are, and which broke."""
+    """What came of running a study: how many dialogues there are, and which broke.
+
+    >>> Summary(planned=10, played=9, broken=1).broken
+    1
+    """
 
     planned: int
     played: int
@@ -47,6 +55,28 @@ def run(
     Stopped at any moment, and run again, it goes on. `by` are those who play, by
     default this process alone; `told` hears of every dialogue that is over. StudyError
     where the folder is of another study or in use, or nobody can play.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> from kille.lab.dialogues import Played
+    >>> def play(study, run):
+    ...     return Played((), (), lessons=run.seed)
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     run(cups, Path(folder), play)
+    Summary(planned=1, played=1, broken=0)
     """
     with Log.open(study, folder) as log:
         before = log.reasons()
@@ -63,6 +93,30 @@ def run(
 
 
 def forget_broken(study: Study, folder: Path) -> int:
-    """Delete all broken runs, so that they are played again; how many."""
+    """Delete all broken runs, so that they are played again; how many.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> from kille.lab.dialogues import Played
+    >>> def play(study, run):
+    ...     return Played((), (), lessons=run.seed)
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     summary = run(cups, Path(folder), play)
+    ...     forget_broken(cups, Path(folder))
+    0
+    """
     with Log.open(study, folder) as log:
         return log.forget_broken()

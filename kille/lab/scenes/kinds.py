@@ -27,7 +27,12 @@ from kille.lab.worlds.worlds import COLOURS, FRONTS, KINDS
 from kille.sensors.sensor import SensorError
 
 WHOLE = frozenset({"rendered", "pictures", "captures"})
-"""The kinds of scenes that the whole robot sees."""
+"""The kinds of scenes that the whole robot sees.
+
+>>> from kille.lab.scenes import WHOLE
+>>> sorted(WHOLE)
+['captures', 'pictures', 'rendered']
+"""
 
 MOST = 100
 """Things of a kind: more are nobody's study, but a slip."""
@@ -112,11 +117,34 @@ SETTINGS: Mapping[str, Settings] = {
         "each": Setting(int, 2, least=1, about="frames of each scene"),
     },
 }
-"""What may be set of scenes, kind by kind."""
+"""What may be set of scenes, kind by kind.
+
+>>> from kille.lab.scenes import SETTINGS
+>>> "kinds" in SETTINGS["drawn"]
+True
+"""
 
 
 def open_scene(study: Study, run: Run) -> Scene:
-    """The scene of a run: drawn by its seed, whoever plays."""
+    """The scene of a run: drawn by its seed, whoever plays.
+
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> open_scene(cups, next(cups.runs())).start.thing(1).kind
+    'cup'
+    """
     named = study.scenes[run.scene]
     set_ = fill_settings(named.settings, SETTINGS[named.kind])
     chance = Random(f"scene {run.scene} {run.seed}")
@@ -154,7 +182,25 @@ def _opener(kind: str) -> Callable[..., Scene]:
 
 
 def faults(named: Named, study: Study) -> Iterator[Problem]:
-    """What is wrong with a scene in this study: its data are not there, or too few."""
+    """What is wrong with a scene in this study: its data are not there, or too few.
+
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> cups = parse(text, Path("cups.toml"))
+    >>> [*faults(cups.scenes["table"], cups)]
+    []
+    """
     if named.kind not in SETTINGS:
         return
     wrong = [*_setting_problems(named), *_folder_problems(named, study)]

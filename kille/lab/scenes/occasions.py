@@ -30,6 +30,11 @@ class Occasion:
     where that is not what there is; `said` is what somebody has said of it, where that
     is known; `view` is what a scene of its own kind needs to show it. `group` is what
     word it is an example of, `hard` how little it is like the others.
+
+    >>> from kille.lab.worlds.worlds import World, Thing
+    >>> occasion = Occasion("noun", World((Thing("cup", "red", place=(2, 3)),)), 1)
+    >>> occasion.thing.kind
+    'cup'
     """
 
     kind: str
@@ -94,7 +99,17 @@ class Occasion:
 
 @dataclass(frozen=True)
 class Scene(ABC):
-    """What there is to talk of in a run; `start` has all things as the run begins."""
+    """What there is to talk of in a run; `start` has all things as the run begins.
+
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> class OneCup(Scene):
+    ...     kinds = ("noun",)
+    ...     def round(self, kind, new, chance):
+    ...         return [Occasion(kind, self.start, 1)]
+    >>> table = OneCup(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> [it.thing.kind for it in table.round("noun", True, Random(1))]
+    ['cup']
+    """
 
     start: World
 

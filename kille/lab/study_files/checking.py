@@ -29,6 +29,23 @@ def read_and_check(path: Path, consent: Consent = OWN_FOLDER) -> Study:
     mistake, in how it is written and in what it names.
 
     Of a study that names what there is no consent to, nothing is tried.
+
+    >>> import tempfile
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "cups.toml").write_text(text)
+    ...     read_and_check(Path(folder, "cups.toml")).seeds
+    (1,)
     """
     text = read_source(path)
     data = parse_data(text, path)
@@ -41,7 +58,24 @@ def read_and_check(path: Path, consent: Consent = OWN_FOLDER) -> Study:
 
 
 def check(study: Study) -> tuple[str, ...]:
-    """A line for everything that is wrong with a study, in the order of its file."""
+    """A line for everything that is wrong with a study, in the order of its file.
+
+    >>> from pathlib import Path
+    >>> from kille.lab.study_files import parse
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> check(parse(text, Path("cups.toml")))
+    ()
+    """
     return format_problems(_study_problems(study), study.source, study.file)
 
 

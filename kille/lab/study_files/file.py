@@ -32,7 +32,25 @@ _OWN = re.compile(r"\.py(?=:)|\.ttr$")
 
 
 def read(path: Path, consent: Consent = OWN_FOLDER) -> Study:
-    """The study in a file; `StudyError` with a line for each mistake."""
+    """The study in a file; `StudyError` with a line for each mistake.
+
+    >>> import tempfile
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "cups.toml").write_text(text)
+    ...     read(Path(folder, "cups.toml")).title
+    'Cups'
+    """
     return parse(read_source(path), path, consent)
 
 
@@ -41,6 +59,21 @@ def parse(text: str, path: Path, consent: Consent = OWN_FOLDER) -> Study:
 
     Paths in it begin at the folder of the file. Python there, or below, is what it may
     run, and what else there is consent to.
+
+    >>> from pathlib import Path
+    >>> text = '''
+    ...     title = "Cups"
+    ...     seeds = 1
+    ...     [theories.plain]
+    ...     [tutors.ann]
+    ...     kind = "simulated"
+    ...     [scenes.table]
+    ...     kind = "drawn"
+    ...     [[phases]]
+    ...     do = "teach"
+    ... '''
+    >>> [*parse(text, Path("cups.toml")).theories]
+    ['plain']
     """
     data = parse_data(text, path)
     if found := [*shape_problems(data)]:

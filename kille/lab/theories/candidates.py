@@ -31,13 +31,35 @@ __all__ = ["Make", "Methods", "MethodFailedError", "candidates"]
 __getattr__ = former_names(__name__, {"MethodFailed": "MethodFailedError"})
 
 Make: TypeAlias = Callable[[], Any]
-"""Gives a learner that has learned nothing."""
+"""Gives a learner that has learned nothing.
+
+>>> from kille.lab.theories.candidates import Make
+>>> from kille.perception.objects import ObjectMemory
+>>> make: Make = ObjectMemory
+>>> make().labels
+()
+"""
 
 Methods: TypeAlias = Mapping[str, Make]
+"""The methods that there are, by name.
+
+>>> from kille.lab.theories.candidates import Methods
+>>> from kille.perception.methods import OBJECTS
+>>> known: Methods = OBJECTS
+>>> "default" in known
+True
+"""
 
 
 class MethodFailedError(ExperimentError):
-    """A learner failed, or gave wrong degrees; `name` is that of the method."""
+    """A learner failed, or gave wrong degrees; `name` is that of the method.
+
+    >>> raise MethodFailedError("mine.py:Forest", "it gave no degrees")
+    Traceback (most recent call last):
+        ...
+    kille.lab.theories.candidates.MethodFailedError: the method mine.py:Forest failed:
+    it gave no degrees
+    """
 
     def __init__(self, name: str, trouble: str) -> None:
         super().__init__(f"the method {name} failed: {trouble}")
@@ -52,6 +74,10 @@ def candidates(
     A name with a colon is of the user's own: `FILE.py:NAME` or `MODULE:NAME`, where
     NAME is a class, or a function that makes a learner. Who calls this names them; for
     names that were found in a file, `consent` says which Python may be run.
+
+    >>> from kille.perception.methods import RELATIONS
+    >>> [*candidates(["default", "angle"], RELATIONS)]
+    ['default', 'angle']
     """
     return {name: _guard(name, _maker(name, known, consent)) for name in names}
 

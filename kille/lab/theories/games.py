@@ -75,6 +75,10 @@ def agent_of(
 
     `settings` are those of `Agent`, and so is `change`, which is given the game of the
     theory; errors as it raises them, and `TheoryError`.
+
+    >>> with agent_of(Theory("four", wording="four"), "synthetic:empty") as robot:
+    ...     print(robot.hear("What is this?"))
+    I see nothing on the table.
     """
 
     def game_to_play(game: Game) -> Game:
@@ -102,7 +106,11 @@ def change_game(game: Game, theory: Theory) -> Game:
 
 
 def language_of(theory: Theory) -> str:
-    """The language of a theory as games name it, with the folder of its own files."""
+    """The language of a theory as games name it, with the folder of its own files.
+
+    >>> language_of(Theory("swedish", language="sv"))
+    'sv'
+    """
     if theory.grammar is None:
         return theory.language
     return language_in(theory.grammar, theory.language)

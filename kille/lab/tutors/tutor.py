@@ -37,6 +37,9 @@ class Asked:
     `right` is what they hold to be so, `accepted` what they might have said as well,
     `judge` what another person would have said. It is about the thing x of the world,
     and how that stands to y, if it does.
+
+    >>> Asked("noun", right="cup", x=1, accepted=frozenset({"mug"})).right
+    'cup'
     """
 
     kind: str
@@ -52,6 +55,9 @@ class Says:
     """The tutor says a text as a move; it `asks` something, or sets the robot right.
 
     `of` is the thing that is spoken of by a phrase which may not be clear, if any.
+
+    >>> Says("What is this?", "ask_name", asks=Asked("noun", "cup", x=1)).act
+    'ask_name'
     """
 
     text: str
@@ -63,29 +69,60 @@ class Says:
 
 @dataclass(frozen=True)
 class Shows:
-    """The tutor lays the table, and points."""
+    """The tutor lays the table, and points.
+
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> occasion = Occasion("noun", World((Thing("cup", "red", place=(2, 3)),)), 1)
+    >>> Shows(occasion).occasion.thing.kind
+    'cup'
+    """
 
     occasion: Occasion
 
 
 @dataclass(frozen=True)
 class Waits:
-    """The tutor leaves the floor to the robot, which looks once more."""
+    """The tutor leaves the floor to the robot, which looks once more.
+
+    >>> from kille.lab.worlds.worlds import Thing, World
+    >>> occasion = Occasion("noun", World((Thing("cup", "red", place=(2, 3)),)), 1)
+    >>> Waits(occasion).occasion.kind
+    'noun'
+    """
 
     occasion: Occasion
 
 
 @dataclass(frozen=True)
 class Happens:
-    """Something happens, by a command of a script: `look`, `point 2`, `restart`."""
+    """Something happens, by a command of a script: `look`, `point 2`, `restart`.
+
+    >>> Happens("point 2").command
+    'point 2'
+    """
 
     command: str
 
 
 Move: TypeAlias = Says | Shows | Waits | Happens
+"""What a tutor may do.
+
+>>> from kille.lab.tutors.tutor import Happens, Move
+>>> isinstance(Happens("restart"), Move)
+True
+"""
 
 Turns: TypeAlias = Generator[Move, Reply, None]
-"""The moves of a tutor, who is sent what the robot replies to each."""
+"""The moves of a tutor, who is sent what the robot replies to each.
+
+>>> from kille.lab.tutors.tutor import Says, Turns
+>>> def greet_and_leave() -> Turns:
+...     reply = yield Says("Hello.", "greet")
+...     if reply.text:
+...         yield Says("Goodbye.", "part")
+>>> next(greet_and_leave()).text
+'Hello.'
+"""
 
 
 @dataclass(frozen=True)
@@ -94,6 +131,11 @@ class Task:
 
     All chance in it follows from its name, so that it is the same whatever was said
     before. `settings` are those of the phase.
+
+    >>> from kille.lab.study import Run
+    >>> task = Task(Run("plain", "ann", "table", 1), "teach", "teach", 1)
+    >>> task.chance("order").random() == task.chance("order").random()
+    True
     """
 
     run: Run
@@ -116,7 +158,18 @@ class Task:
 
 
 class Tutor(Protocol):
-    """Who talks to the robot."""
+    """Who talks to the robot.
+
+    >>> class Polite:
+    ...     name = "polite"
+    ...     def turns(self, task):
+    ...         yield Says("Hello.", "greet")
+    >>> tutor: Tutor = Polite()
+    >>> from kille.lab.study import Run
+    >>> task = Task(Run("plain", "polite", "table", 1), "teach", "teach", 1)
+    >>> [move.text for move in tutor.turns(task)]
+    ['Hello.']
+    """
 
     @property
     def name(self) -> str:

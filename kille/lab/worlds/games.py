@@ -98,7 +98,13 @@ def model_of(
 
 
 def with_known_words(model: Model, signs: Iterable[Record]) -> Model:
-    """Add words to a model, with what they know without lessons."""
+    """Add words to a model, with what they know without lessons.
+
+    >>> from kille.dialogue.meanings import adjective, word_of
+    >>> M = with_known_words(Model(), [adjective("red")])
+    >>> word(M, word_of(adjective("red"))) is not None
+    True
+    """
     for sign in signs:
         if word(model, word_of(sign)) is None:
             model = model.witnessed(word_of(sign), by=LearnedWord.without_lessons(sign))
@@ -106,7 +112,15 @@ def with_known_words(model: Model, signs: Iterable[Record]) -> Model:
 
 
 def word(model: Model, pred: Pred) -> LearnedWord | None:
-    """The learned word that judges a predicate in a model, if there is one."""
+    """The learned word that judges a predicate in a model, if there is one.
+
+    >>> from kille.dialogue.meanings import noun, word_of
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> turn = game.take(game.begin(), game.hear("This is a cup."))
+    >>> word(turn.model, word_of(noun("cup"))) is not None
+    True
+    """
     found = model.facts.functions.get(pred)
     return found if isinstance(found, LearnedWord) else None
 
@@ -118,7 +132,13 @@ def learned_words(model: Model) -> tuple[LearnedWord, ...]:
 
 
 def world_of(s: Record) -> World:
-    """The world that a state has the latest look at."""
+    """The world that a state has the latest look at.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> world_of(game.start).thing(1).kind
+    'cup'
+    """
     world = World.from_name(s.view.look)
     return World() if world is None else world
 
@@ -150,7 +170,15 @@ def _across(x: str, look: str) -> float:
 
 
 def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
-    """Make a planned move: the event, with what came of it, and the model after it."""
+    """Make a planned move: the event, with what came of it, and the model after it.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> turn = game.take(game.begin(), game.hear("This is a cup."))
+    >>> event, _ = act(turn.said[0].type, turn.model)
+    >>> event.spkr, event.addr
+    ('robot', 'tutor')
+    """
     move, model = model.create(planned)
     keys = []
     for content in move.teaches:

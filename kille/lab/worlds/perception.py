@@ -34,6 +34,14 @@ __all__ = [
 __getattr__ = former_names(__name__, {"seen": "look_event", "glanced": "glance_event"})
 
 Vector = tuple[float, ...]
+"""Features, colours and sizes as numbers.
+
+>>> from kille.lab.worlds.perception import Vector, colour
+>>> from kille.lab.worlds.worlds import Thing, World
+>>> seen: Vector = colour(World((Thing("cup", "red", place=(2, 3)),)), 1)
+>>> len(seen)
+3
+"""
 
 TRAITS = 4
 """The number of features of a kind."""
@@ -43,7 +51,11 @@ LOOKS = 0.25
 
 
 def thing(number: int) -> str:
-    """The name of the thing with this number."""
+    """The name of the thing with this number.
+
+    >>> thing(3)
+    'o3'
+    """
     return f"o{number}"
 
 
@@ -60,7 +72,12 @@ def number_of(x: str) -> int:
 
 
 def view(world: World) -> Record:
-    """What is in view."""
+    """What is in view.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> print(view(World((Thing("cup", "red", place=(2, 3)),))).things)
+    ('o1',)
+    """
     things = [thing(number) for number in world.in_view]
     attended = [] if world.attended_thing is None else [thing(world.attended_thing)]
     return record(
@@ -73,12 +90,24 @@ def view(world: World) -> Record:
 
 
 def look_event(world: World, before: World) -> Record:
-    """The event of looking, on the robot's own turn."""
+    """The event of looking, on the robot's own turn.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),))
+    >>> sorted(look_event(world, World()))
+    ['floor', 'kept', 'sights', 'view']
+    """
     return _seeing_event(world, before, "robot")
 
 
 def glance_event(world: World, before: World) -> Record:
-    """The event of looking while the tutor has the floor."""
+    """The event of looking while the tutor has the floor.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),))
+    >>> sorted(glance_event(world, World()))
+    ['floor', 'kept', 'sights', 'view']
+    """
     return _seeing_event(world, before, "tutor")
 
 
@@ -89,7 +118,12 @@ def _seeing_event(world: World, before: World, floor: str) -> Record:
 
 
 def sights(world: World) -> list[Record]:
-    """How much each thing in view stands out; how near it is, if that is seen."""
+    """How much each thing in view stands out; how near it is, if that is seen.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> [it.x for it in sights(World((Thing("cup", "red", place=(2, 3)),)))]
+    ['o1']
+    """
     return [_sight(it, world.thing(it), world.deep) for it in world.in_view]
 
 
@@ -119,7 +153,13 @@ def _has_stayed(number: int, world: World, before: World) -> bool:
 
 @lru_cache(65536)
 def traits(world: World, number: int) -> Vector:
-    """The features of a thing: those of its kind, with its own noise and the look's."""
+    """The features of a thing: those of its kind, with its own noise and the look's.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),))
+    >>> len(traits(world, 1)) == len(traits(world.look_again(), 1))
+    True
+    """
     kind = world.thing(number).kind
     typical = _uniform(f"kind {world.traits} {kind}", TRAITS)
     return _blur(typical, world, number)
@@ -127,17 +167,35 @@ def traits(world: World, number: int) -> Vector:
 
 @lru_cache(65536)
 def colour(world: World, number: int) -> Vector:
-    """The colour of a thing, as it looks."""
+    """The colour of a thing, as it looks.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> r, g, b = colour(World((Thing("cup", "red", place=(2, 3)),)), 1)
+    >>> r > g and r > b
+    True
+    """
     return _blur(COLOURS[world.thing(number).colour], world, number)
 
 
 def size(world: World, number: int) -> Vector:
-    """How big a thing is."""
+    """How big a thing is.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> things = Thing("cup", "red", 0.1, (2, 3)), Thing("car", "red", 0.9, (5, 7))
+    >>> size(World(things), 1) < size(World(things), 2)
+    True
+    """
     return (world.thing(number).size,)
 
 
 def across(world: World, number: int) -> float:
-    """How far to the right a thing is seen, from 0 to 1."""
+    """How far to the right a thing is seen, from 0 to 1.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> things = Thing("cup", "red", place=(2, 3)), Thing("car", "red", place=(7, 3))
+    >>> across(World(things), 1) < across(World(things), 2)
+    True
+    """
     return world.place(number)[0] / SIDE
 
 
@@ -147,6 +205,11 @@ def direction(world: World, x: int, y: int, front: str) -> Vector | None:
     A thing's own front, as `faces_left`, is what a viewer would call its back: in front
     of a car is before it, but in front of what one looks at is on one's own side. None
     where places are not known, or are one and the same.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> things = Thing("cup", "red", place=(2, 3)), Thing("car", "red", place=(5, 3))
+    >>> direction(World(things), 2, 1, "away")
+    (1.0, 0.0)
     """
     way = front.removeprefix("faces_")
     if not world.deep or way not in _TURNS or x == y:
@@ -228,7 +291,12 @@ def between(x: str, y: str, z: str, look: str) -> float | tuple[float, float]:
 
 
 def oddness(world: World, number: int) -> float:
-    """How far the features of a thing are from what is typical of its kind."""
+    """How far the features of a thing are from what is typical of its kind.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> oddness(World((Thing("cup", "red", place=(2, 3)),)), 1) >= 0
+    True
+    """
     own = _normal(f"thing {world.traits} {number} {TRAITS}", TRAITS)
     return math.hypot(*own)
 

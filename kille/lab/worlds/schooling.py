@@ -59,7 +59,13 @@ def game_after_school(game: Game, language: str = "en", times: int = 1) -> Game:
 
 
 def lessons(language: str, world: World) -> Iterator[str | Record]:
-    """Lessons what each thing in view is, and then where they are, once a word."""
+    """Lessons what each thing in view is, and then where they are, once a word.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),))
+    >>> [it for it in lessons("en", world) if isinstance(it, str)]
+    ['This is a cup.']
+    """
     talk = WorldTalk(vocabulary(language), world)
     for x in world.in_view:
         yield glance_event(world.point_at(x), world)
@@ -77,7 +83,15 @@ def lessons(language: str, world: World) -> Iterator[str | Record]:
 
 
 def continue_game(game: Game, given: Iterable[str | Record]) -> Game:
-    """The game as it goes on after these texts and looks."""
+    """The game as it goes on after these texts and looks.
+
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> after = continue_game(game, ["This is a cup."])
+    >>> [sign.form for sign in after.start.private.nouns]
+    ['cup']
+    """
     now = game.begin()
     for one in given:
         heard = game.hear(one) if isinstance(one, str) and game.hear else one
@@ -86,7 +100,15 @@ def continue_game(game: Game, given: Iterable[str | Record]) -> Game:
 
 
 def game_next_day(game: Game) -> Game:
-    """The game on another day: it is known what was taught, but not what was said."""
+    """The game on another day: it is known what was taught, but not what was said.
+
+    >>> from kille.lab.worlds.games import simulated_game
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> game = simulated_game(World((Thing("cup", "red", place=(2, 3)),)))
+    >>> morning = game_next_day(continue_game(game, ["This is a cup."]))
+    >>> [sign.form for sign in morning.start.private.nouns]
+    ['cup']
+    """
     known, s = game.start, initial(words_of(game.start), game.start.private.strategy)
     taught = [
         record(sign=it.sign, lessons=float(sum(x.holds for x in it.lessons)))

@@ -29,7 +29,12 @@ __all__ = [
 __getattr__ = former_names(__name__, {"drawn": "draw_world"})
 
 KINDS = ("cup", "mug", "bowl", "book", "box", "apple", "car", "shoe")
-"""What kinds of things there are."""
+"""What kinds of things there are.
+
+>>> from kille.lab.worlds.worlds import KINDS
+>>> print(*KINDS)
+cup mug bowl book box apple car shoe
+"""
 
 COLOURS = {
     "red": (0.9, 0.1, 0.1),
@@ -41,19 +46,45 @@ COLOURS = {
     "white": (1.0, 1.0, 1.0),
     "brown": (0.5, 0.3, 0.1),
 }
-"""The colours of things: how much red, green and blue."""
+"""The colours of things: how much red, green and blue.
+
+>>> from kille.lab.worlds.worlds import COLOURS
+>>> COLOURS["red"]
+(0.9, 0.1, 0.1)
+"""
 
 FRONTS = ("away", "left", "right", "towards")
-"""The ways in which a thing may face, as the robot sees it."""
+"""The ways in which a thing may face, as the robot sees it.
+
+>>> from kille.lab.worlds.worlds import FRONTS, Thing
+>>> [Thing("car", "red", place=(2, 3), front=front).front for front in FRONTS]
+['away', 'left', 'right', 'towards']
+"""
 
 SIDE = 10
-"""The table is so many steps wide, and deep."""
+"""The table is so many steps wide, and deep.
+
+>>> from kille.lab.worlds.worlds import SIDE
+>>> SIDE
+10
+"""
 
 STEP = 0.1
-"""Metres of a step."""
+"""Metres of a step.
+
+>>> from kille.lab.worlds.worlds import SIDE, STEP
+>>> SIDE * STEP
+1.0
+"""
 
 Place = tuple[float, float]
-"""Steps to the right, and steps away from the robot, to the thousandth at most."""
+"""Steps to the right, and steps away from the robot, to the thousandth at most.
+
+>>> from kille.lab.worlds.worlds import Place, Thing
+>>> near_left: Place = (1, 1)
+>>> Thing("cup", "red", place=near_left).place
+(1, 1)
+"""
 
 
 @dataclass(frozen=True)
@@ -61,6 +92,9 @@ class Thing:
     """A thing of a kind and a colour, small at 0 and big at 1.
 
     It is at a place on the table, or not in view; it may have a front.
+
+    >>> Thing("cup", "red", size=0.2, place=(2, 3)).kind
+    'cup'
     """
 
     kind: str

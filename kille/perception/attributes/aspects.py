@@ -42,6 +42,10 @@ class Aspect:
     `measure` gives numbers (k,) or None for what cannot be told, `kernel` how far two
     rows of such numbers, (m, k) and (n, k), have it in common, (m, n). `prior` is how
     likely a word is to speak of it.
+
+    >>> length = Aspect("length", lambda it: it.get("size"), np.minimum, prior=0.1)
+    >>> length.name
+    'length'
     """
 
     name: str
@@ -142,4 +146,10 @@ def _aspects() -> Sequence[Aspect]:
 
 
 ASPECTS: Mapping[str, Aspect] = MappingProxyType({it.name: it for it in _aspects()})
-"""The aspects that words may describe, by name."""
+"""The aspects that words may describe, by name.
+
+>>> from kille.perception.attributes import ASPECTS
+>>> print(*ASPECTS)
+colour hue texture pattern shape outline size bigness length flatness roundness
+lightness vividness
+"""

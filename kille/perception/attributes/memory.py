@@ -101,6 +101,12 @@ class AttributeMemory:
     """A learner of attribute words, from the traits of things.
 
     `aspects` are those that words may speak of.
+
+    >>> big = {"size": np.array([0.3, 0.3, 0.3], np.float32)}
+    >>> memory = AttributeMemory()
+    >>> memory.learn_one(big, "big")
+    >>> [*memory.degrees(big)]
+    ['big']
     """
 
     def __init__(self, aspects: Mapping[str, Aspect] = ASPECTS) -> None:

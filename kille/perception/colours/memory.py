@@ -40,6 +40,14 @@ class ColourMemory:
     """A learner of colour words, from palettes.
 
     `prior` are words that it knows before any lesson; without it, it knows none.
+
+    >>> from kille.perception.colours import plain
+    >>> memory = ColourMemory()
+    >>> memory.learn_one(plain([48, 66, 48]), "red")
+    >>> memory.learn_one(plain([30, 20, -60]), "blue")
+    >>> degrees = memory.predict_proba_one(plain([50, 60, 40]))
+    >>> max(degrees, key=degrees.get)
+    'red'
     """
 
     def __init__(self, prior: ColourWords | None = None) -> None:

@@ -42,7 +42,13 @@ def colour_words(
 def colour_chances(
     palette: Palette, words: ColourWords | None = None
 ) -> dict[str, float]:
-    """P(word | thing), the word that people would choose for it; it sums to 1."""
+    """P(word | thing), the word that people would choose for it; it sums to 1.
+
+    >>> from kille.perception.colours import plain
+    >>> chances = colour_chances(plain([48, 66, 48]))
+    >>> max(chances, key=chances.get), round(sum(chances.values()), 6)
+    ('red', 1.0)
+    """
     known = xkcd() if words is None else words
     chances = palette.shares @ known.chances(palette.lab)
     return dict(zip(known.names, chances.tolist(), strict=True))

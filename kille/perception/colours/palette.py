@@ -62,6 +62,9 @@ def pack_palette(palette: Palette) -> Vector:
     """Pack the palette into 16 numbers: four times a share and its L, a, b.
 
     Of a palette of more than four colours the commonest are kept.
+
+    >>> pack_palette(plain([48, 66, 48])).tolist()[:4]
+    [1.0, 48.0, 66.0, 48.0]
     """
     rows = np.zeros((_PACKED, 4), np.float32)
     whole = np.column_stack([palette.shares, palette.lab])[:_PACKED]
@@ -86,12 +89,24 @@ def unpack_palette(vector: Vector) -> Palette:
 
 
 def plain(lab: ArrayLike) -> Palette:
-    """The palette of a thing with only one colour."""
+    """The palette of a thing with only one colour.
+
+    >>> plain([48, 66, 48]).shares.tolist()
+    [1.0]
+    """
     return Palette([1.0], np.asarray(lab, float)[None])
 
 
 def colours_of(frame: Frame, region: Region) -> Palette | None:
-    """The palette of a region, white-balanced; None for a region without pixels."""
+    """The palette of a region, white-balanced; None for a region without pixels.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> from kille.perception.segment import segment
+    >>> region = segment(frame).regions[0]
+    >>> round(float(colours_of(frame, region).shares.sum()), 6)
+    1.0
+    """
     box = region.box
     crop = np.s_[box.top : box.bottom, box.left : box.right]
     inside = region.mask[crop]
@@ -106,6 +121,14 @@ def colours_in(vector: Vector) -> Palette:
     """The palette recovered from a thing's cue `colour`, without its picture.
 
     ValueError for a vector that is no such cue.
+
+    >>> from kille.perception.cues import measure_cues
+    >>> from kille.perception.segment import segment
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> traits = measure_cues(frame, segment(frame).regions[0])
+    >>> round(float(colours_in(traits["colour"]).shares.sum()), 6)
+    1.0
     """
     return palette_from_colours(*cells_of(vector))
 

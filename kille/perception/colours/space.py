@@ -11,7 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Lab = NDArray[np.float64]
-"""Colours (..., 3): L, a, b."""
+"""Colours (..., 3): L, a, b.
+
+>>> from kille.perception.colours import Lab, lab_of
+>>> red: Lab = lab_of([255, 0, 0])
+>>> red.shape
+(3,)
+"""
 
 _DAYLIGHT = (0.95047, 1.0, 1.08883)  # D65, the white of Lab
 _KNEE = 6 / 29  # where the cube of Lab gives way to a straight line

@@ -40,7 +40,12 @@ BASIC = (
     "pink",
     "purple",
 )
-"""The eleven basic colour words of English (Berlin and Kay 1969)."""
+"""The eleven basic colour words of English (Berlin and Kay 1969).
+
+>>> from kille.perception.colours import BASIC
+>>> print(*BASIC)
+black white grey red green blue yellow orange brown pink purple
+"""
 
 
 @dataclass(frozen=True, eq=False)

@@ -46,6 +46,10 @@ class Cue:
     """One respect in which things are compared.
 
     `measure` gives `length` finite numbers, or None for what cannot be told.
+
+    >>> brightness = Cue("brightness", 1, lambda patch: patch.rgb.mean(keepdims=True))
+    >>> brightness.length
+    1
     """
 
     name: str
@@ -73,14 +77,32 @@ CUES: Mapping[str, Cue] = MappingProxyType(
         )
     }
 )
-"""The cues that need only the picture and its depth."""
+"""The cues that need only the picture and its depth.
+
+>>> from kille.perception.cues import CUES
+>>> "colour" in CUES, "embedding" in CUES
+(True, False)
+"""
 
 EMBEDDING = Cue("embedding", embedding.LENGTH, embedding.embedding)
-"""What a pretrained network makes of a thing; it needs the extra `kille[embedding]`."""
+"""What a pretrained network makes of a thing; it needs the extra `kille[embedding]`.
+
+>>> from kille.perception.cues import EMBEDDING
+>>> EMBEDDING.name
+'embedding'
+"""
 
 
 def with_embedding() -> Mapping[str, Cue]:
-    """The default cues and the embedding; MissingExtraError without its packages."""
+    """The default cues and the embedding; MissingExtraError without its packages.
+
+    >>> try:
+    ...     cues = with_embedding()
+    ... except MissingExtraError:
+    ...     cues = CUES
+    >>> set(CUES) <= set(cues)
+    True
+    """
     embedding.network()
     return MappingProxyType({**CUES, EMBEDDING.name: EMBEDDING})
 
@@ -88,7 +110,15 @@ def with_embedding() -> Mapping[str, Cue]:
 def measure_cues(
     frame: Frame, region: Region, cues: Mapping[str, Cue] = CUES
 ) -> Traits:
-    """Measure the cues of the region: a vector for each cue that applies."""
+    """Measure the cues of the region: a vector for each cue that applies.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> from kille.perception.segment import segment
+    >>> traits = measure_cues(frame, segment(frame).regions[0])
+    >>> "colour" in traits
+    True
+    """
     patch = Patch(frame, region)
     found = {name: cue.measure(patch) for name, cue in cues.items()}
     return {name: vector for name, vector in found.items() if vector is not None}

@@ -34,7 +34,13 @@ _CHECKSUM = "579344248a93e23026e6b78f1f6faf0bc1d282386f6c881cdbaacd49cabf77db"
 
 class MissingExtraError(Exception):
     """The packages of a requested cue are not installed, or are not those that it
-    needs; one line says what to install."""
+    needs; one line says what to install.
+
+    >>> raise MissingExtraError("pip install 'kille[embedding]'")
+    Traceback (most recent call last):
+        ...
+    kille.perception.cues.embedding.MissingExtraError: pip install 'kille[embedding]'
+    """
 
 
 class Network:

@@ -44,7 +44,15 @@ class Window:
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """A region of a frame, with crops that are made when first asked for."""
+    """A region of a frame, with crops that are made when first asked for.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> from kille.perception.segment import segment
+    >>> patch = Patch(frame, segment(frame).regions[0])
+    >>> patch.rgb.dtype.name
+    'uint8'
+    """
 
     frame: Frame
     region: Region

@@ -23,7 +23,15 @@ _LONG = 1.0  # seconds
 
 
 class Builder(Protocol):
-    """Arranges that parts are built."""
+    """Arranges that parts are built.
+
+    >>> import numpy as np
+    >>> from kille.perception.index import AtOnce, Index, View
+    >>> view = View(1, "cup", np.eye(2, 128, dtype=np.uint8))
+    >>> builder: Builder = AtOnce()
+    >>> Index([view], builder=builder).labels
+    ('cup',)
+    """
 
     def begin(self, parts: Sequence[Part]) -> None:
         """Note that these parts will be needed."""
@@ -41,7 +49,16 @@ class Builder(Protocol):
 
 class AtOnce:
     """Builds parts in the caller's thread as soon as they are needed, and not
-    before."""
+    before.
+
+    >>> import numpy as np
+    >>> from kille.perception.index import View, rooted
+    >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
+    >>> view = View(1, "cup", shades.astype(np.uint8))
+    >>> from kille.perception.index import Index
+    >>> Index([view], builder=AtOnce()).settled().labels
+    ('cup',)
+    """
 
     def begin(self, parts: Sequence[Part]) -> None:
         """Do nothing: parts are built when they are needed."""
@@ -63,6 +80,14 @@ class Background:
     `patience` descriptors answers do not depend on the speed of the machine.
     Threads live while there is something to build, and no part is begun when the
     program is about to end or when nobody holds the part any more.
+
+    >>> import numpy as np
+    >>> from kille.perception.index import View, rooted
+    >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
+    >>> view = View(1, "cup", shades.astype(np.uint8))
+    >>> from kille.perception.index import Index
+    >>> Index([view], builder=Background()).settled().labels
+    ('cup',)
     """
 
     def __init__(self, patience: int = _PATIENCE) -> None:

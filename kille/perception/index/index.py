@@ -31,6 +31,14 @@ class Index:
     at once, and what is forgotten never again: which parts answer makes no difference
     but that trees find only nearly all of the nearest. When all parts are built, they
     are those of an index that was given the present views, however it came to them.
+
+    >>> import numpy as np
+    >>> from kille.perception.index import View, rooted
+    >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
+    >>> view = View(1, "cup", shades.astype(np.uint8))
+    >>> index = Index([view])
+    >>> index.labels
+    ('cup',)
     """
 
     def __init__(

@@ -27,7 +27,12 @@ NEIGHBOURS = 10
 """How many of the nearest descriptors each part gives."""
 
 NOBODY = -1
-"""The column of a view that was forgotten."""
+"""The column of a view that was forgotten.
+
+>>> from kille.perception.index import NOBODY
+>>> NOBODY
+-1
+"""
 
 _AT_ONCE = 256  # descriptors that are compared with all others: what a cache can hold
 _FEW = 20_000  # descriptors of a part that are kept as RootSIFT too: 10 MB
@@ -39,6 +44,15 @@ class Neighbours(NamedTuple):
 
     Both (n, k); the number of a word is its column in `Index.labels`, or -1 with an
     infinite distance where fewer were found.
+
+    >>> import numpy as np
+    >>> from kille.perception.index import View, rooted
+    >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
+    >>> view = View(1, "cup", shades.astype(np.uint8))
+    >>> from kille.perception.index import Index
+    >>> words, distances = Index([view]).neighbours(rooted(view.descriptors))
+    >>> words.shape == distances.shape
+    True
     """
 
     words: NDArray[np.intp]

@@ -19,7 +19,12 @@ from kille.perception.index.views import LENGTH, Rows
 from kille.scene import Features
 
 AGAIN = 0.25
-"""RootSIFT distance; what is nearer was seen in an earlier scan."""
+"""RootSIFT distance; what is nearer was seen in an earlier scan.
+
+>>> from kille.perception.index import AGAIN
+>>> AGAIN
+0.25
+"""
 
 _NEAR = 8.0  # pixels: what is higher or lower by more is not compared in any case
 _AT_ONCE = 256  # features that are compared with those as high up as any of them
@@ -32,6 +37,9 @@ class Repeats(NamedTuple):
 
     `firsts` (m,) are the numbers of those not seen before, in the order of how often
     they are seen; `same` (n,) says for each feature which of these m it is.
+
+    >>> Repeats(firsts=np.array([1, 0]), same=np.array([1, 0, 1])).same.tolist()
+    [1, 0, 1]
     """
 
     firsts: Numbers

@@ -32,7 +32,12 @@ SEARCHES: Mapping[str, Callable[[], Maker]] = {
     "trees": lambda: Trees,
     "faiss": inverted_file,
 }
-"""`trees` is always available; `faiss` needs the extra kille[faiss]."""
+"""`trees` is always available; `faiss` needs the extra kille[faiss].
+
+>>> from kille.perception.index import SEARCHES
+>>> sorted(SEARCHES)
+['faiss', 'trees']
+"""
 
 
 def search_called(name: str) -> Maker:

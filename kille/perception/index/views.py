@@ -14,7 +14,23 @@ from kille.perception.learners import Key
 from kille.scene import Traits
 
 Rows = NDArray[np.float32]
+"""Descriptors (n, 128) of length 1, as `rooted` gives them.
+
+>>> import numpy as np
+>>> from kille.perception.index import Rows, rooted
+>>> rows: Rows = rooted(np.full((2, 128), 7, np.uint8))
+>>> rows.dtype.name
+'float32'
+"""
 Descriptors = NDArray[np.uint8]
+"""Descriptors (n, 128) as SIFT gives them.
+
+>>> import numpy as np
+>>> from kille.perception.index import Descriptors
+>>> none: Descriptors = np.empty((0, 128), np.uint8)
+>>> none.shape
+(0, 128)
+"""
 
 LENGTH = 128
 """Numbers of a descriptor, each a byte."""
@@ -27,6 +43,11 @@ class View:
     """One lesson about one thing: its key, the word, its descriptors (n, 128) uint8.
 
     The traits are those it had as a whole, as far as they were measured.
+
+    >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
+    >>> view = View(1, "cup", shades.astype(np.uint8))
+    >>> view.label, len(view.descriptors)
+    ('cup', 40)
     """
 
     key: Key
@@ -52,7 +73,12 @@ def rooted(descriptors: Descriptors) -> Rows:
 
 
 def distances(query: Rows, others: Rows) -> Rows:
-    """The distances (n, m) between descriptors of length 1."""
+    """The distances (n, m) between descriptors of length 1.
+
+    >>> rows = rooted(np.eye(2, 128, dtype=np.uint8))
+    >>> [round(float(it), 2) for it in distances(rows, rows)[0]]
+    [0.0, 1.41]
+    """
     products: Rows = query @ others.T
     return apart(products)
 

@@ -32,6 +32,15 @@ def configuration(
     Sizes are those of the visible points, and the hold is told from their boxes.
     `places` are the target's and the landmark's where they are known better than as
     the middles of their regions.
+
+    >>> from kille.sensors.synthetic import open_synthetic
+    >>> frame = open_synthetic("synthetic:desk?seed=7").frame()
+    >>> from kille.perception.segment import segment
+    >>> seen = segment(frame)
+    >>> one, other, *rest = seen.regions
+    >>> placed = configuration(frame, one, other, rest, seen.up)
+    >>> len(placed.offset), len(placed.others)
+    (3, 1)
     """
     here, there = places or (target.place, landmark.place)
     axes = table_axes(up)

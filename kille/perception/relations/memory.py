@@ -131,6 +131,16 @@ class RelationMemory(NotebookValue):
     """A learner of spatial words from configurations.
 
     A notebook shows the templates of its words, seen from above.
+
+    >>> from kille.scene import Configuration
+    >>> left, right = Configuration((-0.3, 0, 0)), Configuration((0.3, 0, 0))
+    >>> memory = RelationMemory()
+    >>> for _ in range(3):
+    ...     memory.learn_one(left, "left")
+    ...     memory.learn_one(right, "right")
+    >>> degrees = memory.predict_proba_one(Configuration((0.4, 0.1, 0)))
+    >>> max(degrees, key=degrees.get)
+    'right'
     """
 
     def __init__(self) -> None:

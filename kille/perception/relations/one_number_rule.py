@@ -32,6 +32,16 @@ class AngleRule:
     """A learner of spatial words as borders on one number each; see the module.
 
     `about` names the number of the words for which it is known.
+
+    >>> from kille.scene import Configuration
+    >>> left, right = Configuration((-0.3, 0, 0)), Configuration((0.3, 0, 0))
+    >>> memory = AngleRule()
+    >>> for _ in range(3):
+    ...     memory.learn_one(left, "left")
+    ...     memory.learn_one(right, "right")
+    >>> degrees = memory.predict_proba_one(Configuration((0.4, 0.1, 0)))
+    >>> max(degrees, key=degrees.get)
+    'right'
     """
 
     def __init__(self, about: Mapping[str, str] = MappingProxyType({})) -> None:

@@ -28,7 +28,18 @@ _SHARPNESS = 2.0
 
 
 class PaperRelations:
-    """A learner of spatial words by planes in space; see the module."""
+    """A learner of spatial words by planes in space; see the module.
+
+    >>> from kille.scene import Configuration
+    >>> left, right = Configuration((-0.3, 0, 0)), Configuration((0.3, 0, 0))
+    >>> memory = PaperRelations()
+    >>> for _ in range(3):
+    ...     memory.learn_one(left, "left")
+    ...     memory.learn_one(right, "right")
+    >>> degrees = memory.predict_proba_one(Configuration((0.4, 0.1, 0)))
+    >>> max(degrees, key=degrees.get)
+    'right'
+    """
 
     def __init__(self) -> None:
         self._heard: dict[Key, tuple[Direction, str]] = {}

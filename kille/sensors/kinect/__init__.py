@@ -16,6 +16,13 @@ def open_kinect(name: str) -> KinectSensor:
 
     It is read by a process of its own, where the system allows that. SensorError if it
     cannot be had: one line says what to do.
+
+    >>> from kille.sensors.sensor import SensorError
+    >>> try:
+    ...     sensor = open_kinect("kinect:nowhere")
+    ... except SensorError as missing:
+    ...     print("there is no such Kinect")
+    there is no such Kinect
     """
     # USB, and what serves it, are only for those who ask for them.
     from kille.sensors.kinect.diagnosis import explain_error

@@ -49,6 +49,14 @@ def open_recording(name: str) -> Sensor:
     `FOLDER/SCENE` names one scene of a folder of scenes. SensorError if nothing is
     there, it cannot be read, is empty or of no known format, or its first frame fails.
     A warning in the log says, once, what of the recording is lost.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.sensors.recordings import open_recording
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "cup.ppm").write_bytes(b"P6 1 1 255 ...")
+    ...     open_recording(f"{folder}/cup.ppm").frame().colour.shape
+    (1, 1, 3)
     """
     try:
         path, options = split_options(name)

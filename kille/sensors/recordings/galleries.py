@@ -24,6 +24,20 @@ class Gallery:
     A name may have several pictures, as a category has: each `show` of it goes to its
     next picture, and after the last to its first. Before any `show` the very first
     picture is in view, which does not count as shown.
+
+    >>> import tempfile
+    >>> import cv2
+    >>> import numpy as np
+    >>> from pathlib import Path
+    >>> from kille.sensors.recordings import open_recording
+    >>> black = cv2.imencode(".png", np.zeros((8, 8, 3), np.uint8))[1].tobytes()
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     for name in ("cup", "book"):
+    ...         Path(folder, name).mkdir()
+    ...         _ = Path(folder, name, "1.png").write_bytes(black)
+    ...     gallery = open_recording(folder)
+    >>> isinstance(gallery, Gallery), sorted(gallery.things())
+    (True, ['book', 'cup'])
     """
 
     def __init__(self, name: str, shots: Mapping[str, Sequence[Shot]]) -> None:

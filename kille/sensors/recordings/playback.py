@@ -22,7 +22,21 @@ _KEPT_FRAMES = 16
 
 
 class RecordingOverError(SensorError):
-    """The last frame was given, and the recording does not begin again."""
+    """The last frame was given, and the recording does not begin again.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.sensors.recordings import open_recording
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "cup.ppm").write_bytes(b"P6 1 1 255 ...")
+    ...     recording = open_recording(f"{folder}/cup.ppm?loop=no")
+    ...     _ = recording.frame()
+    ...     recording.frame()
+    Traceback (most recent call last):
+        ...
+    kille.sensors.recordings.playback.RecordingOverError: .../cup.ppm?loop=no: the
+    recording is over after its 1 frames; without loop=no it begins again
+    """
 
 
 @dataclass(frozen=True)
@@ -102,6 +116,15 @@ class Recording:
     After the last comes the first, or `RecordingOverError`, as the options say. Frames
     are those that were recorded, to the last bit of what their format keeps; their time
     is on the recording's own clock, and goes on when it begins again.
+
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from kille.sensors.recordings import open_recording
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "cup.ppm").write_bytes(b"P6 1 1 255 ...")
+    ...     recording = open_recording(f"{folder}/cup.ppm?loop=no")
+    >>> recording.length
+    0.0
     """
 
     def __init__(

@@ -30,6 +30,10 @@ def open_synthetic(name: str) -> Synthetic:
     """The simulated Kinect that a name such as `synthetic:desk?seed=7` asks for.
 
     Raises SensorError for a name that is not understood.
+
+    >>> desk = open_synthetic("synthetic:desk?seed=7")
+    >>> desk.name, len(desk.things())
+    ('synthetic:desk?seed=7', 10)
     """
     return Synthetic(parse_address(name), name)
 
@@ -39,6 +43,10 @@ class Synthetic:
 
     All chance comes from the address's seed: the n-th frame of a seed and a sequence of
     changes is always the same. The frames of an unchanged scene differ by noise alone.
+
+    >>> desk = open_synthetic("synthetic:desk?seed=7")
+    >>> desk.frame().colour.shape
+    (480, 640, 3)
     """
 
     def __init__(self, address: SceneAddress, name: str = "synthetic") -> None:

@@ -39,6 +39,13 @@ class PhraseBook:
     `phrases` maps words to moves. `wordings` maps moves, their contents and their
     predicates to texts; it is tried in this order. `answers` maps questions to texts
     for positive answers to them, with what is asked for in braces.
+
+    >>> from ttr import Model, Theory
+    >>> from ttr.semantics.gameboards.ibis.moves import USR, greet
+    >>> texts = {"phrases": {"hello": "greet(usr)"}, "wordings": {}, "answers": {}}
+    >>> book = PhraseBook.of(Theory.of(greet(USR)), with_terms(Model()), **texts)
+    >>> print(book.hear("Hello!"))
+    {moves = [greet(usr)], spkr = usr}
     """
 
     theory: Theory
