@@ -15,11 +15,13 @@ from tools.playground.serving import server_of
 from tools.website.composing import compose
 from tools.website.html_check import compact, lost_links
 from tools.website.playground_links import HAS_PLAYGROUND
-from tools.website.public_names import ROOT
+from tools.website.public_names import ROOT, names_without_example
 from tools.website.source_pages import write_source_pages
 
 SITE = ROOT / "site"
 WORK = ROOT / "build" / "website"
+MOST_BYTES = 30_000_000
+"""The site may be so large, apart from what runs theories in the browser."""
 
 
 def build(site: Path = SITE, work: Path = WORK) -> int:
@@ -27,6 +29,8 @@ def build(site: Path = SITE, work: Path = WORK) -> int:
 
     Where Pyodide cannot be had, it is built without the playground, and says so.
     """
+    for name in (bare := names_without_example()):
+        print(f"{name} has no example in its docstring", file=sys.stderr)
     has_playground = add_playground(site)
     files = compose(work / "pages", has_playground)
     status = sphinx(
@@ -54,7 +58,16 @@ def build(site: Path = SITE, work: Path = WORK) -> int:
     lost = lost_links(site)
     for name, links in lost.items():
         print(f"{name}: nothing is at {', '.join(links)}", file=sys.stderr)
-    return 1 if lost else 0
+    if (size := size_of(site)) > MOST_BYTES:
+        print(f"the site has {size:,} bytes, of {MOST_BYTES:,}", file=sys.stderr)
+    return 1 if bare or lost or size > MOST_BYTES else 0
+
+
+def size_of(site: Path) -> int:
+    """The bytes of a site, apart from what runs theories in the browser."""
+    files = [it for it in site.rglob("*") if it.is_file()]
+    apart = site / "playground"
+    return sum(it.stat().st_size for it in files if not it.is_relative_to(apart))
 
 
 def add_playground(site: Path) -> bool:

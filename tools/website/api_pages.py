@@ -238,18 +238,15 @@ def _table(signature: Signature, doc: str, source: Source) -> str:
     """Parameters, what is returned and what is raised, as a table."""
     said = sentences(doc)
     rows = [
-        _row(
-            it.name,
+        (
+            f"`{it.name}`",
             _type_as_html(it.type, signature.module),
-            it.default,
+            f"`{it.default}`" if it.default else "",
             _said_of(it.name.strip("*"), said),
         )
         for it in signature.parameters
     ]
-    parts = []
-    if rows:
-        head = "| parameter | type | default | what is said of it |"
-        parts.append("\n".join([head, "| --- | --- | --- | --- |", *rows]))
+    parts = [_rows_as_table(rows)] if rows else []
     if signature.returns and signature.returns != "None":
         typed = _type_as_html(signature.returns, signature.module)
         parts.append(f"**Returns** {typed}")
@@ -258,9 +255,20 @@ def _table(signature: Signature, doc: str, source: Source) -> str:
     return "\n\n".join(parts)
 
 
-def _row(name: str, typed: str, default: str, said: str) -> str:
-    cells = [f"`{name}`", typed, f"`{default}`" if default else "", said]
-    return f"| {' | '.join(it.replace('|', chr(92) + '|') for it in cells)} |"
+_HEADS = ("parameter", "type", "default", "what is said of it")
+
+
+def _rows_as_table(rows: list[tuple[str, str, str, str]]) -> str:
+    """The table, without the columns in which no row has anything."""
+    columns = [
+        (head, *cells)
+        for head, cells in zip(_HEADS, zip(*rows, strict=True), strict=True)
+        if any(cells)
+    ]
+    head, *lines = zip(*columns, strict=True)
+    escaped = [[it.replace("|", "\\|") for it in line] for line in lines]
+    marks = ["---"] * len(columns)
+    return "\n".join(f"| {' | '.join(line)} |" for line in (head, marks, *escaped))
 
 
 def _said_of(name: str, said: list[str]) -> str:

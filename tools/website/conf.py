@@ -62,21 +62,6 @@ html_domain_indices = False
 html_permalinks_icon = "#"
 pygments_style = "tango"
 pygments_dark_style = "github-dark"
-html_theme_options = {
-    "light_css_variables": {
-        "color-brand-primary": "#1f5f8b",
-        "color-brand-content": "#1f5f8b",
-        "color-brand-visited": "#5b4a8a",
-        "font-stack": "'Source Sans 3', 'Segoe UI', system-ui, sans-serif",
-        "font-stack--monospace": "'DejaVu Sans Mono', Menlo, Consolas, monospace",
-    },
-    "dark_css_variables": {
-        "color-brand-primary": "#7db8e0",
-        "color-brand-content": "#7db8e0",
-        "color-brand-visited": "#b3a3e0",
-    },
-}
-
 suppress_warnings = ["myst.strikethrough", "mystnb.unknown_mime_type"]
 
 
@@ -88,25 +73,40 @@ def setup(app: Sphinx) -> dict[str, bool]:
         except ClassNotFound:
             app.add_lexer(name, TextLexer)
     app.connect("doctree-read", leave_foreign_names)
-    app.connect("html-page-context", add_room)
+    app.connect("html-page-context", add_ways)
     app.add_config_value(HAS_PLAYGROUND, False, "html", bool)
     app.connect("doctree-resolved", add_playground_links)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
-def add_room(
+def add_ways(
     app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: object
 ) -> None:
-    """Tells the list at the side of a page of the reference which room it is of."""
-    if page.startswith("api/"):
+    """Says what stands at the side of pages that the list of contents does not have.
+
+    A list of all contents would be most of such a page.
+    """
+    section = page.partition("/")[0]
+    if section not in _INDICES or page == _INDICES[section][1]:
+        return
+    context["ways"] = [("Documentation", "contents"), _INDICES[section]]
+    if section == "api":
         name = page.removeprefix("api/").partition("-")[0]
         public = known_paths().get(name)
         room = public.room if public and name not in public_rooms() else name
         context["room"] = room
-        context["room_names"] = [
+        context["names"] = [
             (it.name, page_of(it))
             for it in (public_rooms()[room].names if room in public_rooms() else ())
         ]
+
+
+_INDICES = {
+    "api": ("Python, name by name", "api/index"),
+    "decisions": ("All decisions", "decisions/README"),
+    "games": ("All games", "games/index"),
+}
+"""The pages that list those of a section."""
 
 
 def leave_foreign_names(app: Sphinx, doctree: nodes.document) -> None:

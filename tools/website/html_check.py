@@ -13,7 +13,7 @@ from tools.playground.links import LINK_START
 
 _TAG = re.compile(r"<[a-zA-Z][^<>]*>")
 _LED_TO = re.compile(r"""\s(?:href|src)=(?:"([^"]*)"|'([^']*)')""")
-_NAMED = re.compile(r"""\s(?:id|name)=(?:"([^"]*)"|'([^']*)')""")
+_NAMED = re.compile(r"""\s(?:id|name)=(?:"([^"]*)"|'([^']*)'|([^\s"'<>]+))""")
 _CODE = re.compile(r"<(script|style|svg)\b.*?</\1>", flags=re.S)
 
 
@@ -53,28 +53,33 @@ def _parts(page: Path) -> tuple[frozenset[str], frozenset[str]]:
     text = page.read_text("utf-8")
     tags = " ".join(_TAG.findall(_CODE.sub("", text)))
     links = frozenset(unescape(a or b) for a, b in _LED_TO.findall(tags))
-    names = frozenset(unescape(a or b) for a, b in _NAMED.findall(tags))
+    names = frozenset(unescape(a or b or c) for a, b, c in _NAMED.findall(tags))
     return links - {"", "data:,"}, names | {"", "top"}
 
 
 def compact(text: str) -> str:
-    """The page without what nobody sees: icons it does not use, and indentation.
+    """The page without what nobody sees: marks that no style is for, and indentation.
 
     >>> compact("<ul>\\n    <li>one</li></ul><pre>  as it is</pre>")
     '<ul>\\n<li>one</li></ul><pre>  as it is</pre>'
+    >>> compact('<code class="docutils literal"><span class="pre">S</span></code>')
+    '<code class="literal">S</code>'
     """
-    text = _UNUSED.sub("", text)
-    text = text.replace("#svg-sun-with-moon", "#svg-sun")
-    text = text.replace("#svg-moon-with-sun", "#svg-moon")
-    text = text.replace(' xmlns="http://www.w3.org/2000/svg"', "")
+    text = _COMMENT.sub("", text)
+    text = _UNUSED_ICON.sub(r"#svg-\1", text)
+    for unstyled in _UNSTYLED:
+        text = unstyled.sub(r"\1", text)
+    text = text.replace('class="docutils literal', 'class="literal')
+    text = text.replace('class="reference internal"', 'class="reference"')
     parts = re.split(r"(<pre\b.*?</pre>)", text, flags=re.S)
     return "".join(
         it if i % 2 else re.sub(r"\s*\n\s*", "\n", it) for i, it in enumerate(parts)
     )
 
 
-_UNUSED = re.compile(
-    r'<symbol id="svg-(?:pencil|eye|sun-with-moon|moon-with-sun)".*?</symbol>'
-    r"|<!--.*?-->|<title>[A-Z][a-z ]*</title>(?=\s*<svg)",
-    flags=re.S,
+_COMMENT = re.compile(r"<!--.*?-->", flags=re.S)
+_UNUSED_ICON = re.compile(r"#svg-(sun|moon)-with-(?:moon|sun)")
+_UNSTYLED = (
+    re.compile(r'<span class="(?:pre|w)">([^<]*)</span>'),
+    re.compile(r'<span class="std std-\w+">((?:[^<]|<code[^>]*>[^<]*</code>)*)</span>'),
 )

@@ -18,6 +18,7 @@ from types import ModuleType
 
 import kille
 import ttr
+from tools.website.docstrings import has_example
 from ttr.aliases import Alias
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -142,6 +143,16 @@ def public_names() -> Mapping[str, PublicName]:
     """The public names, by the dotted name that they are at home at."""
     every = (it for room in public_rooms().values() for it in room.names)
     return {it.path: it for it in every}
+
+
+def names_without_example() -> list[str]:
+    """The public names that neither their own docstring nor a member's shows in use."""
+    return [
+        path
+        for path, it in public_names().items()
+        if it.kind != "module"
+        and not any(map(has_example, [it.doc, *(m.source.doc for m in it.members)]))
+    ]
 
 
 @cache

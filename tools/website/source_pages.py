@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterable, Iterator
 from html import escape
 from pathlib import Path
@@ -36,6 +37,9 @@ _PAGE = """\
 </body>
 </html>
 """
+
+_MARK = re.compile(r'<span class="(\w+)">([^<]*)</span>')
+"""A word in a colour; the shorter marks are a fifth of the text of all files."""
 
 _UNREAD = {".png", ".jpg", ".npz", ".gz", ".pack", ".db", ".pyc"}
 _LONGEST = 400_000
@@ -75,7 +79,8 @@ def file_page(file: Path, has_playground: bool = False) -> str:
     lexer = _lexer(file.name)
     lexer.add_filter(_Plain())
     names = {line: name for name, line in _definitions(file, text)}
-    lines = highlight(text, lexer, HtmlFormatter(nowrap=True)).splitlines()
+    marked = highlight(text, lexer, HtmlFormatter(nowrap=True))
+    lines = _MARK.sub(r"<i class=\1>\2</i>", marked).splitlines()
     body = "\n".join(_line(i, it, names.get(i)) for i, it in enumerate(lines, 1))
     runs = has_playground and file.suffix == ".ttr" and not needs_files(text)
     depth = len(file.parts)
@@ -90,7 +95,7 @@ def file_page(file: Path, has_playground: bool = False) -> str:
 def _line(number: int, text: str, name: str | None) -> str:
     """A line that can be linked to by its number, and by what it defines."""
     named = f'<a id="{name}"></a>' if name else ""
-    return f'{named}<span id="L{number}">{text}</span>'
+    return f"{named}<b id=L{number}>{text}</b>"
 
 
 class _Plain(Filter):  # type: ignore[misc]
