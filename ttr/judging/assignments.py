@@ -92,8 +92,9 @@ class Assignment:
         perceptual = head(T) in self.functions
         if told is None and perceptual and isinstance(T, Basic):
             seen = self.perceive(sit, T) or UNKNOWN
-            within = self._clip(sit, T, seen, *self._bounds(facts, sit, T))
-            return within, f"by the witness function of {T.name}"
+            if T in self.theory.axiom_heads:
+                seen = self._clip(sit, T, seen, *self._bounds(facts, sit, T))
+            return seen, f"by the witness function of {T.name}"
         (least, lower), (most, upper) = self._bounds(facts, sit, T)
         if told is not None:
             rule = f"seen as {head(T).name}" if perceptual else "given"

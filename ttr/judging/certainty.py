@@ -19,6 +19,7 @@ from ttr.judging.judgements import How
 from ttr.judging.rule_index import RuleIndex, demands_of
 from ttr.judging.stated_dependence import Atom
 from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.safety.budgets import spend
 from ttr.types.interning import identity
 from ttr.types.objects import EventString, Object, Record, UnresolvedError, is_immutable
 from ttr.types.paths import subterms
@@ -33,6 +34,7 @@ from ttr.types.syntax import (
     Plus,
     PType,
     RecordType,
+    SetOf,
     Singleton,
     Str,
     TypeNode,
@@ -130,9 +132,7 @@ class _Certainty(Evaluator[bool]):
         return derivation(self.facts, sit, T, around).p == CERTAIN
 
     # --- shortcuts ---
-
-    def fields_to_judge(self, T: RecordType) -> Sequence[tuple[str, TypeNode]]:
-        return _most_telling_first(T)
+    # What most types are made of is judged at once, without a generator of grounds.
 
     def _judge_record(
         self, sit: Object, T: RecordType, around: Around, where: str
@@ -141,10 +141,38 @@ class _Certainty(Evaluator[bool]):
             return False
         if sit._noted is not None and _is_remembered(self.facts, sit, T):
             return True
-        found = Evaluator._judge_record(self, sit, T, around, where)
-        if found:
-            remember_certain(self.facts, sit, T)
-        return found
+        spend(1 + len(T.fields))
+        found, clauses = sit._fields, self._clauses
+        inside = (found, *around)
+        for label, field in _most_telling_first(T):
+            if label not in found:
+                return False
+            if not clauses[type(field)](self, found[label], field, inside, label):
+                return False
+        remember_certain(self.facts, sit, T)
+        return True
+
+    def _judge_singleton(
+        self, sit: Object, T: Singleton, around: Around, where: str
+    ) -> bool:
+        spend()
+        return self.has_value(sit, T, around) and self.of(sit, T.base, around)
+
+    def _judge_each(
+        self,
+        sit: Object,
+        T: ListOf | NonEmpty | SetOf,
+        inside: Sequence[Object],
+        around: Around,
+        where: str,
+    ) -> bool:
+        spend(1 + len(inside))
+        item = T.item
+        clause = self._clauses[type(item)]
+        for element in inside:
+            if not clause(self, element, item, around, ""):
+                return False
+        return True
 
     def _judge_ptype(self, sit: Object, T: PType, around: Around, where: str) -> bool:
         if not self.facts.can_be(sit, T.pred):

@@ -162,10 +162,6 @@ class Evaluator(ABC, Generic[Answer]):
     def judge_function(self, sit: Function, T: FunType, where: str) -> Answer:
         """The answer for a function; no path leads out of T."""
 
-    def fields_to_judge(self, T: RecordType) -> Iterable[tuple[str, TypeNode]]:
-        """The fields of a record type in the order in which they are judged."""
-        return T.fields
-
     # --- the clauses ---
 
     def _judge_basic(self, sit: Object, T: Basic, around: Around, where: str) -> Answer:
@@ -312,7 +308,7 @@ class Evaluator(ABC, Generic[Answer]):
         self, found: Mapping[str, Object], T: RecordType, around: Around
     ) -> Iterator[Answer]:
         inside = (found, *around)
-        for label, field in self.fields_to_judge(T):
+        for label, field in T.fields:
             if label in found:
                 yield self.of(found[label], field, inside, label)
             else:

@@ -12,7 +12,7 @@ from ttr.types.objects import (
     Record,
     UnresolvedError,
 )
-from ttr.types.paths import map_parts, replace_paths
+from ttr.types.paths import free_paths, map_parts, replace_paths
 from ttr.types.syntax import Function, TypeNode
 
 Around = tuple[Mapping[str, Object], ...]
@@ -44,6 +44,9 @@ def resolve_paths(value: Object, around: Around) -> Object:
     >>> print(resolve_paths(Pred("dog", Ind)(this.x), ({"x": "fido"},)))
     dog(fido)
     """
+
+    if isinstance(value, TypeNode | Function) and not free_paths(value):
+        return value
 
     def at(path: Path) -> Object:
         name = ".".join(label for label in path.labels if label != BOUND)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
 from time import perf_counter
-from typing import NamedTuple, TypeAlias
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 from ttr.errors import EndlessError, UpdateError
 from ttr.judging.certainty import is_certain_given
@@ -300,18 +300,22 @@ def continue_run(
 # --- playing -------------------------------------------------------------------------
 
 
-class _ConditionCache:
-    """The conditions that hold, or do not hold, of one state in one model."""
+_Asked = TypeVar("_Asked")
+_Answer = TypeVar("_Answer")
+
+
+class _AnswerCache(Generic[_Asked, _Answer]):
+    """The answers to questions about one value, a state or an event, in one model."""
 
     def __init__(self) -> None:
-        self._about: tuple[Record, Model] | None = None
-        self._answers: dict[TypeNode, bool] = {}
+        self._about: tuple[object, Model] | None = None
+        self._answers: dict[_Asked, _Answer] = {}
 
-    def about(self, state: Record, model: Model) -> dict[TypeNode, bool]:
-        """The answers so far; none for another state or model."""
+    def about(self, value: object, model: Model) -> dict[_Asked, _Answer]:
+        """The answers so far; none for another value or model."""
         known = self._about
-        if known is None or known[0] is not state or known[1] is not model:
-            self._about = (state, model)
+        if known is None or known[0] is not value or known[1] is not model:
+            self._about = (value, model)
             self._answers = {}
         return self._answers
 
@@ -323,7 +327,12 @@ class _Player:
     type: RecordType
     event: Object | NBest
     watch: Watch | None = None
-    conditions: _ConditionCache = field(default_factory=_ConditionCache)
+    conditions: _AnswerCache[TypeNode, bool] = field(default_factory=_AnswerCache)
+    """Which conditions hold of the latest state."""
+    matches: _AnswerCache[tuple[TypeNode, Degree], MatchedEvent | None] = field(
+        default_factory=_AnswerCache
+    )
+    """As what the event is taken by the rules that wait for it."""
 
     def play(self, algorithm: Algorithm, so_far: Run) -> Run | None:
         match algorithm:
@@ -487,11 +496,16 @@ class _Player:
         return Run(after.state, after.model, (*trace, step))
 
     def _match_event(self, rule: Rule, model: Model) -> MatchedEvent | None:
+        """The event as the rule takes it. Several rules may wait for the same one."""
         if rule.on is None:
             return self._event_in_passing
         if self.event is None:
             return None
-        return match_event(self.event, rule.on, rule.p, model)
+        answers = self.matches.about(self.event, model)
+        asked = rule.on, rule.p
+        if asked not in answers:
+            answers[asked] = match_event(self.event, rule.on, rule.p, model)
+        return answers[asked]
 
     @cached_property
     def _event_in_passing(self) -> MatchedEvent:
