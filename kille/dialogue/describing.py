@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
 from kille.dialogue.reference import PhraseJudge, fits_well, front_of, meant_by, said_by
+from kille.dialogue.reference.resolving import phrase_judge
 from ttr import Model, Record, RecordType
 
 __all__ = ["Description", "describe"]
@@ -98,7 +99,7 @@ class _Describing:
     @cached_property
     def judge(self) -> PhraseJudge:
         """The judgements that are made for it, each once."""
-        return PhraseJudge(self.s, self.model, types=self.types)
+        return phrase_judge(self.s, self.model, types=self.types)
 
     def context_score(self, words: Signs) -> float:
         """How much more probably they are true of x than of any other thing.

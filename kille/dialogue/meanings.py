@@ -19,8 +19,20 @@ from functools import cache, lru_cache
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from kille.dialogue.theory_files import packaged_theory
-from ttr import Pred, Record, RecordType, Theory, join, meet, merge, record, rectype
+from ttr import (
+    Model,
+    Pred,
+    Record,
+    RecordType,
+    Theory,
+    join,
+    meet,
+    merge,
+    record,
+    rectype,
+)
 from ttr.aliases import former_names
+from ttr.judging.certainty import is_certain
 from ttr.types import Meet, Negation, PType, Singleton, TypeNode
 from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object
@@ -129,6 +141,15 @@ class DialogueTypes:
                 f"{found}"
             )
         return found
+
+    def has(self, sit: Object, name: str, model: Model) -> bool:
+        """Whether an object certainly is of the type of this name: a move, for example.
+
+        >>> from kille.dialogue.state import blank_model, initial
+        >>> packaged_types().has(initial(), "State", blank_model())
+        True
+        """
+        return is_certain(model.facts, sit, self.theory[name])
 
     def move_type(self, speaking: str, move: str) -> RecordType:
         """The type of a move of the theory, as something that is `Heard` or `Said`."""

@@ -62,10 +62,8 @@ def weigh_readings(
     What the probabilities lack to 1 is that of something else, which fits as well as
     `strange` says.
     """
-    texts = [list(them) for _, them in groupby(_by_text(heard), key=_text)]
-    other = max(0.0, 1.0 - sum(p for them in texts for _, p in them))
     known = frozenset(map(word_of, words(s)))
-    if len(texts) == 1 and other < _ROUNDING:
+    if is_of_one_text(heard):
 
         def weight(alternative: tuple[Record, float]) -> float:
             one, p = alternative
@@ -73,14 +71,24 @@ def weigh_readings(
             return p * _word_weight(known, one) * (UNTEACHABLE if fails else 1.0)
 
         def teaches(one: Record) -> bool:
-            return model.judge(one, types["Teaching"]).holds
+            return types.has(one, "Teaching", model)
 
-        return [WeighedMove(max(texts[0], key=weight)[0], 1.0)]
+        return [WeighedMove(max(_by_text(heard), key=weight)[0], 1.0)]
+    texts = [list(them) for _, them in groupby(_by_text(heard), key=_text)]
+    other = max(0.0, 1.0 - sum(p for them in texts for _, p in them))
     fits = [_best(s, model, known, them, types=types) for them in texts]
     strange = s.private.strategy.hearing.strange
     whole = sum(it.p for it in fits) + other * strange
     shares = [WeighedMove(it.said, it.p / whole if whole else 0.0) for it in fits]
     return sorted(shares, key=lambda it: -it.p)
+
+
+def is_of_one_text(heard: NBest) -> bool:
+    """Whether it is certain which words were said, in whatever way they are meant."""
+    (first, _), *_ = heard
+    return all(it.text == first.text for it, _ in heard) and (
+        1.0 - sum(p for _, p in heard) < _ROUNDING
+    )
 
 
 def _by_text(heard: NBest) -> Iterable[tuple[Record, float]]:
@@ -139,7 +147,7 @@ def _scene_weight(
     if not phrases(content):
         return 1.0
     ways = possible_readings(s, model, content, types=types)
-    teaches = model.judge(said, types["Teaching"]).holds
+    teaches = types.has(said, "Teaching", model)
     true = [
         way.p * (_truth(s, model, said, way.content) if teaches else 1.0)
         for way in ways

@@ -96,10 +96,12 @@ def did_not_understand(
 
 def _fill_wording(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) -> str:
     words = {word_of(sign): sign for sign in move.signs}
-    slots = dict(_slots(lexicon, move.content, words))
+    wanted = _slots_in_any(wordings[act])
+    slots = dict(_slots(lexicon, move.content, words, wanted))
     rival = move.rival if "rival" in move else Rec
-    if isinstance(rival, RecordType):
-        slots |= {_of_rival(slot): text for slot, text in _slots(lexicon, rival, words)}
+    if isinstance(rival, RecordType) and rival.fields:
+        of_rival = _slots(lexicon, rival, words, _slots_of_rival(wanted))
+        slots |= {_of_rival(slot): text for slot, text in of_rival}
     slots |= details(lexicon, move)
     wording = _choose_wording(wordings[act], slots)
     if lexicon.varied and wordings is lexicon.says:
@@ -132,21 +134,50 @@ def _slots_in(wording: str) -> frozenset[str]:
     return frozenset(slot for slot in found if slot and slot != "examples")
 
 
+@lru_cache(1024)
+def _slots_in_any(wordings: tuple[str, ...]) -> frozenset[str]:
+    """The slots in any of several wordings: no others need be filled."""
+    return frozenset().union(*map(_slots_in, wordings))
+
+
+_RIVALS = {"word": "rival", "a_word": "a_rival"}
+"""The slots of the rival that are not called after what they are filled with."""
+
+
 def _of_rival(slot: str) -> str:
     """The slot of the rival: {rival} for {word}, {a_rival}, {rival_relation} …"""
-    return {"word": "rival", "a_word": "a_rival"}.get(slot, f"rival_{slot}")
+    return _RIVALS.get(slot, f"rival_{slot}")
+
+
+@lru_cache(1024)
+def _slots_of_rival(wanted: frozenset[str]) -> frozenset[str]:
+    """The slots that the rival fills, as they are called where it is the content."""
+    plain = {
+        slot.removeprefix("rival_") for slot in wanted if slot.startswith("rival_")
+    }
+    return frozenset(
+        plain.union(it for it, rival in _RIVALS.items() if rival in wanted)
+    )
 
 
 def _capital(sentence: str) -> str:
     return sentence[:1].upper() + sentence[1:]
 
 
+_LISTS = frozenset(("things", "choices", "count", "maybe_count"))
+"""The slots for lists of what is in view."""
+
+
 def _slots(
-    lexicon: Lexicon, content: RecordType, words: Words
+    lexicon: Lexicon, content: RecordType, words: Words, wanted: frozenset[str]
 ) -> Iterator[tuple[str, str]]:
-    """The slots that a content fills, with what it fills them with."""
+    """The slots that a content fills, with what it fills them with.
+
+    What takes some work is done for the slots that are wanted only.
+    """
     yield from _claim_slots(lexicon, content, words)
-    yield from list_slots(lexicon, content, words)
+    if not wanted.isdisjoint(_LISTS):
+        yield from list_slots(lexicon, content, words)
     for label, field in content.fields:
         sign = next((it for it in words.values() if it.meaning is field), None)
         if sign is not None and label not in (*_PARTS, *lexicon.styles):
@@ -156,7 +187,7 @@ def _slots(
             if between is not None:
                 yield label, between
         elif isinstance(field, RecordType):
-            yield from _phrase_slots(lexicon, label, field, words)
+            yield from _phrase_slots(lexicon, label, field, words, wanted)
         elif isinstance(field, Singleton) and isinstance(
             field.value, str | float | int
         ):
@@ -215,15 +246,19 @@ def _gender(lexicon: Lexicon, content: RecordType, words: Words) -> str:
 
 
 def _phrase_slots(
-    lexicon: Lexicon, label: str, part: RecordType, words: Words
+    lexicon: Lexicon,
+    label: str,
+    part: RecordType,
+    words: Words,
+    wanted: frozenset[str],
 ) -> Iterator[tuple[str, str]]:
-    """The phrase for a part, with and without its articles."""
+    """The phrase for a part, with and without its articles, as far as it is wanted."""
     for slot, style in (
         (label, label if label in lexicon.styles else "bare"),
         (f"a_{label}", "indefinite"),
         (f"the_{label}", "definite"),
     ):
-        found = phrase(lexicon, part, words, style)
+        found = phrase(lexicon, part, words, style) if slot in wanted else None
         if found is not None:
             yield slot, found
 

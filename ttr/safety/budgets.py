@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import wraps
-from typing import ParamSpec, TypeVar, overload
+from typing import Any, ParamSpec, TypeVar, overload
 
 from ttr.errors import TooLargeError, TTRError, UnsupportedError
 
@@ -44,9 +44,11 @@ class BudgetSpentError(BaseException):
 class Purse:
     """What is left of a budget; without `__init__`, for every question makes one."""
 
-    __slots__ = ("left",)
+    __slots__ = ("kept", "left")
 
     left: int
+    kept: dict[object, Any]
+    """What was worked out for the question, by `cache_in_question`."""
 
 
 class SharedPurse(Purse):
@@ -222,6 +224,41 @@ def _within_budget(
         return otherwise(error, *args, **kwargs)
 
     return asked
+
+
+def cache_in_question(function: Callable[P, R]) -> Callable[P, R]:
+    """Keep the results of a pure function until the outermost question is answered.
+
+    Arguments are the same if they are the same objects. What is kept goes with the
+    question, so that nothing outlives it; where no question is asked nothing is kept.
+
+    >>> @cache_in_question
+    ... def double(a):
+    ...     return [*a, *a]
+    >>> @within_budget
+    ... def ask(a):
+    ...     return double(a) is double(a)
+    >>> ask([1]), double([1])
+    (True, [1, 1])
+    """
+
+    @wraps(function)
+    def look_up(*args: P.args, **named: P.kwargs) -> R:
+        purse = open_purse()
+        if purse is None:
+            return function(*args, **named)
+        try:
+            kept = purse.kept
+        except AttributeError:
+            kept = purse.kept = {}
+        key = (function, *map(id, args), *named, *map(id, named.values()))
+        found = kept.get(key)
+        if found is None:  # with the arguments, so that no other gets their addresses
+            found = kept[key] = function(*args, **named), args, named
+        result: R = found[0]
+        return result
+
+    return look_up
 
 
 def _nests_too_deep() -> UnsupportedError:

@@ -41,7 +41,7 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     x, y = (str(thing_at(content, it)) for it in ("target", "landmark"))
     if not {x, y} <= {*s.view.placed}:
         return plan(s, "NeedDepth", types=types)
-    asks_which = model.judge(s.shared.latest, types["AskMore"]).holds
+    asks_which = types.has(s.shared.latest, "AskMore", model)
     more, sure = word_of(sign), s.private.strategy.bands.sure
     called, signs = _with_names(s, model, content)
     if exceeds(s, model, more, x, y) >= sure:

@@ -62,7 +62,7 @@ def take_restated(s: Record, *, model: Model, types: DialogueTypes) -> Record | 
         return _plan_now(s, types=types)
     said = content_of(s)
     if LOWER in before.content:
-        again = model.judge(s.shared.latest, types["Classify"]).holds
+        again = types.has(s.shared.latest, "Classify", model)
     else:
         again = SUBJECT not in said or said[SUBJECT] == before.content[SUBJECT]
         said = rectype({**dict(said.fields), SUBJECT: before.content[SUBJECT]})
@@ -127,8 +127,7 @@ def _says_same(s: Record, model: Model, move: Record, *, types: DialogueTypes) -
     """Whether the latest move says again what a move has said."""
     said, content = s.shared.latest, content_of(s)
     alike = any(
-        model.judge(said, types[it]).holds and model.judge(move, types[it]).holds
-        for it in RESTATING
+        types.has(said, it, model) and types.has(move, it, model) for it in RESTATING
     )
     if SUBJECT in move.content and SUBJECT not in content:
         subject = move.content[SUBJECT]

@@ -19,7 +19,7 @@ def _states_after_correction(types: DialogueTypes) -> RecordType:
 def count_correction(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor has corrected the robot, which has failed at the nouns of its claim."""
     said = s.shared.latest
-    if s.shared.qud and model.judge(said, types["Deny"]).holds:
+    if s.shared.qud and types.has(said, "Deny", model):
         return None  # a no to its question
     failed = [
         sign

@@ -15,6 +15,7 @@ from kille.dialogue.reading_weights import (
     FAINTLY,
     SURE,
     WeighedMove,
+    is_of_one_text,
     weigh_readings,
 )
 from kille.dialogue.rules import rule
@@ -29,12 +30,10 @@ def ask_heard(
     s: Record, said: Record, *, nbest: object, model: Model, types: DialogueTypes
 ) -> Record | None:
     """Two things may have been said, or it hardly was the one: it asks which."""
-    if not isinstance(nbest, NBest):
+    if not isinstance(nbest, NBest) or is_of_one_text(nbest):
         return None
-    hearing, heard = (
-        s.private.strategy.hearing,
-        weigh_readings(s, model, nbest, types=types),
-    )
+    hearing = s.private.strategy.hearing
+    heard = weigh_readings(s, model, nbest, types=types)
     clear = _is_clear(s, heard) and not _is_new_word(s, model, heard[0], types=types)
     if clear or heard[0].p < hearing.floor:
         return None
@@ -65,9 +64,9 @@ def beg_pardon(
     s: Record, said: Record, *, nbest: object, model: Model, types: DialogueTypes
 ) -> Record | None:
     """Nothing that may have been said is likely enough: it asks to hear it again."""
-    if not isinstance(nbest, NBest) or _is_clear(
-        s, weigh_readings(s, model, nbest, types=types)
-    ):
+    if not isinstance(nbest, NBest) or is_of_one_text(nbest):
+        return None
+    if _is_clear(s, weigh_readings(s, model, nbest, types=types)):
         return None
     return plan(s, "Pardon", types=types)
 
@@ -85,7 +84,7 @@ def _is_new_word(
 ) -> bool:
     """Whether what was heard would teach a new word that was not heard that well."""
     said = heard.said
-    if heard.p >= SURE or not model.judge(said, types["Teaching"]).holds:
+    if heard.p >= SURE or not types.has(said, "Teaching", model):
         return False
     return any(
         claims(said.content, it) and not knows(words(s), it) for it in said.signs

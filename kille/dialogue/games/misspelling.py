@@ -58,7 +58,7 @@ def _intended_word(
     if knows(known, sign) or word_of(sign) in model.facts.functions:
         return None
     said = s.shared.latest
-    taught = claims(said.content, sign) and model.judge(said, types["Teaching"]).holds
+    taught = claims(said.content, sign) and types.has(said, "Teaching", model)
     near = is_slip if taught else slip
     found = [it for it in known if near(sign.form, it.form)]
     return found[0] if len(found) == 1 else None

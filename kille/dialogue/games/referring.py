@@ -44,6 +44,7 @@ from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from kille.dialogue.unknown_words import plan_unknown_word
 from ttr import Model, Record, RecordType, rectype, replace
+from ttr.safety.budgets import cache_in_question
 from ttr.updates import first
 
 OFFERED = 4
@@ -240,6 +241,7 @@ def differing_things(options: Sequence[Record]) -> tuple[str, Sequence[str]]:
     return "", ()
 
 
+@cache_in_question
 def _readings(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Reading]:
     """The ways to take the phrases of the latest move that are meant."""
     content = content_of(s)
@@ -290,7 +292,7 @@ def _is_shown(reading: Reading, label: str) -> bool:
 def _teaches(s: Record, model: Model, *, types: DialogueTypes) -> bool:
     """Whether the latest move is a lesson, or says what is not so."""
     latest = s.shared.latest
-    return any(model.judge(latest, types[it]).holds for it in ("Teaching", "Reject"))
+    return any(types.has(latest, it, model) for it in ("Teaching", "Reject"))
 
 
 def _demonstrative(
@@ -309,7 +311,7 @@ def _notice_asked(
     s: Record, word: str, things: Sequence[str], model: Model, *, types: DialogueTypes
 ) -> Record:
     """The state in which it is noticed if the tutor has asked what "this" (that) is."""
-    if not model.judge(s.shared.latest, types["AskName"]).holds:
+    if not types.has(s.shared.latest, "AskName", model):
         return s
     asked = dict.fromkeys(things, word)
     noticed = notice(s.shared.noticed, asked, s.private.cost.turns)

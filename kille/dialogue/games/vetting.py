@@ -201,7 +201,7 @@ def _as_naming(
         }
     )
     signs = tuple(noun if it == sign else it for it in said.signs)
-    corrects = model.judge(said, types["Correct"]).holds
+    corrects = types.has(said, "Correct", model)
     move = set_to(
         types.move_type("Heard", "Correct" if corrects else "Instruct"),
         text=types["Text"] @ said.text,

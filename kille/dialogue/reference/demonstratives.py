@@ -82,7 +82,7 @@ class _Demonstratives:
 
     def _is_latest(self, move: str) -> bool:
         """Whether the latest move is of this type."""
-        return self.model.judge(self.s.shared.latest, self.types[move]).holds
+        return self.types.has(self.s.shared.latest, move, self.model)
 
 
 def shown_things(s: Record) -> Sequence[str]:

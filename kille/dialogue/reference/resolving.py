@@ -29,6 +29,7 @@ from kille.dialogue.reference.salience import (
 )
 from kille.dialogue.taxonomy import is_kind_of
 from ttr import Model, Pred, Record, RecordType, rectype
+from ttr.safety.budgets import cache_in_question
 from ttr.types import Singleton
 from ttr.types.objects import Object
 
@@ -256,7 +257,7 @@ def possible_readings(
     """
     types = types or packaged_types()
     content = _take_from_claim(s, content, types=types)
-    judging = PhraseJudge(s, model, types=types)
+    judging = phrase_judge(s, model, types=types)
     open_ = phrases(content)
     taken = {thing_at(content, label) for label in PARTS if label not in open_}
     found: dict[str, Mapping[str, PhraseFit]] = {}
@@ -520,6 +521,12 @@ class PhraseJudge:
             seen = self._model.facts.perceive(None, pred(*args))
             known = self._degrees[claim] = 0.0 if seen is None else seen.lo
         return known
+
+
+@cache_in_question
+def phrase_judge(s: Record, model: Model, *, types: DialogueTypes) -> PhraseJudge:
+    """The judge of phrases in a state: one for all rules that ask in a turn."""
+    return PhraseJudge(s, model, types=types)
 
 
 NUMBER = "number"
