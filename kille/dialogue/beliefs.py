@@ -7,12 +7,14 @@ its judgements.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Set
+from functools import lru_cache
 
-from kille.dialogue.meanings import word_of
+from kille.dialogue.meanings import KINDS, word_of
 from kille.dialogue.reference.perspectives import front_of
 from kille.dialogue.taxonomy import is_kind_of, rank_names
-from ttr import Model, Record, record
+from ttr import Model, Pred, Record, record
+from ttr.safety.budgets import cache_in_question
 from ttr.types import PType
 
 Beliefs = Sequence[Record]
@@ -33,6 +35,7 @@ def about(model: Model, sit: Record, signs: Iterable[Record]) -> tuple[Beliefs, 
     return sorted(beliefs, key=lambda b: (-b.p, b.sign.form)), model
 
 
+@cache_in_question
 def beliefs_about(
     s: Record, model: Model, signs: Iterable[Record], x: str, *beside: str
 ) -> Beliefs:
@@ -135,3 +138,20 @@ def knows(words: Iterable[Record], sign: Record) -> bool:
     """Whether a word with the sign's predicate is among these."""
     own = word_of(sign)
     return any(word_of(known) is own for known in words)
+
+
+def knows_word(s: Record, sign: Record) -> bool:
+    """Whether the robot knows a word with the sign's predicate."""
+    return word_of(sign) in known_words(s)
+
+
+@cache_in_question
+def known_words(s: Record) -> Set[Pred]:
+    """The predicates of the words that the robot knows."""
+    private = s.private
+    return frozenset().union(*(_words_in(private[f"{kind}s"]) for kind in KINDS))
+
+
+@lru_cache(64)
+def _words_in(signs: tuple[Record, ...]) -> frozenset[Pred]:
+    return frozenset(map(word_of, signs))

@@ -13,7 +13,7 @@ from kille.dialogue.beliefs import Beliefs
 from kille.dialogue.meanings import (
     CLAIMS,
     DialogueTypes,
-    claims,
+    claimed_words,
     denial,
     is_denial,
     word_of,
@@ -174,9 +174,10 @@ def signs_for(s: Record, *contents: RecordType) -> Sequence[Record]:
     """The words that these contents claim, as the tutor has said them."""
     said = s.shared.latest.signs if "signs" in s.shared.latest else ()
     found: dict[Pred, Record] = {}
+    claimed = frozenset[Pred]().union(*map(claimed_words, contents))
     for sign in (*said, *words(s), *(it.sign for it in s.private.lessons)):
-        if any(claims(it, sign) for it in contents):
-            found.setdefault(word_of(sign), sign)
+        if (word := word_of(sign)) in claimed:
+            found.setdefault(word, sign)
     return tuple(found.values())
 
 

@@ -465,7 +465,12 @@ def mentions(T: TypeNode, sign: Record) -> bool:
     >>> mentions(content, noun("cup")), mentions(content, noun("mug"))
     (True, False)
     """
-    return word_of(sign) in set(_predicates(T))
+    return word_of(sign) in _all_predicates(T)
+
+
+@lru_cache(4096)
+def _all_predicates(T: TypeNode) -> frozenset[Pred]:
+    return frozenset(_predicates(T))
 
 
 CLAIMS = ("c", "a", "rel")
@@ -524,6 +529,12 @@ def claims(content: RecordType, sign: Record) -> bool:
     (True, False)
     """
     return any(word_of(sign) in set(_predicates(it)) for it in _claims(content))
+
+
+@lru_cache(4096)
+def claimed_words(content: RecordType) -> frozenset[Pred]:
+    """The predicates of the words that a content is the claim of."""
+    return frozenset(pred for it in _claims(content) for pred in _predicates(it))
 
 
 def _claims(content: RecordType) -> Iterator[TypeNode]:

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence, Set
 from itertools import groupby
 from typing import NamedTuple
 
-from kille.dialogue.beliefs import degree, knows
+from kille.dialogue.beliefs import degree, known_words, knows_word
 from kille.dialogue.meanings import (
     CLAIMS,
     DialogueTypes,
@@ -23,7 +23,6 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.reference import PARTS, phrases, possible_readings, thing_at
-from kille.dialogue.state import words
 from ttr import Model, Pred, Record, RecordType
 from ttr.types import PType
 from ttr.updates import NBest
@@ -62,7 +61,7 @@ def weigh_readings(
     What the probabilities lack to 1 is that of something else, which fits as well as
     `strange` says.
     """
-    known = frozenset(map(word_of, words(s)))
+    known = known_words(s)
     if is_of_one_text(heard):
 
         def weight(alternative: tuple[Record, float]) -> float:
@@ -157,7 +156,7 @@ def _scene_weight(
 
 def _truth(s: Record, model: Model, said: Record, content: RecordType) -> float:
     """How probable a lesson is; a word that is not known may be true of anything."""
-    if not all(knows(words(s), it) for it in said.signs if claims(content, it)):
+    if not all(knows_word(s, it) for it in said.signs if claims(content, it)):
         return 1.0
     claim = next((content[label] for label in CLAIMS if label in content), None)
     if not isinstance(claim, PType) or is_denial(content):

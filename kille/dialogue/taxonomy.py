@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 from kille.dialogue.meanings import DialogueTypes, word_of
 from ttr import Model, Record, RecordType, rectype
 from ttr.signature.axioms import supertypes
-from ttr.signature.signature import Axiom
+from ttr.signature.signature import Axiom, head
 from ttr.types import PType
 
 LOWER, UPPER = "subkind", "superkind"
@@ -33,6 +34,7 @@ def subsumption(lower: Record, upper: Record) -> RecordType:
     return rectype({LOWER: lower.meaning, UPPER: upper.meaning})
 
 
+@lru_cache(1024)
 def axiom_of(content: RecordType) -> Axiom:
     """The axiom of a content that says that one kind is a kind of another.
 
@@ -58,6 +60,13 @@ def is_kind_of(s: Record, lower: Record, upper: Record) -> bool:
     """Whether a noun is a kind of another one, by what was taught: itself, too."""
     own = word_of(upper)
     return word_of(lower) is own or any(T.pred is own for T in _above(s, lower))
+
+
+def has_kind(s: Record, noun: Record) -> bool:
+    """Whether a noun is said to be a kind of another one, or another one of it."""
+    word = word_of(noun)
+    axioms = (axiom_of(it.content) for it in s.private.kinds)
+    return any(word in (head(it.lower), head(it.upper)) for it in axioms)
 
 
 def are_related(s: Record, one: Record, other: Record) -> bool:
@@ -94,6 +103,8 @@ def without_related(s: Record, noun: Record, beliefs: Beliefs) -> Beliefs:
     """
     if not s.private.kinds:
         return beliefs
+    if not has_kind(s, noun):
+        return beliefs
     own = word_of(noun)
     return [
         it
@@ -103,7 +114,7 @@ def without_related(s: Record, noun: Record, beliefs: Beliefs) -> Beliefs:
 
 
 def _above(s: Record, noun: Record) -> Iterator[PType]:
-    axioms = tuple(axiom_of(it.content) for it in s.private.kinds)
+    axioms = tuple([axiom_of(it.content) for it in s.private.kinds])
     for _, upper in supertypes(_claim(noun.meaning), axioms):
         assert isinstance(upper, PType)
         yield upper

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from kille.dialogue.beliefs import knows
+from kille.dialogue.beliefs import knows_word
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import plan
-from kille.dialogue.state import words
 from ttr import Record
 from ttr.types import TypeNode
 
@@ -35,7 +34,7 @@ def plan_first_unknown(
 
     None if all are known.
     """
-    sign = next((it for it in signs if not knows(words(s), it)), None)
+    sign = next((it for it in signs if not knows_word(s, it)), None)
     if sign is None:
         return None
     return plan_unknown_word(s, sign, pending=pending, types=types)

@@ -330,6 +330,8 @@ class Assignment:
         return self.opened.set(head(T), True)
 
     def _check(self, sit: Object, T: Atom, p: Degree) -> None:
+        if head(T) not in self.functions and head(T) not in self.theory.axiom_heads:
+            return  # nothing is said of it but facts
         facts = self.known.get(identity(sit), _EMPTY)
         kinds = (T, *(upper for _, upper in supertypes(T, self.theory.axioms)))
         for kind in kinds:

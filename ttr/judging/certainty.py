@@ -132,7 +132,7 @@ class _Certainty(Evaluator[bool]):
         return derivation(self.facts, sit, T, around).p == CERTAIN
 
     # --- shortcuts ---
-    # What most types are made of is judged at once, without a generator of grounds.
+    # The forms that most types are made of are judged without passing grounds on.
 
     def _judge_record(
         self, sit: Object, T: RecordType, around: Around, where: str
@@ -167,12 +167,11 @@ class _Certainty(Evaluator[bool]):
         where: str,
     ) -> bool:
         spend(1 + len(inside))
+        if not inside:
+            return True
         item = T.item
         clause = self._clauses[type(item)]
-        for element in inside:
-            if not clause(self, element, item, around, ""):
-                return False
-        return True
+        return all(clause(self, element, item, around, "") for element in inside)
 
     def _judge_ptype(self, sit: Object, T: PType, around: Around, where: str) -> bool:
         if not self.facts.can_be(sit, T.pred):

@@ -368,6 +368,9 @@ class _WitnessMaker:
                 if not (empty and isinstance(field.base, ListOf)):
                     facts = _with_certainty(facts, value, field.base)
                 continue
+            if type(field) is ListOf and self._size == 0:
+                fields[label] = ()
+                continue
             try:
                 ground = resolve_paths(field, (fields,))
             except UnresolvedError as unresolved:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import lru_cache
 from itertools import chain, groupby
 from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
@@ -346,7 +347,7 @@ class Record(NotebookValue):
     def __init__(self, fields: Mapping[str, object]) -> None:
         spend(1 + len(fields))
         for label in fields:
-            check_label(label)
+            _check_label_once(label)
         object.__setattr__(self, "_fields", {k: freeze(v) for k, v in fields.items()})
         object.__setattr__(self, "_hash", None)
         object.__setattr__(self, "_is_immutable", None)
@@ -497,19 +498,22 @@ def is_immutable(value: Object) -> bool:
     >>> is_immutable(record(x=("a", 1))), is_immutable(record(x=bytearray()))
     (True, False)
     """
-    if type(value) is str:
+    kind = type(value)
+    if kind is str or kind is float:
         return True
     if isinstance(value, Record):
         if value._is_immutable is None:
             found = all(map(is_immutable, value._fields.values()))
             object.__setattr__(value, "_is_immutable", found)
         return value._is_immutable  # type: ignore[return-value]
+    if isinstance(value, Node):
+        return True
     if isinstance(value, tuple):
         return all(map(is_immutable, value))
     return isinstance(value, _LASTING)
 
 
-_LASTING = (Node, str, int, float, complex, bytes, NoneType)
+_LASTING = (str, int, float, complex, bytes, NoneType)
 """The kinds of objects that never change."""
 
 
@@ -542,3 +546,7 @@ def check_label(label: object) -> None:
     raise IllFormedError(
         f"a label is an identifier that does not start with _: {label!r}"
     )
+
+
+_check_label_once = lru_cache(4096)(check_label)
+"""The check of a label, which is not made again for each record that has it."""

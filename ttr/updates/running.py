@@ -542,10 +542,14 @@ class _Player:
         model: Model,
     ) -> object:
         args = (state,) if rule.on is None else (state, event.event)
-        asked = {}
-        if rule.takes:
-            extras = {"model": model, "p": event.p, "nbest": self.event, **bindings}
-            asked = {name: extras[name] for name in rule.takes}
+        asked: dict[str, object] = {}
+        for name in rule.takes:
+            if name in bindings:
+                asked[name] = bindings[name]
+            elif name == "model":
+                asked[name] = model
+            else:
+                asked[name] = event.p if name == "p" else self.event
         with blame("the rule", rule):
             return rule.effect(*args, **asked)
 

@@ -42,6 +42,15 @@ def is_still_of(before: Record, after: Record, T: RecordType, model: Model) -> b
     A field need not be judged again if it has the same object in both records, the
     object cannot have changed inside, and its type depends on no other field.
     """
+    if not _are_fields_still_of(before, after, T, model):
+        return False
+    remember_certain(model.facts, after, T)
+    return True
+
+
+def _are_fields_still_of(
+    before: Record, after: Record, T: RecordType, model: Model
+) -> bool:
     if _has_dependent_fields(T):
         return False
     was, found = before._fields, after._fields
@@ -52,7 +61,6 @@ def is_still_of(before: Record, after: Record, T: RecordType, model: Model) -> b
             continue
         if has is _NOTHING or not _is_part_still_of(had, has, field, model):
             return False
-    remember_certain(model.facts, after, T)
     return True
 
 
@@ -71,7 +79,7 @@ def _is_part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> 
         return _cannot_change(found, model) or is_certain(model.facts, found, T)
     if isinstance(T, RecordType):
         if isinstance(was, Record) and isinstance(found, Record):
-            return is_still_of(was, found, T, model)
+            return _are_fields_still_of(was, found, T, model)
     elif (
         isinstance(T, ListOf)
         and isinstance(found, tuple)

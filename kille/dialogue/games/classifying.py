@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from kille.dialogue.beliefs import knows
+from kille.dialogue.beliefs import knows, knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.games.contradicting import plan_earlier_question
 from kille.dialogue.games.vetting import KIND
@@ -25,7 +25,6 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import content_of, issue, nouns_said, plan
 from kille.dialogue.reference import phrase_at, thing_at
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
 from kille.dialogue.taxonomy import is_kind_of, nouns_in, subsumption
 from ttr import Record, RecordType, record, replace
 from ttr.updates import first
@@ -67,7 +66,7 @@ def refuse_same(s: Record, *, types: DialogueTypes) -> Record | None:
 def need_kind(s: Record, *, types: DialogueTypes) -> Record | None:
     """It knows neither of the two nouns: it asks to be shown one of them first."""
     lower, upper = _nouns(s)
-    if knows(words(s), lower) or knows(words(s), upper):
+    if knows_word(s, lower) or knows_word(s, upper):
         return None
     return _plan_answer(s, "NeedKind", lower, upper, types=types)
 
@@ -77,7 +76,7 @@ def ask_new_kind(s: Record, *, types: DialogueTypes) -> Record | None:
     """It does not know one of the nouns: it asks whether that is a kind of thing."""
     said = s.shared.latest
     for sign in _nouns(s):
-        if knows(words(s), sign) or (VETTED in said and said[VETTED] == sign.form):
+        if knows_word(s, sign) or (VETTED in said and said[VETTED] == sign.form):
             continue
         meant = record({**{label: said[label] for label in said}, VETTED: sign.form})
         asked = issue(KIND, [meant])

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.beliefs import knows
+from kille.dialogue.beliefs import knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.criteria import (
     COMPONENT,
@@ -44,7 +44,6 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import things_in
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
 from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Record, RecordType, rectype, replace
 from ttr.updates import first
@@ -219,7 +218,7 @@ def miss_part(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     said = s.shared.latest.signs
     noun = next((it for it in said if claims(content_of(s), it)), None)
-    if noun is None or knows(words(s), noun):
+    if noun is None or knows_word(s, noun):
         return None
     for it in s.private.criteria:
         if it.content.get(COMPONENT) == noun.meaning:

@@ -7,10 +7,12 @@ that speak for the word, and the lesson that the thing is most like.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import itemgetter
 
 from kille.dialogue.beliefs import (
     about,
     beliefs_about,
+    degree,
     has_rival,
     special_name,
     thinks,
@@ -26,12 +28,13 @@ from kille.dialogue.meanings import (
     set_to,
     value_at,
     values_at,
+    word_of,
 )
 from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from kille.dialogue.taxonomy import subsumption, without_related
+from kille.dialogue.taxonomy import are_related, subsumption
 from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Rec, Record, RecordType, record
 from ttr.updates import first
@@ -228,15 +231,33 @@ def _judge_claim(
     sign = next((it for it in words(s) if claims(claim, it)), None)
     if sign is None:
         return None, None, model
-    compared = [sign] if sign.kind == "adjective" else s.private[f"{sign.kind}s"]
-    beliefs, model = about(model, _situation(claim), compared)
+    sit = _situation(claim)
+    rival = None if sign.kind == "adjective" else _best_other(s, model, sit, sign)
+    [own], model = about(model, sit, [sign])
     if sign.kind == "adjective":
-        beliefs = as_told(s, beliefs)
-    own = next(it for it in beliefs if it.sign == sign)
-    others = [it for it in beliefs if it is not own]
-    if sign.kind == "noun":
-        others = [*without_related(s, sign, others)]
-    return own, next(iter(others), None), model
+        [own] = as_told(s, [own])
+    if rival is None:
+        return own, None, model
+    [other], model = about(model, sit, [rival])
+    return own, other, model
+
+
+def _best_other(s: Record, model: Model, sit: Record, sign: Record) -> Record | None:
+    """The likeliest other word of its kind for a situation, if there is one.
+
+    Of nouns it is one that may not be true as well, of another kind of thing.
+    """
+    args = (
+        (sit.target.x, sit.landmark.x, sit.look, sit.frame)
+        if sign.kind == "relation"
+        else (sit.x, sit.look)
+    )
+    others = [
+        (-degree(model, word_of(it)(*args)), it.form, it)
+        for it in s.private[f"{sign.kind}s"]
+        if it != sign and not (sign.kind == "noun" and are_related(s, it, sign))
+    ]
+    return min(others, key=itemgetter(0, 1))[2] if others else None
 
 
 def _situation(claim: RecordType) -> Record:

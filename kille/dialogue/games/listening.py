@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import count, islice
 
-from kille.dialogue.beliefs import knows
+from kille.dialogue.beliefs import knows, knows_word
 from kille.dialogue.commitments import claims_here, keep_claims
 from kille.dialogue.criteria import signs_in
 from kille.dialogue.games.attending import ATTENDING
@@ -27,7 +27,6 @@ from kille.dialogue.reading_weights import FAINTLY, weigh_readings
 from kille.dialogue.reference import roles_in, things_in
 from kille.dialogue.reference.salience import notice, notice_in_view
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
 from kille.dialogue.taxonomy import nouns_in, under_kinds
 from ttr import Model, Pred, Record, RecordType, replace
 from ttr.updates import NBest, first, maybe, seq
@@ -194,7 +193,7 @@ def _add_lesson(
         "private.lessons": (*s.private.lessons, lesson),
         "shared.commitments": agreed + news,
     }
-    if not is_denial(content) and not knows(words(s), sign):
+    if not is_denial(content) and not knows_word(s, sign):
         kind = f"private.{sign.kind}s"
         changes[kind] = (*s.private[f"{sign.kind}s"], sign)
     return replace(s, changes)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.beliefs import knows
+from kille.dialogue.beliefs import knows_word
 from kille.dialogue.meanings import DialogueTypes, claims, single_claims
 from kille.dialogue.moves import issue, plan
 from kille.dialogue.reading_weights import (
@@ -19,7 +19,6 @@ from kille.dialogue.reading_weights import (
     weigh_readings,
 )
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
 from kille.dialogue.word_lists import PARTIAL
 from ttr import Model, Record, replace
 from ttr.updates import NBest, first
@@ -86,9 +85,7 @@ def _is_new_word(
     said = heard.said
     if heard.p >= SURE or not types.has(said, "Teaching", model):
         return False
-    return any(
-        claims(said.content, it) and not knows(words(s), it) for it in said.signs
-    )
+    return any(claims(said.content, it) and not knows_word(s, it) for it in said.signs)
 
 
 def _is_clear(s: Record, heard: Sequence[WeighedMove]) -> bool:

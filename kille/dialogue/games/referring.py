@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 
-from kille.dialogue.beliefs import knows
+from kille.dialogue.beliefs import knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.describing import Description, describe
 from kille.dialogue.meanings import (
@@ -41,7 +41,6 @@ from kille.dialogue.reference.salience import (
     notice,
 )
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
 from kille.dialogue.unknown_words import plan_unknown_word
 from ttr import Model, Record, RecordType, rectype, replace
 from ttr.safety.budgets import cache_in_question
@@ -337,7 +336,7 @@ def _open_phrase(readings: Sequence[Reading]) -> str | None:
 
 def _judges(s: Record, model: Model, sign: Record) -> bool:
     """Whether the robot knows a word, or can judge it without having learned it."""
-    return knows(words(s), sign) or word_of(sign) in model.facts.functions
+    return knows_word(s, sign) or word_of(sign) in model.facts.functions
 
 
 def _unfitting_phrases(

@@ -8,7 +8,7 @@ The lists are those of `kille.dialogue.word_lists`; a known word is never doubte
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import knows
+from kille.dialogue.beliefs import knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.criteria import COMPONENT
 from kille.dialogue.games.doubling import BOTH
@@ -23,7 +23,6 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import in_view
 from kille.dialogue.rules import rule
-from kille.dialogue.state import words
 from kille.dialogue.word_lists import CUT_OFF, DOUBTFUL, NAME, PARTIAL, SAYING
 from ttr import Model, Record, RecType, rectype, replace
 from ttr.updates import first
@@ -184,7 +183,7 @@ def _doubted_sign(s: Record) -> Record | None:
         named = [it for it in said.signs if it.meaning == content[COMPONENT]]
     else:
         named = [it for it in said.signs if claims(content, it)]
-    new = [it for it in named if not knows(words(s), it)]
+    new = [it for it in named if not knows_word(s, it)]
     return new[0] if new else None
 
 

@@ -27,7 +27,7 @@ from kille.dialogue.reference.salience import (
     just_mentioned,
     needs_salience,
 )
-from kille.dialogue.taxonomy import is_kind_of
+from kille.dialogue.taxonomy import has_kind, is_kind_of
 from ttr import Model, Pred, Record, RecordType, rectype
 from ttr.safety.budgets import cache_in_question
 from ttr.types import Singleton
@@ -155,7 +155,8 @@ def taught_words(s: Record) -> Mapping[tuple[Pred, str], bool]:
     if not s.private.kinds:
         return told
     found = dict(told)
-    for lower, upper in product(s.private.nouns, repeat=2):
+    nouns = [it for it in s.private.nouns if has_kind(s, it)]
+    for lower, upper in product(nouns, repeat=2):
         if not is_kind_of(s, lower, upper):
             continue
         for (word, x), so in told.items():
