@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 from time import process_time
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import regex
@@ -69,12 +70,14 @@ class Expression:
 class GrammarSource(NamedTuple):
     """A grammar: its productions, the regular expressions of its terminals.
 
-    What fits one of those in `ignored` is skipped.
+    What fits one of those in `ignored` is skipped. `known_initials` are those that were
+    found before, when the grammar was read.
     """
 
     productions: Sequence[Production]
     terminals: Mapping[str, str]
     ignored: Sequence[str]
+    known_initials: Mapping[str, frozenset[str] | None] = MappingProxyType({})
 
     def expression(self, terminal: str) -> Expression:
         """The expression of a terminal; `GrammarError` where it is none."""
@@ -90,6 +93,8 @@ class GrammarSource(NamedTuple):
         None where that cannot be seen from its expression: then any sign has to be
         tried. So it is where there is a mistake in the expression.
         """
+        if terminal in self.known_initials:
+            return self.known_initials[terminal]
         try:
             return _initials(self.terminals[terminal])
         except (re.error, ValueError, OverflowError, RecursionError):

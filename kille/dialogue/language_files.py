@@ -6,10 +6,15 @@ taken from that folder as far as they are there, and the others from the package
 
 from __future__ import annotations
 
+import json
+import sys
+from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path, PurePath
+from typing import Any
 
-from ttr.safety.inputs import read_text
+from kille.dialogue.user_cache import recall
+from ttr.safety.inputs import parse_toml, read_text
 from ttr.safety.limits import SETTINGS
 
 FILES = ("tutor.{}.lark", "lexicon.{}.toml")
@@ -62,6 +67,20 @@ def source(file: str, language: str) -> str:
     if own.parent != Path() and own.is_file():
         return read_text(own, SETTINGS)
     return files("kille.grammars").joinpath(name).read_text(encoding="utf-8")
+
+
+def read_table(file: str, language: str) -> Mapping[str, Any]:
+    """The table in a TOML file of a language; `ValueError` for what is none.
+
+    Raises `OSError` if the file cannot be read.
+    """
+    text = source(file, language)
+    key = sys.version, text
+    return recall("tables", key, lambda: parse_toml(text), _encode, json.loads)
+
+
+def _encode(table: Mapping[str, Any]) -> bytes:
+    return json.dumps(table, separators=(",", ":")).encode("utf-8", "surrogatepass")
 
 
 def last_change(file: str, language: str) -> int:

@@ -13,9 +13,8 @@ from itertools import chain
 from typing import Any
 
 from kille.dialogue.inflection import Articles, Inflection
-from kille.dialogue.language_files import FILES, last_change, source
+from kille.dialogue.language_files import FILES, last_change, read_table
 from ttr import Record
-from ttr.safety.inputs import parse_toml
 
 VARIED = "varied"
 """The set of wordings in which the robot says the same in several ways."""
@@ -144,7 +143,7 @@ def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
 
 @lru_cache
 def _lexicon(language: str, wording: str, _: int) -> Lexicon:
-    data = parse_toml(source("lexicon.{}.toml", language))
+    data = read_table("lexicon.{}.toml", language)
     understands, phrases, articles = (
         data["understands"],
         data["phrases"],

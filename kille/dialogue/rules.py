@@ -9,18 +9,23 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
-from types import FunctionType
+from functools import cached_property, partial
 from typing import NoReturn, TypeAlias
 
 from kille.dialogue.meanings import DialogueTypes, any_of
 from kille.dialogue.moves import plan, unanswered_states
 from ttr import Rec, Record, RecordType
-from ttr.errors import UpdateError
+from ttr.errors import Span, UpdateError
 from ttr.probability import CERTAIN
 from ttr.updates import Algorithm, ByClass, Maybe, Repeat, Rule
-from ttr.updates import rule as rule_on
-from ttr.updates.rules import Effect
+from ttr.updates.rules import (
+    EXTRAS,
+    Effect,
+    degree_asked_for,
+    name_of_effect,
+    read_parameters,
+    span_of_function,
+)
 
 __all__ = ["NamedRule", "bind", "reply", "rule"]
 
@@ -46,6 +51,11 @@ class NamedRule(Rule):
     event: str
     takes_types: bool
 
+    @cached_property
+    def span(self) -> Span | None:
+        """Where the function of the rule stands."""
+        return span_of_function(self.of)
+
     def bind(self, types: DialogueTypes) -> Rule:
         """The rule on the types that a theory gives these names."""
         condition = self.condition
@@ -60,7 +70,6 @@ class NamedRule(Rule):
             takes=self.takes,
             names=self.names,
             doc=self.doc,
-            span=self.span,
         )
 
 
@@ -90,24 +99,24 @@ def rule(
     """
     moves = (answers,) if isinstance(answers, str) else answers
     condition: When = partial(_states_to_answer, moves=moves) if moves else when
+    certain = degree_asked_for(p)
 
     def make_rule(effect: Effect) -> NamedRule:
-        asked = inspect.signature(effect)
-        known = rule_on(when=Rec, on=Rec if on else None, p=p)(_without_types(effect))
+        name = name_of_effect(effect)
+        names, takes = read_parameters(name, effect, bool(on), (*EXTRAS, TYPES))
         return NamedRule(
-            known.name,
-            partial(_refuse, known.name),
+            name,
+            partial(_refuse, name),
             Rec,
-            on=known.on,
-            p=known.p,
-            takes=known.takes,
-            names=known.names,
-            doc=known.doc,
-            span=known.span,
+            on=Rec if on else None,
+            p=certain,
+            takes=takes - {TYPES},
+            names=names,
+            doc=inspect.getdoc(effect) or "",
             of=effect,
             condition=condition,
             event=on,
-            takes_types=TYPES in asked.parameters,
+            takes_types=TYPES in takes,
         )
 
     return make_rule
@@ -167,23 +176,6 @@ def _bind_if_named(types: DialogueTypes, rule: Rule) -> Rule:
 
 def _states_to_answer(types: DialogueTypes, moves: tuple[str, ...]) -> RecordType:
     return types.derive(unanswered_states, types.derive(any_of, moves))
-
-
-def _without_types(effect: Effect) -> Effect:
-    """The same function, without the parameter for the types in its signature."""
-    asked = inspect.signature(effect)
-    if TYPES not in asked.parameters or not isinstance(effect, FunctionType):
-        return effect
-    same = FunctionType(
-        effect.__code__,
-        effect.__globals__,
-        effect.__name__,
-        closure=effect.__closure__,
-    )
-    same.__doc__ = effect.__doc__
-    rest = [it for name, it in asked.parameters.items() if name != TYPES]
-    same.__signature__ = asked.replace(parameters=rest)  # type: ignore[attr-defined]
-    return same
 
 
 def _refuse(name: str, *_: object, **__: object) -> NoReturn:

@@ -16,10 +16,14 @@ from functools import lru_cache
 from pathlib import PurePath
 from typing import Any, NamedTuple
 
-from kille.dialogue.language_files import STRATEGIES, language_in, last_change, source
+from kille.dialogue.language_files import (
+    STRATEGIES,
+    language_in,
+    last_change,
+    read_table,
+)
 from ttr import Record, record
 from ttr.aliases import former_names
-from ttr.safety.inputs import parse_toml
 
 __getattr__ = former_names(__name__, {"expected": "expected_value"})
 
@@ -213,4 +217,4 @@ def _look_up(table: Mapping[str, Any], name: str) -> Mapping[str, Any]:
 
 def _data(folder: str = ".") -> Mapping[str, Any]:
     """What is in the file of strategies of a folder, or else of the package."""
-    return parse_toml(source(STRATEGIES, language_in(folder, "en")))
+    return read_table(STRATEGIES, language_in(folder, "en"))

@@ -8,6 +8,7 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
+from kille.dialogue.theory_cache import recall_theory
 from ttr import Theory, TTRError
 from ttr.errors import suggestion
 from ttr.safety.consent import check_called
@@ -22,7 +23,7 @@ _STATEMENT = r"\s*:=.*(\n[ \t\])]+.*)*"
 @cache
 def packaged_theory() -> Theory:
     """The theory of the packaged `tutor.ttr`."""
-    return theory_with({})
+    return recall_theory(_packaged_text(), SOURCE)
 
 
 def theory_with(types: Mapping[str, str]) -> Theory:
@@ -34,8 +35,11 @@ def theory_with(types: Mapping[str, str]) -> Theory:
     >>> print(theory_with({"Phrase": "[look : Look, x : Ind, y : Ind]"}).Phrase)
     [look : Look, x : Ind, y : Ind]
     """
-    text = files("kille.grammars").joinpath(SOURCE).read_text(encoding="utf-8")
-    return Theory.parse(redefine(text, types), SOURCE)
+    return Theory.parse(redefine(_packaged_text(), types), SOURCE)
+
+
+def _packaged_text() -> str:
+    return files("kille.grammars").joinpath(SOURCE).read_text(encoding="utf-8")
 
 
 def theory_of_file(file: Path | str, allow: Iterable[Path | str] = ()) -> Theory:

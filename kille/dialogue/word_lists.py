@@ -11,8 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import lru_cache
 
-from kille.dialogue.language_files import WORDS, last_change, source
-from ttr.safety.inputs import parse_toml
+from kille.dialogue.language_files import WORDS, last_change, read_table
 
 REMARK, DOUBTFUL, SAYING, PARTIAL = "remark", "doubtful", "saying", "partial"
 NAME, CUT_OFF = "name", "cut off"
@@ -230,7 +229,7 @@ def word_lists(language: str) -> WordLists:
 @lru_cache
 def _word_lists(language: str, _: int) -> WordLists:
     try:
-        data = parse_toml(source(WORDS, language))
+        data = read_table(WORDS, language)
     except FileNotFoundError:
         return WordLists()
     return WordLists(

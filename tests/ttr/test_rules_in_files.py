@@ -877,7 +877,7 @@ def test_an_update_is_the_rule_that_is_read_where_it_is_written() -> None:
     theory = board("Bound := [x : Ind]\ngo := \\s:State. [spkr = s.addr : Ind]")
     one = update(theory.go, "again", where=theory.Bound, kind="k", doc="Why.")
     read = board(format_rule(one)).rules["again"]
-    assert dataclasses.replace(read, span=None, text="") == one
+    assert dataclasses.replace(read, place=None, text="") == one
 
 
 def test_a_promise_of_a_rule_is_not_written() -> None:

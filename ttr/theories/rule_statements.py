@@ -110,7 +110,7 @@ class _RuleReader:
             takes=frozenset((_MODEL, *(where or ()))),
             names=names,
             doc=str(tree.doc.value) if tree.doc else "",
-            span=self.reader.source.span(tree.name),
+            place=self.reader.source.span(tree.name),
             text=self.reader.source.text[tree.name.start : tree.end],
         )
 

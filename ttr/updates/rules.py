@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
 from linecache import checkcache, getlines
 from typing import TypeAlias
 
@@ -45,7 +46,8 @@ class Rule(NotebookValue):
     the model; the rule applies only if everything in it can be bound. `gives` is the
     type of the next state, `kind` the rule's class, `doc` what the rule is for. `takes`
     are the bindings and extras that the effect has as parameters, `names` its names for
-    the state and the event; `text` is the text of a rule in a file, from its name on.
+    the state and the event; `text` is the text of a rule in a file, from its name on,
+    and `place` where that is.
     Built by `rule`, `update` or a theory file.
 
     >>> from ttr import Theory
@@ -72,11 +74,16 @@ class Rule(NotebookValue):
     takes: frozenset[str] = frozenset()
     names: tuple[str, ...] = ("s", "e")
     doc: str = ""
-    span: Span | None = None
+    place: Span | None = None
     text: str = ""
 
     def __str__(self) -> str:
         return self.name
+
+    @cached_property
+    def span(self) -> Span | None:
+        """Where the rule stands: its `place`, or that of the name of its function."""
+        return self.place or span_of_function(self.effect)
 
     def __repr__(self) -> str:
         return f"<Rule {self.name}>"
@@ -210,17 +217,12 @@ def rule(
             )
     if not isinstance(kind, str):
         raise UpdateError(f"the kind of a rule is a word, found {kind!r}")
-    certain = _degree_asked_for(p)
+    certain = degree_asked_for(p)
 
     def make_rule(effect: Effect) -> Rule:
-        if not callable(effect):
-            raise UpdateError(f"a rule is made of a function, found {effect!r}")
-        name = getattr(effect, "__name__", "rule")
-        if any(kind(effect) for kind in _ASYNCHRONOUS):
-            raise UpdateError(
-                f"the rule {name} gives its state later: write a plain function"
-            )
-        names, takes = _read_parameters(name, effect, on is not None, where)
+        name = name_of_effect(effect)
+        extras = {*EXTRAS, *(where or ())}
+        names, takes = read_parameters(name, effect, on is not None, extras)
         return Rule(
             name,
             effect,
@@ -233,7 +235,6 @@ def rule(
             takes=takes,
             names=names,
             doc=inspect.getdoc(effect) or "",
-            span=_span_of_function(effect),
         )
 
     return make_rule
@@ -258,7 +259,7 @@ _POSITIONAL = (
 )
 
 
-def _degree_asked_for(p: object) -> Degree:
+def degree_asked_for(p: object) -> Degree:
     """The degree that an event needs: from a lower bound, or a pair of bounds."""
     try:
         found = degree(p, "the probability of a rule's event")
@@ -268,8 +269,20 @@ def _degree_asked_for(p: object) -> Degree:
     return Degree(found.lo, 1.0) if plain else found
 
 
-def _read_parameters(
-    name: str, effect: Effect, has_event: bool, where: RecordType | None
+def name_of_effect(effect: Effect) -> str:
+    """What a function is called; `UpdateError` where it cannot be an effect."""
+    if not callable(effect):
+        raise UpdateError(f"a rule is made of a function, found {effect!r}")
+    name: str = getattr(effect, "__name__", "rule")
+    if any(kind(effect) for kind in _ASYNCHRONOUS):
+        raise UpdateError(
+            f"the rule {name} gives its state later: write a plain function"
+        )
+    return name
+
+
+def read_parameters(
+    name: str, effect: Effect, has_event: bool, extras: Collection[str] = EXTRAS
 ) -> tuple[tuple[str, ...], frozenset[str]]:
     """The names of the state and the event, and the other parameters of an effect."""
     try:
@@ -278,7 +291,6 @@ def _read_parameters(
         raise UpdateError(
             f"the parameters of {name} are not known: write def {name}(s): …"
         ) from None
-    extras = {*EXTRAS, *(where or ())}
     plain = tuple(parameter for parameter in asked if parameter not in extras)
     wanted = 1 + has_event
     if len(plain) != wanted or any(asked[one].kind not in _POSITIONAL for one in plain):
@@ -290,8 +302,10 @@ def _read_parameters(
     return plain, frozenset(asked).difference(plain)
 
 
-def _span_of_function(effect: Effect) -> Span | None:
+def span_of_function(effect: Effect) -> Span | None:
     """The place of the function's name, if its source is known."""
+    while isinstance(effect, partial):
+        effect = effect.func
     code = getattr(effect, "__code__", None)
     if code is None:
         return None
@@ -364,11 +378,11 @@ def update(
         where=where,
         gives=gives,
         kind=kind,
-        p=_degree_asked_for(p),
+        p=degree_asked_for(p),
         takes=frozenset(("model", *(where or ()))),
         names=tuple(names),
         doc=doc,
-        span=span,
+        place=span,
     )
 
 

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from kille.dialogue.grammar_cache import MOST, cache_folder, recall_grammar
+from kille.dialogue.grammar_cache import recall_grammar
 from kille.dialogue.grammars import GrammarError, GrammarSource, read_grammar
 from kille.dialogue.language import LANGUAGES, grammar_text
+from kille.dialogue.user_cache import MOST, cache_folder
 
 SMALL = 'start: _a+ [b]\n_a: "a"i c?\nc: /c+/ -> as\nb: "b"\n%ignore " "\n'
 
@@ -24,9 +25,9 @@ STARTS = ("start",)
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder of grammars, empty as yet."""
     monkeypatch.setattr(
-        "kille.dialogue.grammar_cache.user_cache_dir", lambda *_, **__: str(tmp_path)
+        "kille.dialogue.user_cache.user_cache_dir", lambda *_, **__: str(tmp_path)
     )
-    return cache_folder()
+    return cache_folder("grammars")
 
 
 def recall_without_lark(monkeypatch: pytest.MonkeyPatch, text: str) -> GrammarSource:
@@ -47,7 +48,9 @@ def test_a_grammar_is_recalled_as_it_was_read(
     text = grammar_text(language)
     read = read_grammar(text, STARTS)
     assert recall_grammar(text, STARTS) == read
-    assert recall_without_lark(monkeypatch, text) == read
+    recalled = recall_without_lark(monkeypatch, text)
+    assert recalled[:3] == read[:3]
+    assert all(recalled.initials(it) == read.initials(it) for it in read.terminals)
 
 
 def test_a_recalled_grammar_is_of_the_same_text_and_the_same_starts(
@@ -79,7 +82,7 @@ def test_a_damaged_file_is_made_anew(
     (kept,) = cache.iterdir()
     kept.write_text(damage(kept.read_text("utf-8")), "utf-8")
     assert recall_grammar(SMALL, STARTS) == read
-    assert recall_without_lark(monkeypatch, SMALL) == read
+    assert recall_without_lark(monkeypatch, SMALL)[:3] == read[:3]
 
 
 def test_what_is_no_text_is_made_anew(cache: Path) -> None:
@@ -110,7 +113,8 @@ def test_only_the_latest_are_kept(cache: Path, monkeypatch: pytest.MonkeyPatch) 
             os.utime(kept, (kept.stat().st_mtime - 60,) * 2)
     assert len([*cache.iterdir()]) == MOST
     latest = f'start: "{MOST + 1}"'
-    assert recall_without_lark(monkeypatch, latest) == read_grammar(latest, STARTS)
+    recalled = recall_without_lark(monkeypatch, latest)
+    assert recalled[:3] == read_grammar(latest, STARTS)[:3]
     with pytest.raises(AssertionError, match="read anew"):
         recall_without_lark(monkeypatch, 'start: "0"')
 
