@@ -10,6 +10,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from typing import TypeVar, dataclass_transform
 
 from ttr.errors import NotationError, Span
 
@@ -50,7 +51,20 @@ class Source:
         return replace(found, line=line)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+_T = TypeVar("_T")
+
+
+@dataclass_transform(frozen_default=True)
+def _part(cls: type[_T]) -> type[_T]:
+    """Makes a class of parts, which do not change.
+
+    That nobody sets anything in them is seen to when types are checked, not whenever
+    one is made: there are many of them, in texts and as classes.
+    """
+    return dataclass(slots=True, eq=False, repr=False)(cls)
+
+
+@_part
 class Part:
     """A part of a text: text[start:end]."""
 
@@ -61,12 +75,12 @@ class Part:
 # --- terms: types and objects --------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Term(Part):
     """A type or an object."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Name(Term):
     """x, x.y (`up` is None), .x (`up` is 0), ^.x (1), and so on outwards."""
 
@@ -74,14 +88,14 @@ class Name(Term):
     up: int | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Literal(Term):
     """A quoted name or a number."""
 
     value: str | int | float
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Application(Term):
     """p(a₁, …, aₙ), or f(a)."""
 
@@ -89,7 +103,7 @@ class Application(Term):
     args: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Abstraction(Term):
     """λx:S. body."""
 
@@ -98,7 +112,7 @@ class Abstraction(Term):
     body: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Arrow(Term):
     """(S → T), or ((x : S) → T) where there is a variable."""
 
@@ -107,7 +121,7 @@ class Arrow(Term):
     result: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Restriction(Term):
     """T@a."""
 
@@ -115,42 +129,42 @@ class Restriction(Term):
     value: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Conjunction(Term):
     """S ∧ T."""
 
     parts: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Disjunction(Term):
     """S ∨ T."""
 
     parts: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Denial(Term):
     """¬T."""
 
     body: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Concatenation(Term):
     """a + b."""
 
     parts: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Fields(Term):
     """[ℓ : T, …]; without fields it is written Rec, so there is at least one."""
 
     fields: tuple[Field, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Field(Part):
     """ℓ : T, or ℓ = a : T."""
 
@@ -159,35 +173,35 @@ class Field(Part):
     type: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Items(Term):
     """[a, …]; `[]` is Rec where a type must stand."""
 
     items: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Braces(Term):
     """{ℓ = a, …}."""
 
     settings: tuple[tuple[Word, Term], ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Elements(Term):
     """{a, …}, or set{} where there are none."""
 
     items: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Events(Term):
     """<a b>."""
 
     items: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Word(Part):
     """A single name, where one is declared or stands as a label."""
 
@@ -197,33 +211,33 @@ class Word(Part):
 # --- statements ----------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Statement(Part):
     """A statement of a theory file."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Import(Statement):
     """import "f.ttr"."""
 
     path: str
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class BasicNames(Statement):
     """basic A, B."""
 
     names: tuple[Word, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Predicates(Statement):
     """pred p(A), q(A, B)."""
 
     arities: tuple[Arity, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Arity(Part):
     """p(A₁, …, Aₙ) where a predicate is declared."""
 
@@ -231,14 +245,14 @@ class Arity(Part):
     types: tuple[Term, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class OpenNames(Statement):
     """open A, p."""
 
     names: tuple[Word, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class ObjectNames(Statement):
     """object a, b : T."""
 
@@ -246,7 +260,7 @@ class ObjectNames(Statement):
     type: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class GivenFact(Statement):
     """given a : T, with a degree or without."""
 
@@ -255,14 +269,14 @@ class GivenFact(Statement):
     degree: Degree | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class GivenChance(Statement):
     """given P(a : T | b : S) = p, or given P(T || S) = p."""
 
     chance: Probability | Expectation
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Definition(Statement):
     """Name := type or object."""
 
@@ -270,7 +284,7 @@ class Definition(Statement):
     value: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class RuleStatement(Statement):
     """rule name(s : S, e : E) "doc" of kind where [x : T] := value."""
 
@@ -282,7 +296,7 @@ class RuleStatement(Statement):
     value: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Parameter(Part):
     """s : S, or e : E in [lo, hi]."""
 
@@ -291,7 +305,7 @@ class Parameter(Part):
     degree: Degree | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class StrategyStatement(Statement):
     """strategy name := value."""
 
@@ -299,7 +313,7 @@ class StrategyStatement(Statement):
     value: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class GameStatement(Statement):
     """game name(start : S, acts on agenda, hears A, B) := value."""
 
@@ -311,7 +325,7 @@ class GameStatement(Statement):
     value: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class AxiomClaim(Statement):
     """S <: T."""
 
@@ -319,7 +333,7 @@ class AxiomClaim(Statement):
     upper: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class ConditionalAxiomClaim(Statement):
     """S <: T if C, …, where each C is what a check may ask."""
 
@@ -328,7 +342,7 @@ class ConditionalAxiomClaim(Statement):
     when: tuple[Query, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class RestrictiveAxiomClaim(Statement):
     """S <: T only if C, …."""
 
@@ -337,7 +351,7 @@ class RestrictiveAxiomClaim(Statement):
     only: tuple[Query, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Question(Statement):
     """check Q; `expected` is yes, no, unknown or error."""
 
@@ -345,7 +359,7 @@ class Question(Statement):
     query: Query
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Degree(Part):
     """= p (`relation` is "=") or in [lo, hi] (it is "in")."""
 
@@ -353,12 +367,12 @@ class Degree(Part):
     value: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Query(Part):
     """What a check asks."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Judged(Query):
     """a : T."""
 
@@ -366,7 +380,7 @@ class Judged(Query):
     type: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Comparison(Query):
     """S <= T or S = T; `relation` is "<=", "<= up to relabelling" or "="."""
 
@@ -375,7 +389,7 @@ class Comparison(Query):
     right: Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Probability(Query):
     """P(a : T | b : S, …) = p, or in [lo, hi]; `head` is what is written for P."""
 
@@ -386,7 +400,7 @@ class Probability(Query):
     when: tuple[tuple[Term, Term], ...] = ()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Expectation(Query):
     """P(T || S, …) = p, or in [lo, hi]."""
 
@@ -396,7 +410,7 @@ class Expectation(Query):
     degree: Degree | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@_part
 class Claim(Query):
     """create(T) or wellformed(T)."""
 
