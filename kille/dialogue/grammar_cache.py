@@ -17,7 +17,13 @@ from pathlib import Path
 from typing import Any
 
 from kille.dialogue import grammars
-from kille.dialogue.grammars import GrammarSource, Production, Symbol, read_grammar
+from kille.dialogue.grammars import (
+    GrammarSource,
+    Production,
+    Symbol,
+    is_expression,
+    read_grammar,
+)
 from kille.dialogue.user_cache import digest, recall
 
 
@@ -46,7 +52,8 @@ def _encode(found: GrammarSource) -> bytes:
     made = [(it.name, it.symbols, it.made, it.only_child) for it in found.productions]
     initials = {
         name: None if (signs := found.initials(name)) is None else sorted(signs)
-        for name in found.terminals
+        for name, pattern in found.terminals.items()
+        if is_expression(pattern)
     }
     kept = made, dict(found.terminals), list(found.ignored), initials
     return json.dumps(kept, separators=(",", ":")).encode("utf-8", "surrogatepass")

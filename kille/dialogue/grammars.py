@@ -71,7 +71,7 @@ class GrammarSource(NamedTuple):
     """A grammar: its productions, the regular expressions of its terminals.
 
     What fits one of those in `ignored` is skipped. `known_initials` are those that were
-    found before, when the grammar was read.
+    found before, when the grammar was read, of terminals whose expressions are ones.
     """
 
     productions: Sequence[Production]
@@ -81,7 +81,11 @@ class GrammarSource(NamedTuple):
 
     def expression(self, terminal: str) -> Expression:
         """The expression of a terminal; `GrammarError` where it is none."""
-        found = _expression([self.terminals[terminal]], f"the terminal {terminal}")
+        found = _expression(
+            [self.terminals[terminal]],
+            f"the terminal {terminal}",
+            known=terminal in self.known_initials,
+        )
         nothing = found.match("", 0, process_time() + SECONDS)
         if nothing:
             raise GrammarError(f"{found.what} may not be nothing at all")
@@ -115,13 +119,24 @@ _COUNTS = re.compile(r"\{(\d*),?(\d*)\}")
 """How often something is repeated, at least and at most."""
 
 
-def _expression(patterns: Sequence[str], what: str, as_: str = "{}") -> Expression:
+def is_expression(pattern: str) -> bool:
+    """Whether it is a regular expression, for `re`, by which Lark reads grammars."""
+    try:
+        re.compile(pattern)
+    except (re.error, ValueError, OverflowError, RecursionError):
+        return False
+    return True
+
+
+def _expression(
+    patterns: Sequence[str], what: str, as_: str = "{}", *, known: bool = False
+) -> Expression:
     """One expression for several.
 
-    `re` says first whether they are ones, since Lark reads grammars by it.
+    `re` says first whether they are ones, if that is not `known`.
     """
     try:
-        for pattern in patterns:
+        for pattern in () if known else patterns:
             re.compile(pattern)
         found = _together(patterns)
         if _length(found) <= _LONGEST:
