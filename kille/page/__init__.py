@@ -15,6 +15,8 @@ the page is sent the events after the last one that they have, and the newest pi
 | `unfired` | the rules that did not fire in a turn, and why |
 | `shelf` | words with their examples, and what was learned from them |
 | `stepping` | turns that wait before each rule |
+| `second_robot` | a robot of another theory, which lives through the same |
+| `side_by_side` | what the two made of a turn, with what differs marked |
 | `history` | pictures and events of earlier turns |
 | `exports` | a turn or the dialogue as a file |
 | `reads` | the addresses at which it is looked into |
