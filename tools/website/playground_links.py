@@ -26,12 +26,12 @@ def add_playground_links(app: Sphinx, doctree: nodes.document, page: str) -> Non
         return
     for block in list(doctree.findall(nodes.literal_block)):
         text, language = block.astext(), block.get("language", "")
-        links = "".join(
-            f'<p class="in-playground">{playground_link(it, page.count("/"))}</p>'
-            for it in _theories(text, language)
-        )
+        every = [
+            playground_link(it, page.count("/")) for it in _theories(text, language)
+        ]
+        links = [f'<p class="in-playground">{it}</p>' for it in every if it]
         if links:
-            raw = nodes.raw("", links, format="html")
+            raw = nodes.raw("", "".join(links), format="html")
             block.parent.insert(block.parent.index(block) + 1, raw)
 
 

@@ -20,11 +20,6 @@ class SpatialDegrees(Protocol):
     """What has degrees of spatial words."""
 
     @property
-    def labels(self) -> tuple[str, ...]:
-        """The words."""
-        ...
-
-    @property
     def farthest(self) -> float:
         """The farthest distance in metres of which one was said."""
         ...
