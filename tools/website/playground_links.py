@@ -31,8 +31,15 @@ def add_playground_links(app: Sphinx, doctree: nodes.document, page: str) -> Non
         ]
         links = [f'<p class="in-playground">{it}</p>' for it in every if it]
         if links:
+            whole = _with_frame(block)
             raw = nodes.raw("", "".join(links), format="html")
-            block.parent.insert(block.parent.index(block) + 1, raw)
+            whole.parent.insert(whole.parent.index(whole) + 1, raw)
+
+
+def _with_frame(block: nodes.literal_block) -> nodes.Element:
+    """A block, or the frame of a notebook's cell that it stands in."""
+    framed = "cell_input" in block.parent.get("classes", ())
+    return block.parent if framed else block
 
 
 def playground_link(text: str, depth: int) -> str:

@@ -143,6 +143,20 @@ def test_a_block_that_is_a_theory_opens_in_the_playground(
     assert [text_of_fragment(it) for it in found] == opened
 
 
+def test_the_link_of_a_notebook_stands_below_its_cell() -> None:
+    block = nodes.literal_block("", "Theory.parse('basic A')", language="ipython3")
+    cell = nodes.container("", block, classes=["cell_input"])
+    page = new_document("page")
+    page += nodes.container("", cell, nodes.paragraph("", "its answer"))
+    app = SimpleNamespace(config={HAS_PLAYGROUND: True})
+    add_playground_links(cast(Any, app), page, "page")
+    assert [type(it) for it in page[0].children] == [
+        nodes.container,
+        nodes.raw,
+        nodes.paragraph,
+    ]
+
+
 def test_without_a_playground_nothing_links_to_it() -> None:
     page = new_document("page")
     page += nodes.literal_block("basic A", "basic A", language="ttr")
