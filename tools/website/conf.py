@@ -86,6 +86,8 @@ def add_ways(
 
     A list of all contents would be most of such a page.
     """
+    if page == "search":
+        app.add_js_file("search.js")
     section = page.partition("/")[0]
     if section not in _INDICES or page == _INDICES[section][1]:
         return

@@ -55,7 +55,7 @@ def _is_odd(sign: Record, qualities: Set[str], lists: WordLists) -> bool:
 
 
 def _is_no_relation(form: str, qualities: Set[str], lists: WordLists) -> bool:
-    """Whether a word is of another kind: "This is also a cup.", "…, the right one red."."""
+    """Whether a word is of another kind: "This is also a cup."."""
     return lists.is_closed(form) or (form,) in lists.harmless or form in qualities
 
 

@@ -219,5 +219,20 @@ def test_a_hundred_pages_fit_a_telephone(site: Path, chromium: Any) -> None:
     assert (wide, said) == ([], [])
 
 
+@pytest.mark.deep
+def test_search_needs_no_server(site: Path, chromium: Any) -> None:
+    with chromium.new_context() as context:
+        tab, said = context.new_page(), list[str]()
+        tab.on("console", lambda it: said.append(f"{it.type}: {it.text}"))
+        tab.goto((site / "index.html").as_uri())
+        tab.fill(".sidebar-search", "donkey")
+        tab.press(".sidebar-search", "Enter")
+        tab.wait_for_selector("#search-results li")
+        found = tab.inner_text("#search-results")
+    assert "A donkey pronoun is strong after every" in found
+    assert [it for it in said if it.startswith("error")] == []
+
+
 for mark in IN_BROWSER:
     test_a_hundred_pages_fit_a_telephone = mark(test_a_hundred_pages_fit_a_telephone)
+    test_search_needs_no_server = mark(test_search_needs_no_server)
