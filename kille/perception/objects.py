@@ -40,7 +40,7 @@ from kille.perception.learners import Key, own_key
 from kille.perception.likeness import SIZE, Examples, Kernel, Likeness
 from kille.perception.nearest_words import MANY, NearestWords
 from kille.perception.relevance import Relevance
-from kille.perception.votes import beyond_chance, rivals, votes
+from kille.perception.votes import UNTAUGHT, beyond_chance, rivals, votes
 from kille.scene import Features, Percept, Traits
 
 __all__ = ["ObjectMemory", "kept_features"]
@@ -195,7 +195,7 @@ class ObjectMemory:
         cast = np.zeros(len(labels))
         if len(query):
             repeats = find_repeats(query, x.scans) if len(x.scans) > 1 else None
-            found = self._index.neighbours(query, repeats)
+            found = self._index.neighbours(query, repeats, UNTAUGHT)
             rivalling = rivals(found, query, labels, self.denied)
             cast = votes(found, len(labels), len(x.scans), rivalling)
             cast = beyond_chance(cast, self._index.sizes, len(query) / len(x.scans))

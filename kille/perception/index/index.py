@@ -136,12 +136,18 @@ class Index:
         self._catch_up()
         return self
 
-    def neighbours(self, query: Rows, repeats: Repeats | None = None) -> Neighbours:
+    def neighbours(
+        self,
+        query: Rows,
+        repeats: Repeats | None = None,
+        within: float | None = None,
+    ) -> Neighbours:
         """The nearest descriptors to RootSIFT descriptors (n, 128), of all words.
 
         The ten nearest of each part, and the nearest of each word among the newest.
         Of repeated features only the first is searched for in the parts: the others are
-        compared with what it found.
+        compared with what it found. What is not within a distance of repeated features
+        may be left out, if one is given.
         """
         self._catch_up()
         columns = self._word_columns()
@@ -149,7 +155,10 @@ class Index:
             self._exact = Exact(thin_views(self._tail, _EXACT), columns)
         if self._owners is None:
             self._owners = [self._words_of(*serving) for serving in self._serving]
-        found = [self._exact.neighbours(query)]
+        if repeats is None or within is None:
+            found = [self._exact.neighbours(query)]
+        else:
+            found = [self._exact.neighbours_within(query, repeats, within)]
         for (part, _), owners in zip(self._serving, self._owners, strict=True):
             found.append(part.neighbours(query, owners, repeats))
         return Neighbours(

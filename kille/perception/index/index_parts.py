@@ -36,6 +36,8 @@ NOBODY = -1
 
 _AT_ONCE = 256  # descriptors that are compared with all others: what a cache can hold
 _FEW = 20_000  # descriptors of a part that are kept as RootSIFT too: 10 MB
+_CLOSE = 24  # descriptors near a feature that are compared one by one with its repeats
+_ROUNDING = 0.002  # of a distance: that of equal descriptors may be taken for so much
 _SPARE = 30  # neighbours more, where some of what is found may have been forgotten
 
 
@@ -71,6 +73,7 @@ class Exact:
             np.array([columns[view.label] for view in ordered], np.intp),
             [len(view.descriptors) for view in ordered],
         )
+        self._owners = owners
         self._words, firsts = np.unique(owners, return_index=True)
         self._spans = list(starmap(slice, pairwise([*firsts.tolist(), len(owners)])))
         self._rows = rooted(stack_descriptors(ordered))
@@ -85,6 +88,53 @@ class Exact:
             for word, own in enumerate(self._spans):
                 products[:, own].max(axis=1, out=alike[some, word])
         return Neighbours(words, apart(alike))
+
+    def neighbours_within(
+        self, query: Rows, repeats: Repeats, distance: float
+    ) -> Neighbours:
+        """The nearest descriptor of each word that is nearer than this distance.
+
+        What is farther may be left out: its word is -1, its distance infinite. Where q
+        repeats f, and x is a descriptor, d(f, x) ≤ d(f, q) + d(q, x): so only what is
+        near the first of some features is compared with those that repeat it.
+        """
+        firsts, same, _ = repeats
+        reach = distance + repeats.reach() + _ROUNDING
+        near, often = self._near(query[firsts], 1 - reach**2 / 2)
+        width = max(_CLOSE, len(self._words))
+        words = np.full((len(query), width), NOBODY)
+        far = np.full((len(query), width), np.inf, np.float32)
+        many = np.flatnonzero((often > _CLOSE)[same])
+        words[many, : len(self._words)], far[many, : len(self._words)] = (
+            self.neighbours(query[many])
+        )
+        few = np.flatnonzero(((often > 0) & (often <= _CLOSE))[same])
+        numbers, which = np.unique(same[few], return_inverse=True)
+        found = near[numbers]
+        products = products_with_found(self._rows[found], query[few], which)
+        there = found >= 0
+        words[few, :_CLOSE] = np.where(there, self._owners[found], NOBODY)[which]
+        far[few, :_CLOSE] = np.where(there[which], apart(products), np.inf)
+        return Neighbours(words, far)
+
+    def _near(
+        self, query: Rows, least: Rows
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """The rows (n, _CLOSE) whose dot product with a query is the least or more,
+        and how many there are (n,).
+
+        -1 stands where there are fewer, and in all places where there are more.
+        """
+        near = np.full((len(query), _CLOSE), NOBODY)
+        often = np.zeros(len(query), np.intp)
+        for some, products in self._products(query):
+            like = products >= least[some, None]
+            often[some] = np.count_nonzero(like, axis=1)
+            like[often[some] > _CLOSE] = False
+            which, rows = np.nonzero(like)
+            firsts = np.searchsorted(which, which)
+            near[some][which, np.arange(len(which)) - firsts] = rows
+        return near, often
 
     def _products(self, query: Rows) -> Iterator[tuple[slice, Rows]]:
         """The dot products of some of the query at a time with all descriptors."""
@@ -151,7 +201,7 @@ class Part:
             return Neighbours(np.empty((0, 0), np.intp), np.empty((0, 0), np.float32))
         some_gone = bool((owners == NOBODY).any())
         wanted = NEIGHBOURS + some_gone * _SPARE
-        firsts, same = repeats or (slice(None), np.arange(len(query)))
+        firsts, same, _ = repeats or (slice(None), np.arange(len(query)), None)
         rows = self._search.find_rows(query[firsts], min(wanted, self.size))
         some = np.maximum(rows, 0)
         views = np.searchsorted(self._starts, some, side="right") - 1

@@ -23,6 +23,7 @@ _TREES = 2
 _CHECKS = 32  # descriptors that are compared with a query
 _KD_TREE = 1  # FLANN's number for randomised kd-trees
 _SEED = 1
+_SIDES = 10  # dimensions by whose signs queries are put in order
 
 
 class Trees:
@@ -32,18 +33,32 @@ class Trees:
         self._axes = _principal(_sample_rows(blocks))
         rows = _project(blocks, self._axes)  # OpenCV takes a copy of them
         self._size = len(rows)
+        self._middle = rows[:: max(1, self._size // _SAMPLE), :_SIDES].mean(axis=0)
         cv2.setRNGSeed(_SEED)  # the same views, the same trees; each thread has its own
         self._trees = cv2.flann.Index(rows, {"algorithm": _KD_TREE, "trees": _TREES})
 
     def find_rows(self, query: Rows, count: int) -> NDArray[np.int32]:
         """The rows (n, count) of descriptors near each query; -1 where there are
         fewer."""
-        rows, _ = self._trees.knnSearch(
-            query @ self._axes,
+        projected = query @ self._axes
+        order = np.argsort(self._side_codes(projected), kind="stable")
+        found, _ = self._trees.knnSearch(
+            projected[order],
             min(count, self._size),
             params={"checks": max(_CHECKS, count)},
         )
-        return np.asarray(rows, np.int32)
+        rows = np.empty_like(found, np.int32)
+        rows[order] = found
+        return rows
+
+    def _side_codes(self, projected: Rows) -> NDArray[np.intp]:
+        """On which side of the middle each query (n,) is along the first dimensions.
+
+        Queries with one code go the same way through much of the trees: in this order
+        they take three quarters of the time, since caches hold that part.
+        """
+        sides = projected[:, :_SIDES] > self._middle
+        return sides @ (1 << np.arange(_SIDES)[::-1])
 
 
 def _sample_rows(blocks: Sequence[Descriptors]) -> Rows:

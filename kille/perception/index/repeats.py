@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.views import LENGTH, Rows
+from kille.perception.index.views import LENGTH, Rows, apart
 from kille.scene import Features
 
 AGAIN = 0.25
@@ -36,14 +36,24 @@ class Repeats(NamedTuple):
     """Which features of some scans are the same ones.
 
     `firsts` (m,) are the numbers of those not seen before, in the order of how often
-    they are seen; `same` (n,) says for each feature which of these m it is.
+    they are seen; `same` (n,) says for each feature which of these m it is, and `far`
+    (n,) how far from that it is.
 
-    >>> Repeats(firsts=np.array([1, 0]), same=np.array([1, 0, 1])).same.tolist()
-    [1, 0, 1]
+    >>> far = np.float32([0, 0, 0.5])
+    >>> found = Repeats(firsts=np.array([1, 0]), same=np.array([1, 0, 1]), far=far)
+    >>> found.reach().tolist()
+    [0.0, 0.5]
     """
 
     firsts: Numbers
     same: Numbers
+    far: Rows
+
+    def reach(self) -> Rows:
+        """How far from each of the m features those that repeat it are at most."""
+        reach = np.zeros(len(self.firsts), np.float32)
+        np.maximum.at(reach, self.same, self.far)
+        return reach
 
 
 def find_repeats(query: Rows, scans: Sequence[Features]) -> Repeats:
@@ -53,20 +63,22 @@ def find_repeats(query: Rows, scans: Sequence[Features]) -> Repeats:
     scan are different ones.
 
     >>> scan = Features(np.eye(1, 128, dtype=np.uint8), *np.zeros((2, 1, 2)))
-    >>> find_repeats(np.eye(9, 128, dtype=np.float32)[[4, 5, 4]], [scan] * 3)
-    Repeats(firsts=array([1, 0]), same=array([1, 0, 1]))
+    >>> found = find_repeats(np.eye(9, 128, dtype=np.float32)[[4, 5, 4]], [scan] * 3)
+    >>> found.firsts, found.same
+    (array([1, 0]), array([1, 0, 1]))
     """
     heights = np.concatenate([it.pixels[:, 1] for it in scans])
     first = np.arange(len(query))
+    far = np.zeros(len(query), np.float32)
     new = np.arange(len(query))
     for start, stop in pairwise(np.cumsum([0, *(len(it.pixels) for it in scans)])):
         begin, end = np.searchsorted(new, (start, stop))
-        later, which = _seen_again(query, heights, new[begin:end], new[end:])
-        first[later] = which
+        later, which, alike = _seen_again(query, heights, new[begin:end], new[end:])
+        first[later], far[later] = which, apart(alike)
         new = new[first[new] == new]
     firsts, same, times = np.unique(first, return_inverse=True, return_counts=True)
     order = np.argsort(times, kind="stable")
-    return Repeats(firsts[order], np.argsort(order)[same])
+    return Repeats(firsts[order], np.argsort(order)[same], far)
 
 
 def products_with_found(found: Rows, query: Rows, same: Numbers) -> Rows:
@@ -93,15 +105,16 @@ def products_with_found(found: Rows, query: Rows, same: Numbers) -> Rows:
 
 def _seen_again(
     query: Rows, heights: NDArray[np.float32], earlier: Numbers, later: Numbers
-) -> tuple[Numbers, Numbers]:
-    """Those of the later features that are among the earlier ones, and which they are.
+) -> tuple[Numbers, Numbers, Rows]:
+    """Those of the later features that are among the earlier ones, which they are, and
+    their dot products with these.
 
     Both are put in order from top to bottom, so that few need to be compared.
     """
     earlier = earlier[np.argsort(heights[earlier], kind="stable")]
     later = later[np.argsort(heights[later], kind="stable")]
     rows, tops = query[earlier], heights[earlier]
-    again, which = [later[:0]], [later[:0]]
+    again, which, alike = [later[:0]], [later[:0]], [heights[:0]]
     for start in range(0, len(later), _AT_ONCE):
         some = later[start : start + _AT_ONCE]
         low = np.searchsorted(tops, heights[some[0]] - _NEAR)
@@ -110,7 +123,9 @@ def _seen_again(
             continue
         products = query[some] @ rows[low:high].T
         nearest = products.argmax(axis=1)
-        same = products[np.arange(len(some)), nearest] > 1 - AGAIN**2 / 2
+        most = products[np.arange(len(some)), nearest]
+        same = most > 1 - AGAIN**2 / 2
         again.append(some[same])
         which.append(earlier[low + nearest[same]])
-    return np.concatenate(again), np.concatenate(which)
+        alike.append(most[same])
+    return np.concatenate(again), np.concatenate(which), np.concatenate(alike)

@@ -59,33 +59,34 @@ def looked() -> tuple[list[Features], Rows, Repeats]:
 def test_each_feature_is_the_first_of_its_kind_or_like_that_of_an_earlier_scan() -> (
     None
 ):
-    scans, query, (firsts, same) = looked()
+    scans, query, (firsts, same, far) = looked()
     own = np.repeat(np.arange(len(scans)), [len(it.pixels) for it in scans])
     standing = firsts[same]
     again = standing != np.arange(len(query))
     assert (own[standing[again]] < own[again]).all()
     apart = np.diag(distances(query, query[standing]))
     assert (apart[again] < AGAIN).all()
+    assert far == pytest.approx(np.where(again, apart, 0), abs=2e-3)
     assert (standing[firsts] == firsts).all()
     assert len(scans[0].pixels) <= len(firsts) < len(query) / 3
 
 
 def test_firsts_are_in_the_order_of_how_often_they_are_seen() -> None:
-    _, _, (firsts, same) = looked()
+    _, _, (firsts, same, _) = looked()
     assert (np.diff(np.bincount(same, minlength=len(firsts))) >= 0).all()
 
 
 def test_features_of_things_that_moved_far_are_all_different() -> None:
     one = scan(1, 0)
     other = Features(one.descriptors, one.pixels + np.float32([0, 1000]), one.points)
-    firsts, same = find_repeats(rows_of([one, other]), [one, other])
+    firsts, same, _ = find_repeats(rows_of([one, other]), [one, other])
     assert len(firsts) == len(same) == 2 * len(one.pixels)
 
 
 def test_scans_without_features_repeat_nothing() -> None:
     nothing, some = scan(1, 0, count=0), scan(1, 1)
     scans = [nothing, some, nothing]
-    firsts, same = find_repeats(rows_of(scans), scans)
+    firsts, same, _ = find_repeats(rows_of(scans), scans)
     assert firsts[same].tolist() == list(range(len(some.pixels)))
     none = rows_of([nothing])
     found = taught().neighbours(none, find_repeats(none, [nothing]))
@@ -108,6 +109,29 @@ def test_what_is_found_for_repeats_is_nearly_what_is_found_for_each(
     assert (near > nearest - 2e-3).all()
     assert (near < nearest + 2 * AGAIN).all()
     assert np.median(near - nearest) < 0.01
+
+
+@pytest.mark.parametrize("close", [1, 4, 24])
+@pytest.mark.parametrize("within", [0.1, 0.45, 0.9])
+def test_what_is_within_a_distance_is_found_for_all_repeats(
+    within: float, close: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Among the newest views, which are searched exactly: no word that is so near is
+    missed, and none is nearer than it is."""
+    monkeypatch.setattr(index_parts, "_CLOSE", close)
+    _, query, repeats = looked()
+    index = taught()
+    each = index.neighbours(query)
+    found = index.neighbours(query, repeats, within)
+    for word in range(len(index.labels)):
+        true, got = (
+            np.where(it.words == word, it.distances, np.inf).min(axis=1)
+            for it in (each, found)
+        )
+        near = true < within
+        assert near.any() or within < 0.9
+        assert got[near] == pytest.approx(true[near], abs=2e-3)
+        assert (got > true - 2e-3).all()
 
 
 def test_descriptors_are_the_same_gathered_or_kept(
