@@ -48,6 +48,8 @@ SAID_OF_THINGS = "is_"
 PALETTE = "palette"
 """The trait in which the colours of a thing are kept, as they were in its light."""
 
+_CUE_LENGTHS = {name: cue.length for name, cue in CUES.items()}
+
 Named = tuple[str, Percept]
 """A thing and the name of its word."""
 
@@ -468,7 +470,7 @@ def _of_cues(traits: Traits) -> Traits:
     return {
         cue: vector
         for cue, vector in traits.items()
-        if cue in CUES and len(vector) == CUES[cue].length
+        if _CUE_LENGTHS.get(cue) == len(vector)
     }
 
 

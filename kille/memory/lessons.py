@@ -120,6 +120,13 @@ class Scan:
         _require("points", self.points, "float32", (n, 3))
 
 
+class CheckedTraits(dict[str, Vector]):
+    """Traits whose vectors are known to be flat, float32 and finite.
+
+    Thousands of vectors are checked together in less time than one by one.
+    """
+
+
 @dataclass(frozen=True, eq=False)
 class Sighting:
     """An object as it was seen when its word was taught.
@@ -143,6 +150,8 @@ class Sighting:
 
     def __post_init__(self) -> None:
         _require_finite("a sighting", self.time, *(self.place or ()))
+        if isinstance(self.traits, CheckedTraits):
+            return
         for cue, vector in self.traits.items():
             _require_trait(cue, vector)
 

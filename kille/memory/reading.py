@@ -11,6 +11,7 @@ import sqlite3
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from kille.memory.configurations import from_text
 from kille.memory.lessons import (
     DESCRIPTOR_LENGTH,
     Arrangement,
+    CheckedTraits,
     Criterion,
     CriterionLesson,
     Dialogue,
@@ -37,6 +39,8 @@ from kille.memory.lessons import (
 )
 from kille.memory.pictures import Crop, Picture
 from kille.scene import Box, Intrinsics, Point, Traits, Vector
+
+_FLOAT = np.dtype("<f4")
 
 BATCH = 250
 """How many lessons are read at once."""
@@ -271,10 +275,8 @@ def objects_between(
         seen = Sighting(
             sensor, time, tuple(scans.get(key, ())), place, traits.get(key, {})
         )
-        known = _lesson(row)
-        found.append(
-            ObjectLesson(known.key, known.word, known.turn, seen, holds=known.holds)
-        )
+        key, word, turn, holds = _lesson_fields(row)
+        found.append(ObjectLesson(key, word, turn, seen, holds=holds))
     return found
 
 
@@ -333,7 +335,8 @@ def scan(descriptors: bytes, points: bytes) -> Scan:
 
 def floats(blob: bytes) -> Vector:
     """Decode little-endian numbers (n,) without copying them."""
-    return np.frombuffer(blob, "<f4").astype(np.float32, copy=False)
+    numbers = np.frombuffer(blob, _FLOAT)
+    return numbers if _FLOAT.isnative else numbers.astype(np.float32)
 
 
 def _scans(
@@ -348,10 +351,21 @@ def _scans(
 def _traits(
     connection: sqlite3.Connection, first: int, last: int
 ) -> Mapping[int, Traits]:
-    found = defaultdict[int, dict[str, Vector]](dict)
-    for key, cue, vector in connection.execute(TRAITS, (first, last)):
-        found[key][cue] = floats(vector)
+    """The traits of these lessons, which are checked all at once if nothing is wrong
+    with them."""
+    rows = connection.execute(TRAITS, (first, last)).fetchall()
+    whole = _are_finite([blob for *_, blob in rows])
+    found = defaultdict[int, dict[str, Vector]](CheckedTraits if whole else dict)
+    for key, cue, blob in rows:
+        found[key][cue] = floats(blob)
     return found
+
+
+def _are_finite(blobs: list[bytes]) -> bool:
+    """Are all these finite numbers, as far as they are numbers at all?"""
+    if any(len(blob) % _FLOAT.itemsize for blob in blobs):
+        return False
+    return bool(np.isfinite(floats(b"".join(blobs))).all())
 
 
 def _batches(connection: sqlite3.Connection, kind: Kind) -> Iterator[tuple[int, int]]:
@@ -364,6 +378,17 @@ def _batches(connection: sqlite3.Connection, kind: Kind) -> Iterator[tuple[int, 
 
 def _lesson(row: tuple[Any, ...]) -> Lesson:
     """The lesson in a row that begins with LESSON_COLUMNS."""
+    key, word, turn, holds = _lesson_fields(row)
+    return Lesson(key, word, turn, holds=holds)
+
+
+def _lesson_fields(row: tuple[Any, ...]) -> tuple[int, Word, Turn, bool]:
+    """The key, word, turn and polarity in a row that begins with LESSON_COLUMNS."""
     key, holds, name, surface, kind, article, *said = row[:LESSON_WIDTH]
-    word = Word(name, surface, kind, article)
-    return Lesson(key, word, Turn(*said), holds=bool(holds))
+    return key, _word(name, surface, kind, article), Turn(*said), bool(holds)
+
+
+@lru_cache(maxsize=2**14)
+def _word(name: str, surface: str, kind: Kind, article: str) -> Word:
+    """The word, which is checked once: it may have been taught many times."""
+    return Word(name, surface, kind, article)
