@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple
+import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -87,8 +88,8 @@ def _drop_unread(depth: Depth) -> Depth:
 
 
 def _usable(lens: Intrinsics) -> bool:
-    numbers = np.array(astuple(lens))
-    return bool(np.isfinite(numbers).all() and lens.fx > 0 and lens.fy > 0)
+    numbers = lens.fx, lens.fy, lens.cx, lens.cy
+    return all(map(math.isfinite, numbers)) and lens.fx > 0 and lens.fy > 0
 
 
 def _stretch_depth(depth: Depth, shape: tuple[int, int]) -> Depth:
@@ -115,13 +116,12 @@ def points_in(frame: Frame, mask: Mask, box: Box) -> Array:
 
     There are none if the frame has no depth or no intrinsics.
     """
-    depth = _depth_at_picture_size(frame)
-    if depth is None or frame.intrinsics is None:
+    depth, lens = _depth_at_picture_size(frame), frame.intrinsics
+    if depth is None or lens is None:
         return np.empty((0, 3), np.float32)
-    fx, fy, cx, cy = astuple(frame.intrinsics)
-    lens = Intrinsics(fx, fy, cx - box.left, cy - box.top)
     inside = np.s_[box.top : box.bottom, box.left : box.right]
-    return points_under(depth[inside], mask[inside], lens)
+    moved = replace(lens, cx=lens.cx - box.left, cy=lens.cy - box.top)
+    return points_under(depth[inside], mask[inside], moved)
 
 
 def table_axes(up: Direction) -> NDArray[np.float64]:

@@ -260,7 +260,7 @@ def _place(frame: Frame, mask: Mask, box: Box) -> Point | None:
     points = points_in(frame, mask, box)
     if not len(points):
         return None
-    x, y, z = np.median(points, axis=0)
+    x, y, z = np.median(np.ascontiguousarray(points.T), axis=1)
     return Point(float(x), float(y), float(z))
 
 

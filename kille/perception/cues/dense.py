@@ -66,8 +66,9 @@ def _of_cells(window: Window, pooled: Array, cell: int) -> Descriptors:
     down, right = down[inside], right[inside]
     rows = np.clip(down[:, None] + offsets, 0, SIDE - 1)
     columns = np.clip(right[:, None] + offsets, 0, SIDE - 1)
-    size = 16 * pooled.shape[2]
-    values = pooled[rows[:, :, None], columns[:, None, :]].reshape(len(down), size)
+    cells = (rows[:, :, None] * SIDE + columns[:, None, :]).ravel()
+    each = pooled.reshape(SIDE * SIDE, -1)
+    values = each.take(cells, axis=0).reshape(len(down), 16 * each.shape[1])
     places = np.stack([right, down], axis=1) / np.float32(SIDE) - np.float32(0.5)
     return Descriptors(values, places.astype(np.float32))
 

@@ -102,7 +102,7 @@ class Patch:
         if np.count_nonzero(self.inside) < _LEAST**2:
             return None
         box = self.region.box
-        mask = self.region.mask.astype(np.uint8) * np.uint8(255)
+        mask = self.region.mask.view(np.uint8) * np.uint8(255)
         return Window(
             cut_square(self.frame.colour, box, SIDE, cv2.BORDER_REPLICATE),
             cut_square(mask, box, SIDE, cv2.BORDER_CONSTANT) > 127,

@@ -152,8 +152,10 @@ class _Groups:
 
     def mode(self, names: Labels) -> Indices:
         """The most frequent of the names (n,), other than 0, in each patch."""
-        counts = np.zeros((len(self.sizes), int(names.max()) + 1), np.intp)
-        np.add.at(counts, (self._owner, names), 1)
+        size = int(names.max()) + 1
+        pairs = self._owner * size + names
+        counts = np.bincount(pairs, minlength=len(self.sizes) * size)
+        counts = counts.reshape(-1, size)
         counts[:, 0] = 0
         most: Indices = counts.argmax(axis=1)
         return most
