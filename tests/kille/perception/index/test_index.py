@@ -133,6 +133,15 @@ def test_trees_find_what_exact_search_finds(small: None, search: str) -> None:
     assert np.median(np.abs(found.min(axis=1) - true.min(axis=1))) < 0.01
 
 
+def test_what_is_found_for_a_query_does_not_depend_on_the_others(small: None) -> None:
+    """They are searched for in another order than they are asked in."""
+    grown, query = Index([view(i) for i in range(16)]), asked(20)
+    together = grown.nearest(query)
+    apart = np.concatenate([grown.nearest(it[None]) for it in query])
+    assert together == pytest.approx(apart, abs=2e-3)
+    assert grown.nearest(query[::-1]) == pytest.approx(together[::-1], abs=2e-3)
+
+
 def test_an_index_that_learned_and_forgot_is_the_one_given_what_is_left(
     small: None, search: str, builder: Builder
 ) -> None:
