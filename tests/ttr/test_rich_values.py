@@ -368,6 +368,10 @@ def test_ipython_completes_keys_and_names() -> None:
     with completer.provisionalcompleter():
         assert "Dog" in {it.text.strip(".") for it in found.completions("t.Do", 4)}
         assert "shared" in {it.text.strip("'\"]") for it in found.completions('r["', 3)}
+        place["r"] = record(shared=record(latest=1))
+        found.use_jedi, found.evaluation = False, "unsafe"
+        line = "r.shared.la"
+        assert ".latest" in {it.text for it in found.completions(line, len(line))}
 
 
 DOG = Pred("dog", Ind)
