@@ -9,8 +9,6 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from decimal import Decimal
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from kille.agent.actions import MoveExecutor
 from kille.agent.attention import (
@@ -71,6 +69,7 @@ from ttr import Model, Record, RecType, Theory, TTRError, record
 from ttr.errors import UpdateError
 from ttr.judging import Judgement
 from ttr.probability import CERTAIN
+from ttr.safety.closing import Closing
 from ttr.semantics.perceptual import Meaning, Speaker
 from ttr.showing import (
     SOME,
@@ -103,7 +102,7 @@ TurnResult = tuple[Exchange, Run]
 """A turn, and the state and model that it leads to."""
 
 
-class Agent(NotebookValue):
+class Agent(Closing, NotebookValue):
     """A robot that looks through a sensor and keeps what it learns in a memory.
 
     It is its own context manager. `hear` takes what the tutor says, `do` changes the
@@ -497,17 +496,6 @@ class Agent(NotebookValue):
         """Let go of the sensor and the memory."""
         self.gaze.close()
         self.memory.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     # --- taking turns ----------------------------------------------------------------
 

@@ -16,15 +16,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from datetime import datetime
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from kille.agent.exchanges import Event
 from kille.safety.private_files import open_private
 from ttr.dialogues.stories.story_writer import turn_lines
+from ttr.safety.closing import Closing
 
 
-class StoryLog:
+class StoryLog(Closing):
     """A story that is written event by event; it is its own context manager.
 
     What has happened is in the file before anything else happens. Only its user can
@@ -59,17 +58,6 @@ class StoryLog:
     def close(self) -> None:
         """Close the file."""
         self._file.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def head_lines(

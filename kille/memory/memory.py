@@ -6,7 +6,6 @@ import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 from kille.memory import files, merging, reading, writing
@@ -36,12 +35,13 @@ from kille.memory.lessons import (
 from kille.memory.merging import MergeResult, MergeSource
 from kille.memory.pictures import Picture
 from ttr.aliases import Alias
+from ttr.safety.closing import Closing
 
 Scope = Callable[[sqlite3.Connection], AbstractContextManager[None]]
 """A transaction: what happens in it is kept as a whole or undone."""
 
 
-class MemoryReader:
+class MemoryReader(Closing):
     """The content of a memory file, to read only; another program may be writing.
 
     Made by `Memory.open_to_read`; it is its own context manager. `place` says in words
@@ -64,17 +64,6 @@ class MemoryReader:
         """Close the file; a second call does nothing."""
         with explain_failures(self.place):
             self._connection.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def words(self) -> tuple[Word, ...]:
         """Every word that is known to apply to something, oldest first.

@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from io import FileIO
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 from ttr.dialogues.dialogue import Dialogue, Trial
@@ -17,6 +16,7 @@ from ttr.dialogues.logs.name_declarations import Declarations
 from ttr.dialogues.settings import Setting
 from ttr.errors import TTRError
 from ttr.judging.models import Model
+from ttr.safety.closing import Closing
 from ttr.safety.files import why_unwritten
 from ttr.types.objects import Object
 from ttr.types.printing import notation
@@ -33,7 +33,7 @@ class _Progress:
     declared: Declarations
 
 
-class LogFile:
+class LogFile(Closing):
     """A log that is written turn by turn; it is its own context manager.
 
     A turn is written in one piece as soon as it is over, so that a process that is
@@ -132,17 +132,6 @@ class LogFile:
         """Closes the file."""
         if self._file is not None:
             self._file.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def write_log(path: Path, dialogues: Iterable[Dialogue]) -> None:
