@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import cache
 
 import pytest
 
@@ -15,6 +16,14 @@ from kille.perception.paper_objects import PaperObjects
 from kille.scene import Percept
 
 SIZES = (10, 20, 40)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def things_seen_once() -> Iterator[None]:
+    """The ten things are looked at once for all tests: looks follow from the seed."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "_look_at_things", cache(module._look_at_things))
+        yield
 
 
 class Slow:
