@@ -30,7 +30,7 @@ def plan_first_unknown(
     pending: Iterable[TypeNode] = (),
     types: DialogueTypes,
 ) -> Record | None:
-    """The plan to say that the first of these words that is not known is not.
+    """The plan to say that a word is not known: the first of these that is not.
 
     None if all are known.
     """
