@@ -368,7 +368,7 @@ class _WitnessMaker:
                 if not (empty and isinstance(field.base, ListOf)):
                     facts = _with_certainty(facts, value, field.base)
                 continue
-            if type(field) is ListOf and self._size == 0:
+            if type(field) is ListOf and self._size == 0 and is_reduced(field):
                 fields[label] = ()
                 continue
             try:

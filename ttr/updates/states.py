@@ -85,8 +85,8 @@ def _is_part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> 
         and isinstance(found, tuple)
         and _cannot_change(was, model)
     ):
-        new = _possibly_new_elements(found, was)
-        return all(is_certain(model.facts, element, T.item) for element in new)
+        new = tuple(_possibly_new_elements(found, was))
+        return not new or is_certain(model.facts, new, T)
     return is_certain(model.facts, found, T)
 
 
