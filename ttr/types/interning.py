@@ -90,7 +90,7 @@ class _Interning(type):
                 entry = _pool.get(key)
                 found = None if entry is None else entry()
                 if found is None:
-                    found = cls._make(*values)
+                    found = super().__call__(*values)
                     entry = _pool[key] = _Entry(found, _remove_from_pool)
                     entry.key = key
             return found
@@ -99,7 +99,7 @@ class _Interning(type):
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
 def node(cls: type[Node]) -> Any:
     """Makes an interned, immutable node class of annotated fields."""
-    made: Any = dataclass(init=False, eq=False, repr=False, slots=True)(cls)
+    made: Any = dataclass(frozen=True, eq=False, repr=False, slots=True)(cls)
     made.__setattr__, made.__delattr__ = _refuse_setting, _refuse_deleting
     return made
 
@@ -130,24 +130,6 @@ class Node(NotebookValue, metaclass=_Interning):
     def _key(*args: Any) -> tuple[object, ...]:
         """What makes two nodes of the class the same."""
         return tuple(map(identity, args))
-
-    @classmethod
-    def _make(cls, *values: object) -> Node:
-        """The new node of these values.
-
-        It is made as a generated `__init__` would, which takes long to generate.
-        """
-        names = cls.__match_args__
-        if len(values) != len(names):
-            raise TypeError(f"{cls.__name__} takes {', '.join(names) or 'nothing'}")
-        made = object.__new__(cls)
-        for name, value in zip(names, values, strict=True):
-            object.__setattr__(made, name, value)
-        made.__post_init__()
-        return made
-
-    def __post_init__(self) -> None:
-        """What a class does with its values once they are there."""
 
     @within_budget
     def __str__(self) -> str:
