@@ -351,18 +351,20 @@ def _scans(
 def _traits(
     connection: sqlite3.Connection, first: int, last: int
 ) -> Mapping[int, Traits]:
-    """The traits of these lessons, which are checked all at once if nothing is wrong
-    with them."""
+    """The traits of these lessons, marked as checked if nothing is wrong with any.
+
+    Otherwise each is checked by itself, and the one that is wrong is named.
+    """
     rows = connection.execute(TRAITS, (first, last)).fetchall()
-    whole = _are_finite([blob for *_, blob in rows])
-    found = defaultdict[int, dict[str, Vector]](CheckedTraits if whole else dict)
+    right = _are_finite([blob for *_, blob in rows])
+    found = defaultdict[int, dict[str, Vector]](CheckedTraits if right else dict)
     for key, cue, blob in rows:
         found[key][cue] = floats(blob)
     return found
 
 
 def _are_finite(blobs: list[bytes]) -> bool:
-    """Are all these finite numbers, as far as they are numbers at all?"""
+    """Does each blob consist of finite numbers, as `floats` decodes them?"""
     if any(len(blob) % _FLOAT.itemsize for blob in blobs):
         return False
     return bool(np.isfinite(floats(b"".join(blobs))).all())

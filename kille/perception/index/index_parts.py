@@ -100,7 +100,8 @@ class Exact:
         """
         firsts, same, _ = repeats
         reach = distance + repeats.reach() + _ROUNDING
-        near, often = self._near(query[firsts], 1 - reach**2 / 2)
+        least = np.asarray(1 - reach**2 / 2, np.float32)
+        near, often = self._near(query[firsts], least)
         width = max(_CLOSE, len(self._words))
         words = np.full((len(query), width), NOBODY)
         far = np.full((len(query), width), np.inf, np.float32)

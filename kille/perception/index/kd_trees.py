@@ -58,7 +58,8 @@ class Trees:
         they take three quarters of the time, since caches hold that part.
         """
         sides = projected[:, :_SIDES] > self._middle
-        return sides @ (1 << np.arange(_SIDES)[::-1])
+        codes: NDArray[np.intp] = sides @ (1 << np.arange(_SIDES)[::-1])
+        return codes
 
 
 def _sample_rows(blocks: Sequence[Descriptors]) -> Rows:

@@ -8,6 +8,7 @@ from tabletop import prototypes
 
 from kille.perception.index import (
     AGAIN,
+    NOBODY,
     Index,
     Repeats,
     Rows,
@@ -89,8 +90,16 @@ def test_scans_without_features_repeat_nothing() -> None:
     firsts, same, _ = find_repeats(rows_of(scans), scans)
     assert firsts[same].tolist() == list(range(len(some.pixels)))
     none = rows_of([nothing])
-    found = taught().neighbours(none, find_repeats(none, [nothing]))
-    assert found.distances.size == 0
+    for within in (None, 0.45):
+        found = taught().neighbours(none, find_repeats(none, [nothing]), within)
+        assert len(found.distances) == 0
+
+
+def test_nobody_is_near_in_an_index_without_views() -> None:
+    _, query, repeats = looked()
+    found = Index().neighbours(query, repeats, 0.45)
+    assert (found.words == NOBODY).all()
+    assert np.isinf(found.distances).all()
 
 
 @pytest.mark.parametrize(("tail", "few"), [(4000, 0), (100, 0), (100, 20_000)])
