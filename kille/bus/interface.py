@@ -23,8 +23,8 @@ class Subscription(Protocol):
     >>> listening: Subscription = bus.subscribe(Topic("words", Text), print)
     >>> listening.trouble
     ''
-    >>> listening.close(), bus.close()
-    (None, None)
+    >>> listening.close()
+    >>> bus.close()
     """
 
     @property

@@ -139,11 +139,8 @@ def _speech_type(types: DialogueTypes, act: str) -> RecordType:
 def issue(ask: str, options: Iterable[Record]) -> Record:
     """The question which of these moves the tutor meant.
 
-    >>> from kille.dialogue.meanings import meaning_in
-    >>> from kille.dialogue.state import initial
-    >>> s = plan(initial(), "AssertName", meaning_in("cup", "Naming"))
-    >>> issue("which", []).ask
-    'which'
+    >>> print(issue("name", [record(x="o1"), record(x="o2")]))
+    {ask = name, options = [{x = o1}, {x = o2}]}
     """
     return record(ask=ask, options=tuple(options))
 
