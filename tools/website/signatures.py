@@ -6,7 +6,7 @@ import ast
 import inspect
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ForwardRef
 
 from tools.website.public_names import PublicName, named_in
 
@@ -135,6 +135,8 @@ def _annotation_text(annotation: object) -> str:
         return annotation.strip("'\"")
     if annotation is None:
         return "None"
+    if isinstance(annotation, ForwardRef):
+        return annotation.__forward_arg__
     return getattr(annotation, "__name__", str(annotation))
 
 

@@ -35,7 +35,9 @@ from tools.website.public_names import (
     public_names,
     public_rooms,
 )
+from tools.website.signatures import signature_of
 from tools.website.source_pages import file_page
+from ttr.probability import Chance
 
 
 def test_every_public_name_has_a_page_and_every_room_an_index() -> None:
@@ -65,6 +67,11 @@ def test_the_example_of_a_value_is_true(value: PublicName) -> None:
     test = doctest.DocTestParser().get_doctest(value.doc, {}, value.path, None, 0)
     flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
     assert doctest.DocTestRunner(optionflags=flags).run(test).failed == 0
+
+
+def test_the_signature_of_a_named_tuple_has_types_as_they_are_written() -> None:
+    written = signature_of(Chance, "ttr.probability.event_probability")
+    assert [it.type for it in written.parameters][:2] == ["Degree", "bool"]
 
 
 def test_a_docstring_keeps_its_formulas_and_examples() -> None:
