@@ -34,9 +34,26 @@ def is_weak(it: Sentence, situation: Situation, lists: WordLists) -> bool:
         return True
     return all(
         "doubt" in one.type
+        or _breaks_off(one)
+        or _says_kind(one, situation, lists)
         or any(_is_odd(sign, situation.qualities, lists) for sign in one.signs)
         for one in it.readings
     )
+
+
+def _says_kind(it: Utterance, situation: Situation, lists: WordLists) -> bool:
+    """Whether a kind is said as if it were how things are: "Knives are cutlery."."""
+    if predicate_at(it.type, "e").name != "generalise":
+        return False
+    hows = [sign.form for sign in it.signs if sign.kind == "adjective"]
+    return any(how not in situation.known and lists.judge_quality(how) for how in hows)
+
+
+def _breaks_off(it: Utterance) -> bool:
+    """Whether a clause ends with what is read as a relation: "It is red, …"."""
+    text = " ".join(it.text.lower().split())
+    relations = (sign.form for sign in it.signs if sign.kind == "relation")
+    return any(re.search(rf"\b{re.escape(one)}\s*[,;:]", text) for one in relations)
 
 
 def _is_mention(it: Sentence) -> bool:
