@@ -117,7 +117,7 @@ def hear_in_parts(
     >>> text = "Hang on. I have found a whisk! What is this?"
     >>> heard = hear_in_parts(understand(text), Situation(things=1))
     >>> [it.readings[0].type["e"].pred.name for it in heard.moves]
-    ['hold_floor', 'ask_name', 'instruct']
+    ['ask_name', 'instruct']
     """
     lists = word_lists(language)
     types = types or packaged_types()
