@@ -53,6 +53,30 @@ def test_what_holds_is_told_with_what_was_covered(capsys):
     assert "talk: holds, 20 dialogues in " in printed
 
 
+def test_a_rule_that_never_applied_is_told_whatever_else_is(capsys, folder):
+    dead = """
+    Five := [facts = [hi, hi, ho, ho, hi] : Words]
+    rule rest(s : Board /\\ Five, e : Saying) := [facts = [e.w] : Words]
+    game talk({facts = []} : Board) := first(rest, note)
+"""
+    for name, text in (("dead", GOOD), ("both", FORGETFUL)):
+        rules = text[: text.index("    game")]
+        (folder / f"{name}.ttr").write_text(rules + dead)
+    assert main(["test", "dead.ttr", "--examples", "5"]) == 0
+    printed = capsys.readouterr().out
+    assert "P26 (no qud)" in printed
+    assert " of 5,000 turns); never applied: rest\n" in printed
+    assert "talk: holds, but rest was never applied, 5 dialogues in " in printed
+    assert main(["test", "both.ttr", "--examples", "30"]) == 1
+    printed = capsys.readouterr().out
+    assert printed.startswith("P10 commitments stay: ")
+    assert "P6 (" in printed
+    assert "never applied: rest\n" in printed
+    assert main(["test", "both.ttr", "--examples", "30", "--json"]) == 1
+    (facts,) = json.loads(capsys.readouterr().out)
+    assert "P6" in facts["not_checked"]
+
+
 def test_what_breaks_is_told_as_a_story_that_can_be_played(capsys, folder):
     assert main(["test", "bad.ttr", "--examples", "50"]) == 1
     printed = capsys.readouterr().out

@@ -44,7 +44,9 @@ class Report(NotebookValue):
 
     `coverage` is what the dialogues covered, `roles` which field played which role;
     `skipped` are the properties that could not be checked, with the roles that no field
-    plays. `overall` are the properties that the dialogues break together, and why.
+    plays. `overall` are the properties that the dialogues break together, and why;
+    `undecided` are those for which there were too few, and of what there was too
+    little. Dialogues end with the first that fails, and may be too few then.
 
     >>> from ttr import Theory
     >>> theory = Theory.parse('''
@@ -64,6 +66,7 @@ class Report(NotebookValue):
     broken: Failure[Breach] | None = None
     overall: tuple[tuple[Property, str], ...] = ()
     skipped: tuple[tuple[Property, tuple[str, ...]], ...] = ()
+    undecided: tuple[tuple[Property, str], ...] = ()
     roles: Roles = field(default_factory=Roles)
 
     @property
@@ -186,8 +189,9 @@ class Suite:
         return Report(
             coverage,
             broken=broken,
-            overall=() if broken else tuple(self._overall(coverage)),
+            overall=tuple(self._overall(coverage)),
             skipped=tuple((one, lacking) for one, lacking in skipped if lacking),
+            undecided=tuple(self._undecided(coverage)),
             roles=roles,
         )
 
@@ -212,6 +216,11 @@ class Suite:
         for one in self.properties:
             if one.overall is not None and (why := one.overall(coverage)):
                 yield one, why
+
+    def _undecided(self, coverage: Coverage) -> Iterable[tuple[Property, str]]:
+        for one in self.properties:
+            if one.shortfall is not None and (lacking := one.shortfall(coverage)):
+                yield one, lacking
 
 
 def _breach_of_determinism(error: UnsteadyError) -> Breach:

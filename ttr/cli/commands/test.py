@@ -190,7 +190,7 @@ class _Outcome:
 
     def format_report(self) -> str:
         """The report for people: what went wrong, and what was covered."""
-        known = "\n".join(filter(None, [self._roles(), self._skipped_properties()]))
+        known = "\n".join(filter(None, [self._roles(), self._what_is_open()]))
         parts = [self._failures(), self.coverage.table(), known, self._summary()]
         return "\n\n".join(filter(None, parts)) + "\n"
 
@@ -205,14 +205,20 @@ class _Outcome:
             return ""
         return f"{DETERMINISTIC}: {DETERMINISTIC.says}\n{self.across}"
 
-    def _skipped_properties(self) -> str:
-        if self.report is None or not self.report.skipped:
+    def _what_is_open(self) -> str:
+        """Which properties were not checked and why, and which rules never applied."""
+        if self.report is None:
             return ""
         lacking: dict[str, list[str]] = {}
         for one, no in self.report.skipped:
-            lacking.setdefault(", ".join(no), []).append(one.name)
-        told = [f"{', '.join(names)} (no {no})" for no, names in lacking.items()]
-        return f"not checked: {'; '.join(told)}"
+            lacking.setdefault(f"no {', '.join(no)}", []).append(one.name)
+        for one, few in self.report.undecided:
+            lacking.setdefault(few, []).append(one.name)
+        told = [f"{', '.join(names)} ({why})" for why, names in lacking.items()]
+        parts = [f"not checked: {'; '.join(told)}"] if told else []
+        if not self.report.faults and (never := self.coverage.missed_rules):
+            parts.append(f"never applied: {', '.join(never)}")
+        return "; ".join(parts)
 
     def _roles(self) -> str:
         """Which paths were taken for which roles, and how to change that."""
@@ -227,7 +233,13 @@ class _Outcome:
         took = f"{count} dialogue{'s' * (count != 1)} in {self.seconds:.1f} s"
         if self.report is None:
             return f"{name}: stopped after {took}"
-        return f"{name}: {'holds' if self.code == FINE else 'breaks'}, {took}"
+        if self.code != FINE:
+            return f"{name}: breaks, {took}"
+        never = self.coverage.missed_rules
+        if not never:
+            return f"{name}: holds, {took}"
+        verb = "was" if len(never) == 1 else "were"
+        return f"{name}: holds, but {', '.join(never)} {verb} never applied, {took}"
 
     def facts(self) -> dict[str, Any]:
         """The report as a JSON object."""
@@ -247,7 +259,8 @@ class _Outcome:
                 {"property": one.name, "why": why} for one, why in report.overall
             ]
             facts["roles"] = report.roles.paths
-            facts["not_checked"] = [one.name for one, _ in report.skipped]
+            open_ones = (*report.skipped, *report.undecided)
+            facts["not_checked"] = [one.name for one, _ in open_ones]
         return facts
 
 

@@ -24,8 +24,9 @@ class Property:
 
     `says` states it in a line. `each` finds where a dialogue breaks it. `overall` says
     why many dialogues together break it, by the rules that they covered; so does
-    `across`, by what they put on and took off the lists of the state. `needs` are the
-    roles without which it cannot be checked.
+    `across`, by what they put on and took off the lists of the state. `shortfall` says
+    what the dialogues lack for `overall` to judge, as in "90 of 5,000 turns"; it is
+    empty if they do not. `needs` are the roles without which it cannot be checked.
 
     >>> def find_long_states(dialogue, roles):
     ...     for turn, state in enumerate(dialogue.states):
@@ -42,6 +43,7 @@ class Property:
     each: Callable[[Dialogue, Roles], Breaches] | None = None
     overall: Callable[[Coverage], str] | None = None
     across: Callable[[DialogueCounts], Iterator[Finding]] | None = None
+    shortfall: Callable[[Coverage], str] | None = None
     needs: tuple[str, ...] = ()
 
     def __str__(self) -> str:

@@ -14,7 +14,13 @@ def _why_dead(coverage: Coverage) -> str:
         return ""
     names = ", ".join(coverage.missed_rules)
     verb = "is" if len(coverage.missed_rules) == 1 else "are"
-    return f"{names} {verb} never applied in {coverage.turns} turns"
+    return f"{names} {verb} never applied in {coverage.turns:,} turns"
+
+
+def _missing_turns(coverage: Coverage) -> str:
+    if coverage.turns >= ENOUGH or not coverage.missed_rules:
+        return ""
+    return f"{coverage.turns:,} of {ENOUGH:,} turns"
 
 
 NO_DEAD_RULE = Property(
@@ -22,4 +28,5 @@ NO_DEAD_RULE = Property(
     "no dead rule",
     "every rule is applied in some dialogue.",
     overall=_why_dead,
+    shortfall=_missing_turns,
 )
