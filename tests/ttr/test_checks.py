@@ -1129,6 +1129,70 @@ def test_moves_that_are_planned_without_saying_which():
     assert faults_of(theory.games["dogs"]) == ()
 
 
+CLERK = """
+    basic Ind, Topic
+    object guest, clerk : Ind
+    object museum : Topic
+    pred ask(Ind, Topic), tell(Ind, Topic), cancel(Ind, Topic)
+    Ask    := [spkr = guest : Ind, t : Topic, e : ask(spkr, t)]
+    Tell   := [spkr = clerk : Ind, t : Topic, e : tell(spkr, t)]
+    Cancel := [spkr = guest : Ind, t : Topic, e : cancel(spkr, t)]
+    Topics := list(Topic)
+    Moves  := list(RecType)
+    Board  := [qud : Topics, next : Moves]
+    Asked  := [qud : nelist(Topic)]
+    rule asked(s : Board, e : Ask) := [qud = [e.t] + s.qud : Topics]
+    rule plan(s : Board /\\ Asked /\\ [next = [] : Moves])
+        := [next = [[spkr = clerk : Ind, t = fst(s.qud) : Topic, e : tell(spkr, t)]]
+                + rst(s.next) : Moves]
+    rule told(s : Board /\\ Asked, e : Tell)
+        := [qud = rst(s.qud) : Topics, next = [] : Moves]
+    rule cancelled(s : Board /\\ Asked, e : Cancel) := [qud = rst(s.qud) : Topics]
+    game desk({qud = [], next = []} : Board, acts on next, hears Ask, Cancel)
+        := first(asked, told, cancelled, plan)
+"""
+
+
+@pytest.mark.parametrize(
+    ("written", "instead", "message", "hint"),
+    [
+        (
+            "hears Ask, Cancel",
+            "hears Ask",
+            "the rule cancelled waits for an event of Cancel that nobody sends",
+            "what is heard is Ask",
+        ),
+        (
+            "cancelled, plan)",
+            "cancelled)",
+            "the rule told waits for an event of Tell that nobody sends",
+            "plan plans one, but is not in desk: add it to the strategy",
+        ),
+        (
+            "told, cancelled, plan",
+            "told, plan",
+            "the game hears events of Cancel, which no rule takes",
+            "cancelled takes them, but is not in desk: add it to the strategy",
+        ),
+        (
+            "[e.t] + s.qud",
+            "e.t + s.qud",
+            "the rule asked sets qud to a list and e.t, which is of Topic",
+            "a list of one is written in brackets: [e.t]",
+        ),
+    ],
+)
+def test_a_planned_move_that_depends_on_the_state_is_still_of_a_type(
+    written, instead, message, hint
+):
+    assert faults_of(Theory.parse(CLERK).games["desk"]) == ()
+    assert written in CLERK
+    game = Theory.parse(CLERK.replace(written, instead)).games["desk"]
+    fault = next(one for one in faults_of(game) if one.message == message)
+    assert fault.hint == hint
+    assert fault.span is not None
+
+
 def test_events_that_are_heard_and_that_no_rule_takes():
     hello, bye = rectype(e=hug("a")), rectype(e=run_("a"))
     greet = made("greet", Phased, on=hello)

@@ -1032,3 +1032,38 @@ def test_a_session_with_rules_is_saved_and_loaded(tmp_path: Path) -> None:
     found = reply.session.theory
     assert list(found.rules) == ["turn", "drop", "plan"]
     assert respond(reply.session, "g()").text == REPLIES["g()"]
+
+
+def plan_of(event, item, where=""):
+    """A theory whose rule plans a move with content; its event has the given name."""
+    return f"""
+        basic Ind
+        object robot : Ind
+        pred ask(Ind), ok(Ind, Ind)
+        Ask := [i : Ind, e : ask(i)]
+        Board := [agenda : list(RecType)]
+        rule asked(s : Board, {event} : Ask) {where}
+            := [agenda = [[i = {item} : Ind, e : ok('robot', i)]] : list(RecType)]
+    """
+
+
+@pytest.mark.parametrize("item", ["e.i", "^.e.i"])
+def test_a_label_that_hides_the_event_is_told_with_two_ways_out(item):
+    with pytest.raises(TTRError) as refused:
+        Theory.parse(plan_of("e", item))
+    error = refused.value
+    assert error.message.startswith("the path e.i leads nowhere: ")
+    assert error.hint == (
+        "the label e hides the event e: "
+        "bind it, where [it = e.i : Ind], or write ^^.e.i"
+    )
+    assert error.span.text[error.span.column - 1 :].startswith(item)
+
+
+def test_the_ways_out_of_a_hidden_event_lead_out():
+    for text in (
+        plan_of("e", "^^.e.i"),
+        plan_of("e", "it", "where [it = e.i : Ind]"),
+        plan_of("ev", "ev.i"),
+    ):
+        assert "asked" in Theory.parse(text).rules

@@ -161,7 +161,8 @@ class Opening:
     """How a theory declares a game: all of it but the model in which it is played.
 
     `start` is its first state, of `type`; `agenda` is the path of planned moves;
-    `hears` are the types of events from outside, where these are restricted.
+    `hears` are the types of events from outside, where these are restricted, and
+    `heard_at` the places where these types are written.
     """
 
     name: str
@@ -171,6 +172,7 @@ class Opening:
     agenda: str | None = None
     span: Span | None = None
     hears: tuple[TypeNode, ...] = ()
+    heard_at: tuple[Span, ...] = ()
 
 
 def _no_definitions() -> Mapping[str, Object]:

@@ -37,7 +37,8 @@ def read_game(tree: GameStatement, reader: Reader) -> Opening:
     agenda = _agenda(tree.agenda, state, reader) if tree.agenda else None
     span = reader.source.span(tree.begin)
     hears = tuple(reader.type(T, ()) for T in tree.hears)
-    return Opening(tree.name.text, state, start, played, agenda, span, hears)
+    heard_at = tuple(map(reader.source.span, tree.hears))
+    return Opening(tree.name.text, state, start, played, agenda, span, hears, heard_at)
 
 
 def _agenda(term: Term, state: RecordType, reader: Reader) -> str:

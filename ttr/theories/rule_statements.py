@@ -18,6 +18,7 @@ from ttr.notation.error_location import is_ill_formed, locate_error
 from ttr.notation.reader import Reader
 from ttr.notation.syntax_trees import (
     Degree,
+    Fields,
     Items,
     Name,
     Parameter,
@@ -194,6 +195,12 @@ class _RuleReader:
 
     def _body(self, around: RecordType) -> Object:
         """What the rule gives: a record type, a record, or a term that becomes one."""
+        try:
+            return self._read_body(around)
+        except IllFormedError as error:
+            raise self._explain_hiding(error, around) from None
+
+    def _read_body(self, around: RecordType) -> Object:
         term = self.tree.value
         found = self.within.object(term, (frozenset(around),))
         found = _merge_meet(found, self.reader)
@@ -242,6 +249,37 @@ class _RuleReader:
                 hidden if label in around else "say what it is set to",
             )
 
+    def _explain_hiding(self, error: TTRError, around: RecordType) -> TTRError:
+        """An error about a path, with a hint if a label hides a variable in it."""
+        scopes = [it for it in inside(self.tree.value) if isinstance(it, Fields)]
+        for name in inside(self.tree.value):
+            if not isinstance(name, Name) or name.labels[0] not in around:
+                continue
+            variable, written = name.labels[0], ".".join(name.labels)
+            if not error.message.startswith(f"the path {written} leads nowhere"):
+                continue
+            above = [it for it in scopes if it.start <= name.start < it.end]
+            meant = _field_or_none(Path(0, name.labels), around)
+            if meant is None or not above:
+                continue
+            cause = f"{self._describe(variable)} is {len(above)} records further out"
+            if any(variable in _labels_of(scope) for scope in above):
+                cause = f"the label {variable} hides {self._describe(variable)}"
+            hint = (
+                f"{cause}: bind it, where [it = {written} : {meant}], "
+                f"or write {'^' * len(above)}.{written}"
+            )
+            span = self.reader.source.span(name)
+            return type(error)(error.message, hint=hint, span=span)
+        return error
+
+    def _describe(self, variable: str) -> str:
+        """A variable of the rule, as what it is: the state s, the event e."""
+        names = [one.name.text for one in self.given]
+        if variable not in names:
+            return f"what where binds as {variable}"
+        return f"the {('state', 'event')[names.index(variable)]} {variable}"
+
     def _refuse_path(self, term: Term, path: Path, error: TTRError) -> NoReturn:
         """Refuse a path where it is written, and say where its type comes from."""
         variable = path.labels[0]
@@ -249,6 +287,17 @@ class _RuleReader:
             hint = f"what {variable} has is said in the brackets: {variable} : [x : T]"
             error = type(error)(error.message, hint=hint)
         raise error.at(self.reader.source.span(_locate_path(term, path))) from None
+
+
+def _labels_of(scope: Fields) -> Iterator[str]:
+    return (field.label.text for field in scope.fields)
+
+
+def _field_or_none(path: Path, T: RecordType) -> TypeNode | None:
+    try:
+        return field_at_path(path, T)
+    except IllFormedError:
+        return None
 
 
 def _self_references(value: Object) -> Iterator[Path]:

@@ -99,8 +99,18 @@ def faults_of(game: Game) -> tuple[Fault, ...]:
     the rule close writes opne, but a state has no opne
     """
     agenda = None if game.agenda is None else tuple(game.agenda.split("."))
+    theory = game.theory
+    opening = theory.openings.get(game.name) if theory else None
     rules = RuleSet(
-        game.algorithm, game.type, game.start, game.model, game.hears, agenda
+        game.algorithm,
+        game.type,
+        game.start,
+        game.model,
+        game.hears,
+        agenda,
+        game.name,
+        tuple(theory.rules.values()) if theory else (),
+        opening.heard_at if opening and opening.hears == game.hears else (),
     )
     return _find_faults(rules)
 

@@ -10,11 +10,12 @@ from typing import TypeAlias
 from ttr.computing.case_analysis import cases_or_whole
 from ttr.computing.prover import Prover
 from ttr.computing.subtyping import subtype
-from ttr.errors import TTRError
+from ttr.errors import Span, TTRError
 from ttr.judging.models import Model
 from ttr.persistent_maps import Map
 from ttr.probability import REFUTED
 from ttr.signature.signature import Signature
+from ttr.types.interning import identity
 from ttr.types.objects import Object, Path, Record
 from ttr.types.paths import free_paths, subterms
 from ttr.types.syntax import (
@@ -61,8 +62,10 @@ def _summarise(rule: Rule) -> EffectSummary:
 class RuleSet:
     """The rules of a strategy, the type of its states, and the state it starts from.
 
-    `hears` are the types of the events from outside; if it is empty, any may come.
-    `agenda` is the path of the planned moves, if there is one.
+    `hears` are the types of the events from outside; if it is empty, any may come, and
+    `heard_at` the places where they are written. `agenda` is the path of the planned
+    moves, if there is one. `game` is the name of the game that the rules are those of,
+    and `known` are the rules of its theory, whether they are in the game or not.
     """
 
     algorithm: Algorithm
@@ -71,6 +74,9 @@ class RuleSet:
     model: Model
     hears: tuple[TypeNode, ...]
     agenda: Labels | None = None
+    game: str = ""
+    known: tuple[Rule, ...] = ()
+    heard_at: tuple[Span, ...] = ()
 
     @cached_property
     def rules(self) -> tuple[Rule, ...]:
@@ -81,6 +87,27 @@ class RuleSet:
     def summaries(self) -> Mapping[Rule, EffectSummary]:
         """What each rule's effect reads and writes."""
         return {rule: _summarise(rule) for rule in self.rules}
+
+    def summary_of(self, rule: Rule) -> EffectSummary:
+        """What the effect of any rule reads and writes, also of one left out."""
+        return self.summaries[rule] if rule in self.summaries else _summarise(rule)
+
+    @cached_property
+    def left_out(self) -> tuple[Rule, ...]:
+        """The rules of the theory that the strategy of the game leaves out."""
+        played = set(map(id, self.rules))
+        return tuple(rule for rule in self.known if id(rule) not in played)
+
+    def name_of(self, T: TypeNode) -> str:
+        """The name by which the theory defines a type, or else the type as text."""
+        return self._names.get(identity(T), str(T))
+
+    @cached_property
+    def _names(self) -> Mapping[object, str]:
+        names: dict[object, str] = {}
+        for name, value in self.model.theory.definitions.items():
+            names.setdefault(identity(value), name)
+        return names
 
     @cached_property
     def demands(self) -> Mapping[Rule, tuple[Demand, ...]]:

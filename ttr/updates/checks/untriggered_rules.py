@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeAlias
 
-from ttr.types.objects import Path
+from ttr.types.objects import Object, Operation, Path
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.syntax import Singleton, TypeNode
+from ttr.types.syntax import RecordType, Singleton, TypeNode
 from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import Demand, RuleSet
@@ -79,9 +80,15 @@ def _first_unmet(rules: RuleSet, rule: Rule, firing: list[Rule]) -> Demand | Non
 def _untriggered_fault(rules: RuleSet, rule: Rule, unmet: Demand) -> Fault:
     path, T = unmet
     if not path:
-        message = f"the rule {rule} waits for an event of {T} that nobody sends"
-        known = ", ".join(map(str, rules.hears))
-        return Fault(rule, "unset", message, f"what is heard is {known}", rule.span)
+        message = (
+            f"the rule {rule} waits for an event of {rules.name_of(T)} "
+            "that nobody sends"
+        )
+        known = ", ".join(map(rules.name_of, rules.hears))
+        planning = [one for one in rules.left_out if _may_plan(rules, one, T)]
+        hint = _hint_left_out(rules, planning, "plans one")
+        hint = hint or f"what is heard is {known}"
+        return Fault(rule, "unset", message, hint, rule.span)
     at = ".".join(path)
     asked = f"is {notation(T.value)}" if isinstance(T, Singleton) else f"is of {T}"
     message = (
@@ -89,7 +96,20 @@ def _untriggered_fault(rules: RuleSet, rule: Rule, unmet: Demand) -> Fault:
         "which neither the start nor any rule before it brings about"
     )
     span = span_of_label(rule, path[-1], path, "when")
-    return Fault(rule, "unset", message, f"let a rule set {at}", span)
+    setting = [
+        one
+        for one in rules.left_out
+        if rules.summary_of(one).complete and may_set(rules, one, path, T)
+    ]
+    hint = _hint_left_out(rules, setting, f"sets {at}") or f"let a rule set {at}"
+    return Fault(rule, "unset", message, hint, span)
+
+
+def _hint_left_out(rules: RuleSet, helpful: list[Rule], does: str) -> str:
+    """A hint to a rule that would help, but is in no strategy of the game."""
+    if not helpful:
+        return ""
+    return f"{helpful[0]} {does}, but is not in {rules.game}: add it to the strategy"
 
 
 # --- states --------------------------------------------------------------------------
@@ -103,7 +123,7 @@ def may_set(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> bool:
 
 
 def _may_set_place(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> bool:
-    summary = rules.summaries[rule]
+    summary = rules.summary_of(rule)
     if rule.gives is not None:
         promised = views_along(rule.gives, path)
         if promised and all(rules.excludes(view, T) for view in promised):
@@ -140,11 +160,21 @@ def _may_bring(
 def find_untaken_events(rules: RuleSet) -> Iterator[Fault]:
     """The types of events that the game says it hears, but no rule takes."""
     taken = event_types(rules.rules)
-    for heard in rules.hears:
-        if not any(rules.may_coincide(heard, on) for on in taken):
-            message = f"the game hears events of {heard}, which no rule takes"
-            hint = "write a rule for them, or leave it out"
-            yield Fault(None, "unheard", message, hint)
+    for number, heard in enumerate(rules.hears):
+        if any(rules.may_coincide(heard, on) for on in taken):
+            continue
+        message = (
+            f"the game hears events of {rules.name_of(heard)}, which no rule takes"
+        )
+        taking = [
+            rule
+            for rule in rules.left_out
+            if rule.on is not None and rules.may_coincide(heard, rule.on)
+        ]
+        hint = _hint_left_out(rules, taking, "takes them")
+        hint = hint or "write a rule for them, or leave it out"
+        span = rules.heard_at[number] if rules.heard_at else None
+        yield Fault(None, "unheard", message, hint, span)
 
 
 def _is_sent(rules: RuleSet, on: TypeNode, firing: list[Rule]) -> bool:
@@ -155,29 +185,81 @@ def _is_sent(rules: RuleSet, on: TypeNode, firing: list[Rule]) -> bool:
         return True
     if rules.agenda is None:
         return False
-    planned = _planned_moves(rules, rules.agenda, firing)
-    return planned is None or any(rules.may_coincide(move, on) for move in planned)
+    begun = views_along(Term(rules.start), rules.agenda)
+    values = [view.value for view in begun if isinstance(view, Term)]
+    if any(_may_be_one(rules, _moves_in(value, None), on) for value in values):
+        return True
+    return any(_may_plan(rules, rule, on) for rule in firing)
 
 
-def _planned_moves(
-    rules: RuleSet, agenda: Labels, firing: list[Rule]
-) -> list[TypeNode] | None:
-    """The types of the moves that may be planned; None if they may be any."""
-    start = views_along(Term(rules.start), agenda)
-    values = [view.value for view in start if isinstance(view, Term)]
-    for rule in firing:
-        summary = rules.summaries[rule]
-        if not summary.complete:
+def _may_plan(rules: RuleSet, rule: Rule, on: TypeNode) -> bool:
+    """May a rule plan a move of a type?"""
+    return rules.agenda is not None and _may_be_one(
+        rules, _moves_planned_by(rules, rule, rules.agenda), on
+    )
+
+
+_Moves: TypeAlias = tuple[TypeNode, ...] | None
+"""Types of moves; None if they may be any."""
+
+
+def _may_be_one(rules: RuleSet, moves: _Moves, on: TypeNode) -> bool:
+    return moves is None or any(rules.may_coincide(move, on) for move in moves)
+
+
+def _moves_planned_by(rules: RuleSet, rule: Rule, agenda: Labels) -> _Moves:
+    """The types of the moves that a rule may put on the agenda.
+
+    What depends on the state or the event is left out of them.
+    """
+    summary = rules.summary_of(rule)
+    if not summary.complete:
+        return None
+    planned: list[TypeNode] = []
+    for write in summary.writes:
+        if not overlap(write.path, agenda):
+            continue
+        if write.path != agenda or write.term is None:
             return None
-        for write in summary.writes:
-            if not overlap(write.path, agenda):
-                continue
-            if (
-                write.path != agenda
-                or write.term is None
-                or free_paths(write.term.value)
-            ):
-                return None
-            values.append(write.term.value)
-    lists = (value for value in values if isinstance(value, tuple))
-    return [move for moves in lists for move in moves if isinstance(move, TypeNode)]
+        moves = _moves_in(write.term.value, Path(0, (rule.names[0], *agenda)))
+        if moves is None:
+            return None
+        planned += moves
+    return tuple(planned)
+
+
+def _moves_in(value: Object, agenda: Path | None) -> _Moves:
+    """The types of moves in a list; what is on the agenda already adds none."""
+    match value:
+        case Operation("+", parts):
+            found = [_moves_in(part, agenda) for part in parts]
+        case Operation("rst", (rest,)):
+            return _moves_in(rest, agenda)
+        case tuple():
+            found = [_wider_move(one) for one in value]
+        case _:
+            return () if agenda is not None and value == agenda else None
+    if any(moves is None for moves in found):
+        return None
+    return tuple(move for moves in found for move in moves or ())
+
+
+def _wider_move(value: Object) -> _Moves:
+    T = _independent_type(value, 0) if isinstance(value, TypeNode) else None
+    return None if T is None else (T,)
+
+
+def _independent_type(T: TypeNode, depth: int) -> TypeNode | None:
+    """A type that all of T is of, whatever the variables of the rule are.
+
+    T stands `depth` record types further in. None if no such type is known.
+    """
+    if all(path.up < depth for path in free_paths(T)):
+        return T
+    match T:
+        case RecordType(fields):
+            wider = [(label, _independent_type(F, depth + 1)) for label, F in fields]
+            return RecordType(tuple((label, F) for label, F in wider if F is not None))
+        case Singleton(base, _):
+            return _independent_type(base, depth)
+    return None

@@ -8,7 +8,7 @@ from dataclasses import replace
 from ttr.building.merging import merge_meet
 from ttr.errors import Span
 from ttr.probability import REFUTED
-from ttr.types.objects import Object, Record
+from ttr.types.objects import Object, Operation, Path, Record
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.records import field_at
@@ -64,6 +64,8 @@ def _wrong_writes(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
             yield replace(fault, hint=_hint_to_merge(rules, brought[0], wanted))
         elif all(_lacks_brackets(rules, view, wanted) for view in brought):
             yield _bracket_warning(rule, write, brought[0], wanted)
+        elif write.term is not None:
+            yield from _unbracketed_parts(rules, rule, write, wanted)
 
 
 def _lacks_brackets(rules: RuleSet, view: View, wanted: TypeNode) -> bool:
@@ -88,6 +90,25 @@ def _bracket_warning(rule: Rule, write: Write, found: View, wanted: TypeNode) ->
     if isinstance(wanted, Basic):
         hint = "the first of a list a is fst(a)"
     return Fault(rule, "misfit", message, hint, write.span, "warning")
+
+
+def _unbracketed_parts(
+    rules: RuleSet, rule: Rule, write: Write, wanted: TypeNode
+) -> Iterator[Fault]:
+    """The parts of a + b that are of a basic type, where a list is due."""
+    value = write.term.value if write.term else None
+    for part in value.args if isinstance(value, Operation) else ():
+        if not isinstance(part, Path):
+            continue
+        found = rules.views_brought_by(rule, replace(write, term=Term(part), type=None))
+        if found and all(_lacks_brackets(rules, view, wanted) for view in found):
+            written = ".".join(part.labels)
+            message = (
+                f"the rule {rule} sets {'.'.join(write.path)} to a list and {written}, "
+                f"which is of {found[0]}"
+            )
+            hint = f"a list of one is written in brackets: [{written}]"
+            yield Fault(rule, "misfit", message, hint, write.span, "warning")
 
 
 def _wrong_promises(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
