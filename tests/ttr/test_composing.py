@@ -414,3 +414,28 @@ def test_a_function_and_its_expansion_are_two():
     applied = theory.parse(r"(\f:(Ind -> RecType). \v:Ind. f(v))(Man)(j)")
     assert equal(applied, theory.parse("Man(j)"), theory).yes
     assert equal(theory.parse(r"\v:Ind. Man(v)"), theory.Man, theory).yes
+
+
+def test_without_its_theory_a_sentence_with_a_name_is_not_compared_and_says_so():
+    english = Theory.parse(LEXICON)
+    narrow, wide = map(english.parse, ("John(Chase(Some(Red(Dog))))", SOME_DOG))
+    assert subtype(narrow, wide, theory=english).yes
+    answer = subtype(narrow, wide)
+    assert answer.unknown
+    assert "it is not known that j is of Ind" in answer.why
+    assert answer.why.endswith("a theory may say so: subtype(S, T, theory)")
+    refuted = subtype(english.parse("Some(Man)(Run)"), wide)
+    assert refuted.no
+    assert "it is not known that j is of Ind" in refuted.why
+
+
+SOME_DOG = "John(Chase(Some(Dog)))"
+
+
+def test_an_open_question_about_types_says_that_nothing_refutes_it():
+    theory = Theory.parse(LEXICON + "check Every(Man)(Run) <= Some(Man)(Run)")
+    (failure,) = check(theory).failures
+    assert failure.found == "unknown"
+    assert failure.why.endswith(
+        "has no field x, but no counterexample was found: there may be no witness"
+    )

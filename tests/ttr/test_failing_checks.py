@@ -5,7 +5,7 @@ import re
 import pytest
 from hypothesis import given
 
-from ttr import Theory, TTRError, check, consistent, subtype
+from ttr import Ind, Theory, TTRError, check, consistent, subtype
 from ttr.testing.strategies import types
 
 THEORY = r"""
@@ -134,3 +134,33 @@ def test_why_one_type_is_not_below_another_has_no_name_of_ours(S, T):
 )
 def test_places_have_names_that_can_be_read(claim, why):
     assert why in why_not(claim)
+
+
+def test_what_is_assumed_for_the_sake_of_argument_is_not_said_to_be_given():
+    theory = Theory.parse(
+        THEORY
+        + r"""
+        given s1 : dog(k)
+        check (\y:Ind. \b:man(y). s1) : ((y : Ind) -> (man(y) -> dog(y)))
+        """
+    )
+    (failure,) = check(theory).failures
+    assert "j : Ind   (given)" in failure.why
+    assert ": man(j)   (assumed)" in failure.why
+    refuted = subtype(theory.parse("[x : Ind]"), theory.parse("[x : Ind, c : dog(x)]"))
+    assert refuted.counter is not None
+    assert "a1 : Ind   (assumed)" in str(refuted.counter.model.judge("a1", Ind).why)
+
+
+def test_a_function_is_judged_at_the_object_that_its_domain_names():
+    theory = Theory.parse(
+        THEORY
+        + r"""
+        given s1 : dog(j)
+        check (\y:Ind. s1) : ((y : Ind@j) -> dog(y))
+        check (\y:Ind. \r:[c : man(y)]. {e = s1})
+            : ((y : Ind@j) -> ([c : man(y)] -> [e : dog(y)]))
+        check not (\y:Ind. s1) : ((y : Ind) -> dog(y))
+        """
+    )
+    assert check(theory).failures == ()

@@ -17,7 +17,7 @@ from ttr.types.syntax import Function, RecordType, TypeNode, as_type, kind_of
 
 
 @within_budget
-def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Function:
+def restrict(f: Function, S: TypeNode, /, theory: Signature | None = None) -> Function:
     r"""λv:merge(T, S). body: the function f = λv:T. body, only for what is also of S.
 
     Raises `IllFormedError` for what is no function, and where the domain is ill-formed
@@ -36,7 +36,7 @@ def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Fu
 
 
 @within_budget
-def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
+def fix(f: Function, /, theory: Signature | None = None) -> RecordType:
     r"""The fixed-point type of f = λr:S. T, for record types S and T.
 
     It is S merged with T, in which the paths from r are paths from the record itself:

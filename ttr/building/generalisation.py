@@ -47,7 +47,7 @@ from ttr.types.syntax import (
 
 @within_budget
 def common_supertype(
-    S: TypeNode, T: TypeNode, theory: Signature | None = None, /
+    S: TypeNode, T: TypeNode, /, theory: Signature | None = None
 ) -> TypeNode:
     """The most specific type above both that has no join but those they have.
 

@@ -16,7 +16,7 @@ from ttr.types.syntax import Meet, RecordType, Singleton, TypeNode, as_type, mee
 
 
 @within_budget
-def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeNode:
+def merge(S: TypeNode, T: TypeNode, /, theory: Signature | None = None) -> TypeNode:
     """The merge S ∧̣ T: what is of it is of S and of T, in the simplest form.
 
     If one is below the other it is that one. Record types are merged label by label,
@@ -93,7 +93,7 @@ def _merge_records(
 
 
 @within_budget
-def amerge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeNode:
+def amerge(S: TypeNode, T: TypeNode, /, theory: Signature | None = None) -> TypeNode:
     """The asymmetric merge: T wins wherever S and T are not both record types.
 
     Raises `IllFormedError` where a path of S would lead nowhere in the result.
@@ -131,7 +131,7 @@ def merge_meet(T: TypeNode) -> TypeNode:
 
 
 def singleton_type(
-    state: Record, T: RecordType, theory: Signature | None = None, /
+    state: Record, T: RecordType, /, theory: Signature | None = None
 ) -> RecordType:
     """T with every field set to what the record has there: the type of just it.
 

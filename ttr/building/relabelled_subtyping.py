@@ -59,7 +59,7 @@ def _left_open(error: TooLargeError, *_: object, **__: object) -> RelabelledAnsw
 
 @within_budget(otherwise=_left_open)
 def subtype_up_to_relabelling(
-    S: TypeNode, T: TypeNode, theory: Signature | None = None, /
+    S: TypeNode, T: TypeNode, /, theory: Signature | None = None
 ) -> RelabelledAnswer:
     """Is S a subtype of T for some relabelling of T?
 

@@ -38,7 +38,7 @@ from ttr.types.syntax import (
 
 
 @within_budget
-def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
+def wellformed(T: TypeNode, /, theory: Signature | None = None) -> Answer:
     """Does every path in T lead to a field that fits, and none in a circle?
 
     A type with a circle can be judged, but no witness of it can be created. With a

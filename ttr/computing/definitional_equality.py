@@ -24,7 +24,7 @@ def _left_open(error: TooLargeError, *_: object, **__: object) -> Answer:
 
 
 @within_budget(otherwise=_left_open)
-def equal(left: Object, right: Object, theory: Signature | None = None, /) -> Answer:
+def equal(left: Object, right: Object, /, theory: Signature | None = None) -> Answer:
     r"""Are two types or objects equal in the theory, by what they compute to?
 
     The answer is unknown where they differ and an application is kept, whose argument

@@ -56,7 +56,7 @@ from ttr.types.syntax import (
 
 
 @within_budget
-def normal_form(value: Object, theory: Signature | None = None, /) -> Object:
+def normal_form(value: Object, /, theory: Signature | None = None) -> Object:
     r"""What a type or an object computes to.
 
     Raises `IllFormedError` where the argument of a function cannot be in its domain.

@@ -208,7 +208,7 @@ class Prover:
         known = self._types_of(term)
         if any(one is T for one in known):
             return YES
-        if self.is_judged and _is_closed(term, T) and self.is_judged(term, T):
+        if self._is_judged_of(term, T):
             return YES
         found = self._prove_by_form(term, T, where)
         if found.yes:
@@ -220,6 +220,17 @@ class Prover:
         if isinstance(term, Application) and self._follows_from_function(term, T):
             return YES
         return found
+
+    def _is_judged_of(self, term: Object, T: TypeNode) -> bool:
+        """Is a term certainly of T in the model, with what places surely are?"""
+        if self.is_judged is None:
+            return False
+        wanted = self.witness.normalise(T)
+        return (
+            isinstance(wanted, TypeNode)
+            and _is_closed(term, wanted)
+            and self.is_judged(term, wanted)
+        )
 
     def _prove_by_form(self, term: Object, T: TypeNode, where: Where) -> Finding:
         match T:

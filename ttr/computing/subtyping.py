@@ -176,7 +176,7 @@ def _left_open(error: TooLargeError, *_: object, **__: object) -> Answer:
 
 
 @within_budget(otherwise=_left_open)
-def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Answer:
+def subtype(S: TypeNode, T: TypeNode, /, theory: Signature | None = None) -> Answer:
     """Is S a subtype of T, by structure and, with a theory, by its axioms?
 
     Record types: each field of T is in S, and there below; paths mean the same record,
@@ -296,19 +296,26 @@ def _refute(prover: Prover, T: TypeNode, found: Finding) -> Answer:
     """The answer no if there certainly is a counterexample, else unknown."""
     S = prover.S
     refutation = Refutation(S, T, prover.theory, found.assumed)
-    answer = Answer("no", lambda: found.why, refutation)
+    open_ = partial(_why_open, found, prover.theory, S, T)
+    answer = Answer("no", open_, refutation)
     if is_decided(prover, T) or answer.counter is not None:
         return answer
-    open_ = partial(_why_open, found, S, T)
-    if prover.witness.is_certain:
+    if open_presupposition(S, T):
         return Answer("unknown", open_)
+    if prover.witness.is_certain:
+        no_refutation = "but no counterexample was found: there may be no witness"
+        return Answer("unknown", lambda: f"{open_()}, {no_refutation}")
     return Answer("unknown", lambda: f"{open_()}, but nothing may be of {S}")
 
 
-def _why_open(found: Finding, *types: TypeNode) -> str:
-    """Why an answer is open: what is not derived, and what is presupposed."""
+def _why_open(found: Finding, theory: Signature, *types: TypeNode) -> str:
+    """What is not derived, and what is presupposed; and how to name the theory."""
     kept = open_presupposition(*types)
-    return f"{found.why}; {kept}" if kept else found.why
+    if not kept:
+        return found.why
+    is_missing = theory is signature_of(None)
+    way_out = "; a theory may say so: subtype(S, T, theory)" if is_missing else ""
+    return f"{found.why}; {kept}{way_out}"
 
 
 def is_decided(prover: Prover, T: TypeNode) -> bool:

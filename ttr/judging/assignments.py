@@ -70,7 +70,8 @@ class Assignment:
     fact mentions; `told` has the objects that were told to be of a type, each with its
     number, so that they have an order, and is another for a type of which anything was
     told anew; `created` counts the names given out, `facts` the facts told. `replaced`
-    is the last judgement whose degree took the place of another.
+    is the last judgement whose degree took the place of another. Facts that are told
+    after the first `assumed_after` are assumed, for the sake of argument.
     """
 
     theory: Signature
@@ -82,13 +83,14 @@ class Assignment:
     created: int = 0
     facts: int = 0
     replaced: Claim | None = None
+    assumed_after: int | None = None
 
     def degree_of(self, sit: Object, T: Atom) -> tuple[Degree, str]:
         """The probability of sit : T, and the rule that gives it."""
         facts = self.known.get(identity(sit), _EMPTY)
         told = facts.get(T)
         if told is not None and told in (CERTAIN, REFUTED):
-            return told, "given"
+            return told, "assumed" if self._is_assumed(sit, T) else "given"
         perceptual = head(T) in self.functions
         if told is None and perceptual and isinstance(T, Basic):
             seen = self.perceive(sit, T) or UNKNOWN
@@ -112,6 +114,18 @@ class Assignment:
                 return Degree(0.0, most), f"it may be {way}"
             failed = failed or f", not {way}"
         return REFUTED, f"nothing says so{failed}"
+
+    def _is_assumed(self, sit: Object, T: Atom) -> bool:
+        if self.assumed_after is None:
+            return False
+        number, _ = self.told[T][identity(sit)]
+        return number > self.assumed_after
+
+    def assuming(self) -> Assignment:
+        """The assignment in which all that is told from now on is assumed."""
+        if self.assumed_after is not None:
+            return self
+        return self._replace(assumed_after=self.facts)
 
     def _is_open(self, T: Atom) -> bool:
         """May other objects be of T than the facts say, by itself or by an axiom?"""

@@ -193,7 +193,8 @@ def _find_witness(
     `size` is how many elements the lists and sets in it have, if they may.
     """
     spend()
-    facts = Assignment(Signature(axioms=theory.axioms, exclusions=theory.exclusions))
+    known = Signature(axioms=theory.axioms, exclusions=theory.exclusions)
+    facts = Assignment(known).assuming()
     try:
         sit, facts = create_witness(facts, S, size)
         for term, T in assumed:

@@ -33,7 +33,7 @@ __all__ = ["apply", "content", "in_context", "strong", "weak"]
 
 
 def content(
-    bg: TypeNode, fg: Function | TypeNode, theory: Signature | None = None, /
+    bg: TypeNode, fg: Function | TypeNode, /, theory: Signature | None = None
 ) -> Record:
     """The parametric content {bg, fg}; a type as fg is the same in all contexts.
 

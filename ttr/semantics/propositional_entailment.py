@@ -18,7 +18,7 @@ __all__ = ["entails", "equivalent"]
 
 @within_budget
 def entails(
-    first: object, second: object, theory: Signature | None = None, /
+    first: object, second: object, /, theory: Signature | None = None
 ) -> Answer:
     """Is the second proposition true wherever the first is?
 
@@ -47,7 +47,7 @@ def entails(
 
 
 def equivalent(
-    first: object, second: object, theory: Signature | None = None, /
+    first: object, second: object, /, theory: Signature | None = None
 ) -> Answer:
     """Does each of two propositions entail the other?
 

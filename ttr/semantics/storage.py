@@ -141,7 +141,7 @@ class StoredQuantifier:
 
 @within_budget
 def readings(
-    sentence: Underspecified, theory: Signature | None = None, /
+    sentence: Underspecified, /, theory: Signature | None = None
 ) -> tuple[TypeNode, ...]:
     r"""The readings of an underspecified content: what its retrievals compute to.
 
@@ -171,7 +171,7 @@ def readings(
 
 
 def type_of_readings(
-    sentence: Underspecified, theory: Signature | None = None, /
+    sentence: Underspecified, /, theory: Signature | None = None
 ) -> TypeNode:
     """The type of the readings: a content is of it iff it is one of them.
 

@@ -226,7 +226,7 @@ def _limit_answer(found: _Applied, answer: Answer, question: str) -> ModalAnswer
 
 @within_budget
 def combine_topoi(
-    first: Topos, second: Topos, theory: Signature | None = None, /
+    first: Topos, second: Topos, /, theory: Signature | None = None
 ) -> Topos:
     r"""The merge of two topoi: of situations of both backgrounds, both can be expected.
 
@@ -247,7 +247,7 @@ def combine_topoi(
 
 
 def compatible(
-    first: Topos, second: Topos, theory: Signature | None = None, /
+    first: Topos, second: Topos, /, theory: Signature | None = None
 ) -> Answer:
     """Can what two topoi let expect of one situation be the case together?
 
@@ -267,7 +267,7 @@ def compatible(
 
 
 def underpins(
-    warrant: Topos, enthymeme: Topos, theory: Signature | None = None, /
+    warrant: Topos, enthymeme: Topos, /, theory: Signature | None = None
 ) -> Answer:
     r"""Does the topos underpin the enthymeme, that is, draw its conclusion?
 
