@@ -439,3 +439,37 @@ def test_an_open_question_about_types_says_that_nothing_refutes_it():
     assert failure.why.endswith(
         "has no field x, but no counterexample was found: there may be no witness"
     )
+
+
+@pytest.mark.parametrize(
+    ("text", "function", "domain", "argument"),
+    [
+        ("Some(Man)(Chase(Dog))", "Chase", "Quantifier", "Dog"),
+        ("Chase(Man)(Some(Dog))", "Chase", "Quantifier", "Man"),
+        ("Red(Some)(Man)", "Red", "Property", "Some"),
+        ("Dog('zoe')", "Dog", "Ind", "zoe"),
+    ],
+)
+def test_a_sentence_that_does_not_compute_is_a_warning(
+    text, function, domain, argument
+):
+    named = "Property := (Ind -> RecType)\nQuantifier := (Property -> RecType)\n"
+    report = check(Theory.parse(f"{LEXICON}{named}X := {text}\nY := Some(Man)(Run)"))
+    (fault,) = report.faults
+    assert report.holds
+    assert report.summary == "0 checks hold, no fault and 1 warning"
+    assert fault.span is not None
+    assert fault.message == (
+        f"X does not compute: {function} takes what is of {domain}, "
+        f"and it is not known that {argument} is"
+    )
+
+
+def test_a_predicate_in_place_of_a_noun_is_told_with_the_noun():
+    with pytest.raises(IllFormedError) as refused:
+        Theory.parse(LEXICON + "X := Some(man)(Run)")
+    error = refused.value
+    assert (
+        error.message == "Some takes objects of (Ind -> RecType), and man cannot be one"
+    )
+    assert error.hint == "did you mean Man?"

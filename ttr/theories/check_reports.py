@@ -51,7 +51,7 @@ class Report(NotebookValue):
     """The outcome of checking a theory.
 
     `asked` is the number of checks, `failures` has those that failed; `rules` is the
-    number of rules, `faults` is what is wrong with them.
+    number of rules, `faults` is what is wrong with them and with definitions.
     """
 
     asked: int
@@ -79,6 +79,8 @@ class Report(NotebookValue):
         if self.rules:
             rules = _count_of(self.rules, "rule", "rules")
             parts.append(f"{self._count_faults} in {rules}")
+        elif self.faults:
+            parts.append(self._count_faults)
         return ", ".join(parts)
 
     @property

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, assert_never
 
 from ttr.building.merging import amerge, merge
 from ttr.building.relabelled_subtyping import subtype_up_to_relabelling
 from ttr.computing.definitional_equality import equal
+from ttr.computing.kept_redexes import kept_redexes
 from ttr.computing.normalisation import normal_value
 from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.subtyping import subtype
@@ -35,9 +36,10 @@ from ttr.theories.queries import (
 )
 from ttr.theories.theory import Theory
 from ttr.types.interning import identity
+from ttr.types.objects import Object
 from ttr.types.printing import notation
 from ttr.types.records import differences
-from ttr.types.syntax import TypeNode, kind_of
+from ttr.types.syntax import Application, Function, TypeNode, kind_of
 from ttr.updates.checks import Fault, faults_alone, faults_of
 from ttr.updates.rule_application import apply_rule
 from ttr.updates.rules import Rule
@@ -64,8 +66,9 @@ def check(theory: Theory) -> Report:
     """Answer the theory's checks, in the model in which its givens are judged.
 
     Its rules are checked without running them: those of each game together, the others
-    one by one. Raises `RefusedError` if the givens contradict one another, and
-    `UpdateError` if the start of a game is not of its type.
+    one by one. That a definition only comes to an application whose argument is not
+    known to fit is a warning. Raises `RefusedError` if the givens contradict one
+    another, and `UpdateError` if the start of a game is not of its type.
 
     >>> theory = Theory.parse("basic A, B\\nA <: B\\ncheck A <= B\\ncheck not B <= A")
     >>> print(check(theory))
@@ -73,7 +76,8 @@ def check(theory: Theory) -> Report:
     """
     report = answer_checks(theory)
     rules = [one for one in theory.rules.values() if _is_own(one.span, theory)]
-    return replace(report, rules=len(rules), faults=_faults(theory, rules))
+    found = (*_stuck_definitions(theory), *_faults(theory, rules))
+    return replace(report, rules=len(rules), faults=found)
 
 
 def answer_checks(theory: Theory, model: Model | None = None) -> Report:
@@ -118,6 +122,46 @@ def _faults(theory: Theory, rules: list[Rule]) -> tuple[Fault, ...]:
     found = [fault for game in games for fault in faults_of(game)]
     found += [fault for one in alone for fault in faults_alone(one)]
     return tuple({(one.message, one.span): one for one in found}.values())
+
+
+def _stuck_definitions(theory: Theory) -> Iterator[Fault]:
+    """Warnings of definitions that compute to an application that is kept."""
+    for name, span in theory.defined_at.items():
+        value = theory.definitions[name]
+        if not isinstance(value, Application) or not _is_own(span, theory):
+            continue
+        try:
+            computed = normal_value(value, theory)
+        except TTRError:
+            continue  # too large to be computed
+        if not isinstance(computed, Application):
+            continue
+        for kept in kept_redexes(computed):
+            if any(map(_is_kept, (kept.function, kept.argument))):
+                continue  # the cause is further in
+            assert isinstance(kept.function, Function)
+            argument = _name_of(kept.argument, theory)
+            domain = _name_of(kept.function.domain, theory)
+            function = _name_of(kept.function, theory)
+            message = (
+                f"{name} does not compute: {function} takes what is of {domain}, "
+                f"and it is not known that {argument} is"
+            )
+            hint = f"whether {name} is a type is asked by: check {name} : RecType"
+            yield Fault(None, "uncomputed", message, hint, span, "warning")
+            break
+
+
+def _is_kept(value: Object) -> bool:
+    return next(kept_redexes(value), None) is not None
+
+
+def _name_of(value: Object, theory: Theory) -> str:
+    """The name by which the theory defines a value, or else its notation."""
+    for name, one in theory.definitions.items():
+        if identity(one) == identity(value):
+            return name
+    return notation(value, theory.spelling)
 
 
 def _is_own(span: Span | None, theory: Theory) -> bool:

@@ -286,6 +286,7 @@ def _merge_import(mine: Draft, other: Draft, span: Span) -> None:
     mine.objects |= other.objects
     mine.declared.update(other.declared)
     mine.written.update(other.written)
+    mine.defined_at.update(other.defined_at)
     mine.opened |= other.opened
     mine.axioms.update(other.axioms)
     mine.exclusions.update(other.exclusions)

@@ -37,9 +37,9 @@ from ttr.theories.theory_draft import Draft
 from ttr.types.interning import Node
 from ttr.types.objects import Object, Path
 from ttr.types.paths import free_paths
-from ttr.types.printing import Written, spelling_of
+from ttr.types.printing import Written, notation, spelling_of
 from ttr.types.reserved_words import LOGICAL, RESERVED
-from ttr.types.syntax import Basic, Pred, PType, TypeNode
+from ttr.types.syntax import Basic, Function, Pred, PType, TypeNode
 
 
 @dataclass(frozen=True)
@@ -186,9 +186,35 @@ class StatementReader:
             check_computable(value, self.draft.signature)
         except IllFormedError:
             error = self._error_as_written(value, reader.written)
-            raise error.at(self.source.span(tree.value)) from None
+            hint = error.hint or self._hint_to_definition(tree.value)
+            message = self._with_names(error.message)
+            span = self.source.span(tree.value)
+            raise IllFormedError(message, hint=hint, span=span) from None
         self.draft.definitions[tree.name.text] = value
         self.draft.written[tree.name.text] = reader.written
+        self.draft.defined_at[tree.name.text] = self.source.span(tree.value)
+
+    def _hint_to_definition(self, term: Term) -> str:
+        """A hint where a predicate stands, and a definition differs in case alone."""
+        defined = {name.lower(): name for name in self.draft.definitions}
+        for part in trees.inside(term):
+            if isinstance(part, Name) and part.labels[0] in self.draft.predicates:
+                meant = defined.get(part.labels[0].lower())
+                if meant is not None:
+                    return f"did you mean {meant}?"
+        return ""
+
+    def _with_names(self, message: str) -> str:
+        """A message with the names of the functions that are spelt out in it."""
+        spelling = spelling_of(self.draft.written.values())
+        functions = {
+            notation(value, spelling): name
+            for name, value in self.draft.definitions.items()
+            if isinstance(value, Function)
+        }
+        for text in sorted(functions, key=len, reverse=True):
+            message = message.replace(text, functions[text])
+        return message
 
     def _error_as_written(
         self, value: Object, written: dict[Node, Written]

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Protocol, overload
 
-from ttr.errors import IllFormedError, TTRError, suggestion
+from ttr.errors import IllFormedError, Span, TTRError, suggestion
 from ttr.notation.names import all_names, vocabulary_of
 from ttr.notation.reader import read_term
 from ttr.safety.consent import OWN_FOLDER, Consent
@@ -121,6 +121,9 @@ class Theory(NotebookValue, Signature):
     openings: Mapping[str, Opening] = field(default_factory=dict)
     written: Mapping[str, Mapping[Node, Written]] = field(default_factory=dict)
     """How each definition is written: the order of fields, the names of variables."""
+
+    defined_at: Mapping[str, Span] = field(default_factory=dict)
+    """Where the value of each definition is written."""
 
     parse = _Parse()
 
@@ -378,5 +381,6 @@ def theory_of_draft(draft: Draft) -> Theory:
         openings=dict(draft.openings),
         declared=dict(draft.declared),
         written=dict(draft.written),
+        defined_at=dict(draft.defined_at),
         spelling=spelling_of(draft.written.values()),
     )

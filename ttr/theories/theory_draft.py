@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ttr.errors import Span
 from ttr.notation.names import all_names
 from ttr.signature.signature import (
     Axiom,
@@ -34,7 +35,7 @@ class Draft:
     `used` are the names that statements have mentioned: a predicate among them cannot
     get another arity. `gathered` says which strategy or game has gathered all rules of
     a kind: no rule of this kind may follow. `written` says of each definition how it is
-    written: the order of its fields, the names of its variables.
+    written: the order of its fields, the names of its variables; `defined_at` where.
     """
 
     source: str = "<text>"
@@ -54,6 +55,7 @@ class Draft:
     gathered: dict[str, str] = field(default_factory=dict)
     declared: dict[str, TypeNode] = field(default_factory=dict)
     written: dict[str, Mapping[Node, Written]] = field(default_factory=dict)
+    defined_at: dict[str, Span] = field(default_factory=dict)
 
     @classmethod
     def of(cls, theory: Theory) -> Draft:
@@ -74,6 +76,7 @@ class Draft:
             openings=dict(theory.openings),
             declared=dict(theory.declared),
             written=dict(theory.written),
+            defined_at=dict(theory.defined_at),
         )
 
     @property

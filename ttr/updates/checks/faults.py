@@ -17,6 +17,7 @@ Sort: TypeAlias = Literal[
     "unset",
     "unheard",
     "endless",
+    "uncomputed",
 ]
 """What kind of fault it is: see the explanation *What the checker sees*."""
 
