@@ -55,12 +55,16 @@ class McNemar(NamedTuple):
 
 
 class Contrast(NamedTuple):
-    """Two theories, and how they differ in each measure and question by question."""
+    """Two theories, and how they differ in each measure and question by question.
+
+    `pairs` is the number of pairs of dialogues that were compared.
+    """
 
     one: str
     other: str
     differences: Mapping[str, PairedDifference]
     answers: McNemar
+    pairs: int = 0
 
 
 def in_pairs(
@@ -280,5 +284,5 @@ def contrasts(
         pairs = in_pairs(theories[one], theories[other])
         if pairs:
             apart = differences(measures, pairs, chance)
-            found.append(Contrast(one, other, apart, mcnemar_of(pairs)))
+            found.append(Contrast(one, other, apart, mcnemar_of(pairs), len(pairs)))
     return found

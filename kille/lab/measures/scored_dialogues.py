@@ -22,7 +22,8 @@ _Key = TypeVar("_Key", bound=Hashable)
 class ScoredAnswer(NamedTuple):
     """An answer and its scores; `nth` counts the answers of its phase.
 
-    `brier` and `margin` are None where no degrees were given.
+    `brier` and `margin` are None where no degrees were given; `is_possible` is False
+    where they were, but the right word had none, so that it could not be said.
     """
 
     nth: int
@@ -38,6 +39,7 @@ class ScoredAnswer(NamedTuple):
     brier: float | None
     margin: float | None
     lessons: int
+    is_possible: bool = True
 
     @property
     def is_right(self) -> bool:
@@ -127,6 +129,7 @@ def _score_answer(nth: int, answer: Answer) -> ScoredAnswer:
         brier=brier([answer.right], [_as_probabilities(answer)]) if known else None,
         margin=answer.margin if known else None,
         lessons=answer.lessons,
+        is_possible=not known or answer.degrees.get(answer.right, 0.0) > 0.0,
     )
 
 

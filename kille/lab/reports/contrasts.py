@@ -53,9 +53,9 @@ _NOTE = (
 )
 _ANSWERED = (
     "Questions for words that both were asked. McNemar's exact test holds answers for "
-    "independent, which those of one dialogue are not: the permutation test above is "
-    "the main one."
+    "independent, which those of one dialogue are not"
 )
+_MAIN_TEST = ": the permutation test above is the main one"
 _POWERED = (
     f"For {{main}}. Spread: the standard deviation of the differences within pairs. "
     f"Seen with {POWER:.0%}: the smallest difference that so many pairs show with this "
@@ -83,8 +83,8 @@ def contrast_results(
     mains = found if main in [it.name for it in measures] else []
     tested.sort(key=lambda it: it.name != main)
     tables = (
-        _differences_table(found, tested, places, main),
-        _answers_table(asked, places),
+        differing := _differences_table(found, tested, places, main),
+        _answers_table(asked, places, _MAIN_TEST if differing.rows else ""),
         _power_table(found, main),
     )
     filled = tuple(it for it in tables if it.rows)
@@ -132,14 +132,26 @@ def summarise_tests(
 
 def _sentence(it: Contrast, p: float, measure: str) -> str:
     if not it.differences:
-        return f"{it.other} and {it.one} do equally well in every pair of dialogues."
+        alike = f"{it.other} and {it.one} do equally well in every pair of dialogues."
+        return f"{alike}{_too_few_to_tell(it.pairs)}"
     main = it.differences.get(measure)
     if main is None:
-        return f"{it.other} and {it.one} have the same {measure} in every pair."
+        alike = f"{it.other} and {it.one} have the same {measure} in every pair."
+        return f"{alike}{_too_few_to_tell(it.pairs)}"
     if not main.pairs:
         return f"{it.other} and {it.one} were never both asked for words."
     difference = format_difference(main, p)
     return f"The {measure} of {it.other} differs from that of {it.one} by {difference}."
+
+
+def _too_few_to_tell(pairs: int) -> str:
+    """That so few pairs could not show a difference, if it is so."""
+    if not pairs or least_p(pairs) < CHANCE:
+        return ""
+    return (
+        f" {pairs} pair{'s' * (pairs != 1)} could not show a difference: "
+        f"that takes {pairs_needed(1, CHANCE)}, so give the study more seeds."
+    )
 
 
 def format_difference(difference: PairedDifference, p: float) -> str:
@@ -243,7 +255,8 @@ def correct_by_family(
     return found
 
 
-def _answers_table(found: Sequence[Contrast], places: Places) -> Table:
+def _answers_table(found: Sequence[Contrast], places: Places, beside: str) -> Table:
+    """McNemar's test; `beside` says which test counts more, if there is one."""
     ps = holm([it.answers.p for it in found])
     rows = tuple(
         (*_side_cells(it), format_p(it.answers.p), format_p(p))
@@ -255,7 +268,7 @@ def _answers_table(found: Sequence[Contrast], places: Places) -> Table:
         for row, it in enumerate(found)
         for column in (1, 3)
     }
-    return Table("Question by question", columns, rows, _ANSWERED, links)
+    return Table("Question by question", columns, rows, f"{_ANSWERED}{beside}.", links)
 
 
 def _side_cells(it: Contrast) -> tuple[Cell, ...]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from shlex import quote
 from typing import NamedTuple
@@ -13,7 +15,11 @@ from kille.lab import log
 from kille.lab.errors import StudyError, TheoryError
 from kille.lab.log.reading import NO_PYTHON
 from kille.lab.measures.measures import ACCURACY
-from kille.lab.measures.scored_dialogues import ScoredDialogue, score_dialogue
+from kille.lab.measures.scored_dialogues import (
+    ScoredAnswer,
+    ScoredDialogue,
+    score_dialogue,
+)
 from kille.lab.reports.findings import group_by_theory
 from kille.lab.reports.layouts import Described
 from kille.lab.reports.links import places_of
@@ -30,6 +36,8 @@ from ttr.safety.consent import Consent
 _NAME = "report.html"
 _USUAL = ".results"
 """How the names of folders of results end, unless the user names them."""
+_NAMED = 5
+"""The most words that a warning names."""
 
 
 class Report(NamedTuple):
@@ -200,6 +208,7 @@ def _subject(folder: Path, command: str, study: Study) -> Subject:
         broken=[(str(it.run), it.reason) for it in log.broken_runs(folder)],
         warnings=[
             *_cut_short_lines(theories, study.turns),
+            *_never_taught_lines(theories),
             *unused_rules(shown, theories),
         ],
         files=sorted(
@@ -226,6 +235,38 @@ def _cut_short_lines(
         for name, count in counts.items()
         if count
     ]
+
+
+def _never_taught_lines(
+    theories: Mapping[str, Sequence[ScoredDialogue]],
+) -> Iterator[str]:
+    """Warn if most questions were about words that nobody had said by then.
+
+    The robot did not know them either: no theory can answer such a question.
+    """
+    asked, missing = 0, []
+    for talk in chain.from_iterable(theories.values()):
+        questions = [it for it in talk.answers if it.is_word]
+        asked += len(questions)
+        missing += [it.right for it in questions if not _can_be_known(it, talk)]
+    if not missing or 2 * len(missing) < asked:
+        return
+    words = ", ".join(sorted(set(missing))[:_NAMED])
+    more = " and others" if len(set(missing)) > _NAMED else ""
+    yield (
+        f"{len(missing):,} of {asked:,} questions were about words that nobody had "
+        f"said by then and that the robot did not know ({words}{more}): no theory "
+        "can be right. Teach more things, as with each = 6 in a drawn scene."
+    )
+
+
+def _can_be_known(answer: ScoredAnswer, talk: ScoredDialogue) -> bool:
+    """Had somebody said the word of an answer before, or did the robot know it?"""
+    if answer.is_possible:
+        return True
+    said = (it.given for it in talk.turns if it.number < answer.turn and it.words)
+    word = re.compile(rf"\b{re.escape(answer.right)}\b")
+    return any(map(word.search, said))
 
 
 def _describe_theories(study: Study, names: Iterable[str]) -> dict[str, Described]:

@@ -11,10 +11,12 @@ import pytest
 
 import little_study
 from kille.lab import reports
+from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.errors import StudyError
 from kille.lab.log import Log, RunError
 from kille.lab.log.outcomes import play_to_outcome
 from kille.lab.results import Estimate, Result, Table
+from kille.lab.study import Run, Study
 from kille.lab.study_files import parse
 
 STUDY = """
@@ -124,7 +126,9 @@ def test_two_folders_are_compared_by_what_they_share(tmp_path: Path) -> None:
     )
     (differing,) = (it for it in results if it.title == "How they differ")
     assert "two: good and one: good do equally well" in differing.text
+    assert " 2 pairs could not show a difference: that takes 6, " in differing.text
     assert [it.title for it in differing.tables] == ["Question by question"]
+    assert "permutation test" not in differing.tables[0].note
     assert results[0].text == (
         "Of 4 and 4 occasions (tutor, scene and seed) 2 are the same: differences are "
         "of these alone, all else is of all."
@@ -209,3 +213,35 @@ def test_numbers_are_the_same_each_time(tmp_path: Path) -> None:
 
     assert repr(numbers(first)) == repr(numbers(second))
     assert len(numbers(first)) > 5
+
+
+@pytest.mark.parametrize(
+    ("said", "degree", "is_told"),
+    [
+        ("This is blue.", 0.0, True),
+        ("This is green.", 0.0, False),
+        ("This is blue.", 0.2, False),
+    ],
+)
+def test_questions_about_words_that_nobody_had_said_are_told(
+    tmp_path: Path, said: str, degree: float, is_told: bool
+) -> None:
+    """What the robot gives no degree, and no tutor has said, cannot be answered."""
+
+    def play(study: Study, run: Run) -> Played:
+        seen = Turn(1, "lessons", "Ann", "shows", "look16: green cup", "")
+        lesson = Turn(2, "lessons", "Ann", "describe", said, "OK.", 3)
+        degrees = {"green": degree, "blue": 0.5}
+        answer = Answer(3, "test", "adjective", "green", "blue", "think", 0.5, degrees)
+        return Played((seen, lesson), (answer,), 1)
+
+    study = parse(STUDY.format(seeds=2, other="other"), Path("numbers.toml"))
+    with Log.open(study, tmp_path) as log:
+        for run in study.runs():
+            log.write(play_to_outcome(study, run, play))
+    page, results = reports.report(tmp_path)
+    told = "4 of 4 questions were about words that nobody had said by then"
+    assert (told in results[0].text) == is_told
+    assert (
+        "know (green): no theory can be right" in page.read_text("utf-8")
+    ) == is_told
