@@ -1,7 +1,7 @@
 """Islands: the stretches of a sentence that the grammar can read.
 
-Source: Carroll and Charniak 1991 and Ward 1991 (Phoenix), for parsing the islands of
-spontaneous speech.
+Source: Stock, Falcone and Insinnamo 1988, for islands in a chart; Ward 1991 (Phoenix),
+for spontaneous speech.
 """
 
 from __future__ import annotations
