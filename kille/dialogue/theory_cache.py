@@ -72,12 +72,15 @@ def _decode(body: bytes) -> Theory:
 
 
 class _TheoryReader(pickle.Unpickler):
-    """Reads values that theories are made of, and nothing else."""
+    """Reads values that theories are made of, and nothing else.
+
+    What their modules have imported is not theirs: it could lead anywhere.
+    """
 
     def find_class(self, module: str, name: str) -> Any:
         if not module.startswith(_MODULES) and (module, name) not in _OTHERS:
             raise pickle.UnpicklingError(f"{module}.{name} is no part of a theory")
         found = super().find_class(module, name)
-        if not isinstance(found, type):
-            raise pickle.UnpicklingError(f"{module}.{name} is no class")
+        if not isinstance(found, type) or found.__module__ != module:
+            raise pickle.UnpicklingError(f"{module}.{name} is no class of its own")
         return found

@@ -129,14 +129,45 @@ class Command:
         return Path.touch, (Path("touched"),)
 
 
-@pytest.mark.parametrize("planted", [Command(), record(x=1), {"a": refuse}])
+def text(it: str) -> bytes:
+    return b"\x8c" + bytes([len(it)]) + it.encode()
+
+
+def name(module: str, it: str) -> bytes:
+    return text(module) + text(it) + b"\x93"
+
+
+def call(function: bytes, argument: bytes) -> bytes:
+    return function + argument + b"\x85R"
+
+
+def attribute(it: str, of: bytes) -> bytes:
+    """An attribute, by what a module of types has imported for itself."""
+    return call(call(name("ttr.types.interning", "inspect.attrgetter"), text(it)), of)
+
+
+def command_by_detours() -> bytes:
+    """A pickle that makes a folder, and names nothing outside of `ttr.types`."""
+    inside = attribute("__init__.__globals__", name("ttr.types.objects", "Record"))
+    builtins = call(attribute("__getitem__", inside), text("__builtins__"))
+    imports = call(attribute("__getitem__", builtins), text("__import__"))
+    makes = attribute("mkdir", call(imports, text("os")))
+    return b"\x80\x04" + call(makes, text("touched")) + b"."
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        *map(pickle.dumps, (Command(), record(x=1), {"a": refuse})),
+        command_by_detours(),
+    ],
+)
 def test_what_is_no_theory_is_not_read(
-    planted: object, cache: Path, monkeypatch: pytest.MonkeyPatch
+    body: bytes, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(cache.parent)
     read = fields_of(recall_theory(SMALL, SOURCE))
     (kept,) = cache.iterdir()
-    body = pickle.dumps(planted)
     whole = digest(body.decode("latin-1"))
     monkeypatch.setattr(
         "kille.dialogue.user_cache._digest_of_bytes", lambda _: whole.encode()
