@@ -241,6 +241,18 @@ def test_where_a_story_differs(
     assert found[2].startswith(difference[2])
 
 
+def test_a_move_that_is_more_than_the_story_says_is_told_with_the_mark_for_that(
+    file: Path, door: Setting
+) -> None:
+    mismatch = played(file, door, "U> Greet\nS> GreetBack\nS> Ask \\/ Open\n")
+    assert mismatch is not None
+    help_line = "  help: it is more than Ask \\/ Open says: write S~ Ask \\/ Open"
+    assert help_line in str(mismatch).splitlines()
+    other = played(file, door, "U> Greet\nS> Open\n")
+    assert other is not None
+    assert not other.hint
+
+
 def test_a_mismatch_shows_the_rules_of_its_turn(file: Path, door: Setting) -> None:
     mismatch = played(file, door, "U> Greet\nS> GreetBack\nS> Open\n")
     assert mismatch is not None

@@ -13,6 +13,7 @@ from ttr import (
     Model,
     Pred,
     RecType,
+    Theory,
     TTRError,
     record,
     rectype,
@@ -519,3 +520,46 @@ def test_what_fails_is_shown_where_it_fails():
 )
 def test_a_field_plays_a_role_by_its_name_and_its_type(fields, found):
     assert Roles.of(rectype(**fields)).paths == found
+
+
+DESK = """
+    basic Ind, Topic
+    object guest, clerk : Ind
+    object museum, trains : Topic
+    pred ask(Ind, Topic), tell(Ind, Topic), cancel(Ind, Topic)
+    Ask    := [spkr = guest : Ind, t : Topic, e : ask(spkr, t)]
+    Tell   := [spkr = clerk : Ind, t : Topic, e : tell(spkr, t)]
+    Cancel := [spkr = guest : Ind, t : Topic, e : cancel(spkr, t)]
+    Topics := list(Topic)
+    Board  := [qud : Topics, facts : Topics]
+    Open   := [qud : nelist(Topic)]
+    rule asked(s : Board /\\ [qud = [] : Topics], e : Ask) := [qud = [e.t] : Topics]
+    rule told(s : Board /\\ Open, e : Tell)
+        where [t = e.t : Topic, asked = fst(s.qud) : Topic@t] := {told}
+    rule cancelled(s : Board /\\ Open, e : Cancel)
+        where [t = e.t : Topic, asked = fst(s.qud) : Topic@t]
+        := [qud = rst(s.qud) : Topics]
+    game desk({{qud = [], facts = []}} : Board) := first(told, cancelled, asked)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "told", "found"),
+    [
+        (
+            "P8",
+            "[facts = [e.t] + s.facts : Topics]",
+            ": told put it on facts, let it take it off qud, too, as by qud = ",
+        ),
+        (
+            "P26",
+            "[qud = s.qud : Topics]",
+            "they are taken off by cancelled; "
+            "events about a question leave it, and facts, as they are in told",
+        ),
+    ],
+)
+def test_what_stays_or_goes_without_effect_is_told_with_the_rules(name, told, found):
+    game = Theory.parse(DESK.format(told=told)).games["desk"]
+    suite = Suite(game, properties=(by_name(name),), examples=80)
+    assert found in suite.played().explain_failure()

@@ -191,11 +191,19 @@ def test_what_cannot_be_copied():
 
 
 def test_what_is_no_learner():
+    from sklearn.linear_model import LogisticRegression
+
     with pytest.raises(TTRError, match="expected a list of labels, found cup"):
         learner_params(Nearest(), "cup")
     with pytest.raises(TTRError, match="lacks learn_one and predict_proba_one"):
         learner_params(object())
-    with pytest.raises(TTRError, match=r"made by learner_params, found {t = 1}"):
+    with pytest.raises(TTRError, match="lacks learn_one") as raw:
+        learner_params(LogisticRegression())
+    assert raw.value.hint == "make a learner of it: as_learner(LogisticRegression(…))"
+    with pytest.raises(TTRError, match="found the class LogisticRegression") as made:
+        as_learner(LogisticRegression)
+    assert made.value.hint == "make one: as_learner(LogisticRegression())"
+    with pytest.raises(TTRError, match=r"made by learner_params, found \{t = 1\}"):
         word(Nearest()).with_params(record(t=1)).degree(at(0))
 
 

@@ -28,7 +28,7 @@ _WIDTH = 100
 class Mismatch(NotebookValue):
     """A line of a story that differs from what was played: `expected` and `found`.
 
-    `trace` has the rules that ran in the turn before.
+    `trace` has the rules that ran in the turn before, `hint` is a way out.
 
     >>> from ttr.dialogues.stories import Line
     >>> print(Mismatch(Line("a.dlg", 3, "S>", "Hello."), "Hello.", "Good day."))
@@ -41,6 +41,7 @@ class Mismatch(NotebookValue):
     expected: str
     found: str
     trace: tuple[Step, ...] = ()
+    hint: str = ""
 
     def _shown_as_(self) -> Part:
         return Text(str(self), "code")
@@ -55,6 +56,8 @@ class Mismatch(NotebookValue):
             _FOUND + self.found,
             *_caret_line(_FOUND, found),
         ]
+        if self.hint:
+            lines.append(f"  help: {self.hint}")
         if self.trace:
             lines.append("  the rules of this turn:")
         for step in self.trace:

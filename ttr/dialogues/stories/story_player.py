@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ttr.aliases import Alias
 from ttr.computing.subtyping import subtype
@@ -166,7 +166,13 @@ class _Playing:
         move, words = found
         if line.text and self._fits(line, move, words):
             return None
-        return self._mismatch_at(line, words)
+        mismatch = self._mismatch_at(line, words)
+        if line.mark == "S>" and line.text and self.setting.game.say is None:
+            roughly = replace(line, mark="S~")
+            if self._fits(roughly, move, words):
+                hint = f"it is more than {line.text} says: write S~ {line.text}"
+                return replace(mismatch, hint=hint)
+        return mismatch
 
     def _fits(self, line: Line, move: Judgement, words: str) -> bool:
         """Is a move as the line says: to the letter, or roughly?"""

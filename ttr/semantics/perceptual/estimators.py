@@ -28,11 +28,17 @@ def as_learner(
     >>> {word: round(p, 2) for word, p in learner.predict_proba_one((8.5,)).items()}
     {'bowl': 0.0, 'cup': 1.0}
     """
+    if isinstance(estimator, type):
+        raise TTRError(
+            f"as_learner takes an estimator, found the class {estimator.__name__}",
+            hint=f"make one: as_learner({estimator.__name__}())",
+        )
     labels = as_tuple(classes, "classes")
     if not callable(getattr(estimator, "predict_proba", None)):
         raise TTRError(
             f"{type(estimator).__name__} has no predict_proba, "
-            "so it has no degrees to judge by"
+            "so it has no degrees to judge by",
+            hint="take one that has, as SVC(probability=True) or LogisticRegression()",
         )
     if callable(getattr(estimator, "partial_fit", None)):
         return Incremental(estimator, labels)

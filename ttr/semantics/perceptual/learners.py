@@ -76,11 +76,21 @@ def learner_params(
     if lacking:
         raise TTRError(
             f"a learner has the methods learn_one and predict_proba_one, "
-            f"but {notation(learner)} lacks {' and '.join(lacking)}"
+            f"but {notation(learner)} lacks {' and '.join(lacking)}",
+            hint=_hint_to_estimator(learner),
         )
     known = getattr(learner, "labels", ()) if labels is None else labels
     mine = Handle(learner, 0, copied).copy()
     return record(labels=as_tuple(known, "labels"), learner=mine)
+
+
+def _hint_to_estimator(found: object) -> str:
+    """A hint for an estimator of scikit-learn, which has other methods."""
+    if isinstance(found, type):
+        return f"give one that is made, as {found.__name__}()"
+    if callable(getattr(found, "fit", None)):
+        return f"make a learner of it: as_learner({type(found).__name__}(…))"
+    return ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -53,6 +53,7 @@ class FlowCounts:
     put: int = 0
     taken: int = 0
     first: tuple[Dialogue, int] | None = None
+    taken_by: Counter[str] = field(default_factory=Counter)
     pushed: Counter[str] = field(default_factory=Counter)
     popped: Counter[str] = field(default_factory=Counter)
     wrong_end: tuple[Dialogue, int] | None = None
@@ -82,6 +83,8 @@ class DialogueCounts:
     by_rule: dict[str, AnswerCounts] = field(default_factory=dict)
     own: Counter[bool] = field(default_factory=Counter)
     own_example: tuple[Dialogue, int] | None = None
+    without_effect: Counter[str] = field(default_factory=Counter)
+    """How often a rule took an event about a question, and left it and facts alone."""
 
     def add(self, dialogue: Dialogue) -> None:
         """Count a dialogue."""
@@ -91,6 +94,7 @@ class DialogueCounts:
         for number, trial in enumerate(dialogue.trials, start=1):
             for step in trial.steps:
                 if step.before is step.after:
+                    self._count_without_effect(step)
                     continue
                 for role in ("qud", "pending", "agenda", "commitments"):
                     path = getattr(roles, role)
@@ -114,6 +118,7 @@ class DialogueCounts:
                 flow.first_of_name[name] = _earlier(first, here)
         if removed := items_added(after, before):
             flow.taken += 1
+            flow.taken_by[step.rule.name] += 1
             flow.last = _earlier(flow.last, here)
             flow.names_taken.update(_names_among(removed))
         if before and len(after) == len(before) + 1:
@@ -132,7 +137,10 @@ class DialogueCounts:
         """Count who asks a question, and who removes it with what event."""
         path = str(self.roles.qud)
         before, after = items_at(step.before, path), items_at(step.after, path)
-        if before is after or not isinstance(step.event, Record):
+        if not isinstance(step.event, Record):
+            return
+        if identity(before) == identity(after):
+            self._count_without_effect(step)
             return
         # Nobody asked the question that a rule without an event puts.
         takes = step.rule.on is not None
@@ -153,6 +161,17 @@ class DialogueCounts:
                 self.own[False] += 1  # it may be removed without an answer
             if takes and isinstance(item, str):
                 self._count_naming(item, step, (dialogue, turn))
+
+    def _count_without_effect(self, step: Step) -> None:
+        """Count events about questions, as long as nothing was ever agreed on."""
+        qud, takes = self.roles.qud, step.rule.on is not None
+        if qud is None or not takes or self.roles.commitments in self.by_path:
+            return
+        asked = set(map(identity, items_at(step.before, qud)))
+        if asked and any(
+            identity(one) in asked for one in mentions(step.event, step.model)
+        ):
+            self.without_effect[step.rule.name] += 1
 
     def _count_naming(self, item: str, step: Step, here: tuple[Dialogue, int]) -> None:
         said = mentions(step.event, step.model)
@@ -264,9 +283,20 @@ def _questions_without_effect(flows: DialogueCounts) -> Iterator[Finding]:
     if flow is not None and flow.taken >= ENOUGH and flow.last:
         why = (
             f"questions leave {qud}, {flow.taken} times in {flows.dialogues} "
-            f"dialogues, but nothing is ever put on {agreed}"
+            f"dialogues, but nothing is ever put on {agreed}: they are taken off by "
+            f"{_names_of(flow.taken_by)}"
         )
+        if flows.without_effect:
+            why += (
+                f"; events about a question leave it, and {agreed}, as they are in "
+                f"{_names_of(flows.without_effect)}"
+            )
         yield Finding(*flow.last, why)
+
+
+def _names_of(rules: Counter[str]) -> str:
+    """The names of the rules, the most frequent first."""
+    return ", ".join(name for name, _ in rules.most_common())
 
 
 def _questions_answered_by_their_askers(flows: DialogueCounts) -> Iterator[Finding]:

@@ -174,8 +174,25 @@ def _why_agreed_but_still_there(trial: Trial, path: str | None, roles: Roles) ->
     for one in _items_agreed_on(trial, roles):
         for item in items_at(trial.after.state, path):
             if is_same(one, item):
-                return f"{notation(item)} has been agreed on, but is still on {path}"
+                about = notation(item)
+                why = f"{about} has been agreed on, but is still on {path}"
+                rule = _rule_that_agrees(item, trial, roles)
+                return f"{why}: {rule} put it on {roles.commitments}{_and_off(path)}"
     return ""
+
+
+def _rule_that_agrees(item: Object, trial: Trial, roles: Roles) -> str:
+    """The name of the rule that put an item among what is agreed on."""
+    for step in trial.steps:
+        before = items_at(step.before, roles.commitments)
+        after = items_at(step.after, roles.commitments)
+        if any(is_same(item, one) for one in items_not_in(after, before)):
+            return step.rule.name
+    return "a rule"
+
+
+def _and_off(path: str) -> str:
+    return f", let it take it off {path}, too, as by {path} = rst(s.{path})"
 
 
 # --- P9 ------------------------------------------------------------------------------
