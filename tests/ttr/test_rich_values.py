@@ -14,7 +14,7 @@ import pytest
 
 import ttr
 from rich_values import HOSTILE, check_html, check_latex
-from ttr import Basic, Ind, Model, Pred, Theory, check, record, rectype, subtype, this
+from ttr import Basic, Ind, Model, Pred, Theory, record, rectype, subtype, this
 from ttr.dialogues.dialogue import play as play_all
 from ttr.dialogues.logs import read_logs, replay, write_log
 from ttr.dialogues.stories import Setting
@@ -56,6 +56,18 @@ PERHAPS = GAME.take(GAME.begin(), NBest((("fido", 0.6), ("sam", 0.3))))
 JUDGED = MODEL.judge(record(x="fido", c="s2"), KENNEL.Dog)
 REFUTED = subtype(KENNEL.Dog, KENNEL.Hugging, KENNEL)
 
+WRONG = Theory.parse(
+    """
+    basic Ind
+    pred dog(Ind)
+    object fido : Ind
+    check {x = fido} : [x : Ind, c : dog(x)]
+    check [x : Ind] <= [y : Ind]
+    rule rest(s : [x : Ind]) := [y = fido : Ind]
+    game idle({x = fido} : [x : Ind]) := rest
+    """
+)
+
 NEVER = Property("P99", "never", "Nobody says <b>.", lambda *_: iter([(1, "<b>")]))
 
 
@@ -82,8 +94,6 @@ def _told() -> dict[str, NotebookValue]:
         "log": log,
         "log replayed": replay(log, setting),
         "log that differs": replay(moved, setting),
-        "checks": check(KENNEL),
-        "checks that fail": check(Theory.parse("basic A, B\ncheck A <= B")),
         "properties": Suite(GAME, examples=2).run(),
         "properties that break": failing,
         "coverage": failing.coverage,
@@ -107,6 +117,8 @@ VALUES = {
     "run": TURN.run,
     "step": TURN.trace[0],
     **_told(),
+    "report": ttr.check(KENNEL),
+    "report of failures": ttr.check(WRONG),
     "several": ttr.show([KENNEL.Dog, "fido"], {"why": JUDGED.why, "game": GAME}),
 }
 
@@ -145,6 +157,20 @@ def test_a_theory_shows_all_that_is_in_it() -> None:
     ):
         assert part in shown
     assert "a:Dog" in shown.replace(" ", "")  # by its name
+
+
+def test_a_report_of_checks_shows_what_failed_and_where() -> None:
+    shown = plain(VALUES["report of failures"])
+    for part in (
+        "2 of 2 checks failed, 1 fault in 1 rule",
+        "failed: check [x : Ind] <= [y : Ind] expected yes, found no",
+        "there is no c",
+        "the rule rest writes y, but a state has no y",
+        "rule rest(s : [x : Ind]) := [y = fido : Ind]",
+    ):
+        assert part in shown
+    assert plain(VALUES["report"]) == "1 check holds, no fault in 2 rules"
+    assert "turn" in ttr.html(ttr.show(GAME.play(["fido", "sam"])))
 
 
 def test_a_refutation_shows_its_counterexample() -> None:
@@ -187,8 +213,6 @@ def test_a_story_shows_its_lines_and_where_it_differs() -> None:
 
 
 def test_a_report_shows_what_breaks_and_what_was_covered() -> None:
-    assert "1 check holds" in plain(VALUES["checks"])
-    assert "failed: check A <= B" in plain(VALUES["checks that fail"])
     broken = plain(VALUES["properties that break"])
     assert "Nobody says <b>." in broken
     assert "a dialogue in talk" in broken

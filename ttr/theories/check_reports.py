@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from ttr.showing import NotebookValue, Part, Text, below
+from ttr.judging.judgements import Why
+from ttr.showing import Fold, NotebookValue, Part, Text, Value, below, beside
 from ttr.theories.queries import Check
 from ttr.updates.checks import Fault
 
 
 @dataclass(frozen=True)
 class Failure(NotebookValue):
-    """A check that does not hold: what was expected, what was found, and why."""
+    """A check that does not hold: what was expected, what was found, and why.
+
+    `derivation` has the reasons as a tree, where a judgement gave the answer.
+    """
 
     check: Check
     found: str
     why: str
+    derivation: Why | None = field(default=None, compare=False, repr=False)
 
     def _shown_as_(self) -> Part:
-        return Text(str(self), "code")
+        found = f"expected {self.check.expected}, found {self.found}"
+        return below(
+            beside(Text("failed:", "no"), Text(self.check.text, "code"), Text(found)),
+            Fold(
+                "why",
+                Text(self.why) if self.derivation is None else Value(self.derivation),
+            ),
+        )
 
     def __str__(self) -> str:
         """The failure as `ttr check` prints it.
@@ -59,15 +71,18 @@ class Report(NotebookValue):
     rules: int = 0
     faults: tuple[Fault, ...] = ()
 
-    def _shown_as_(self) -> Part:
-        told = [Text(it, "code") for it in self.messages]
-        return below(Text(self.summary, "yes" if self.holds else "no"), *told)
-
     @property
     def holds(self) -> bool:
         """Did no check fail, and is no rule wrong? Warnings do not count."""
         return not self.failures and all(
             fault.severity == "warning" for fault in self.faults
+        )
+
+    def _shown_as_(self) -> Part:
+        return below(
+            Text(self.summary, "yes" if self.holds else "no"),
+            *[one._shown_as_() for one in self.failures],
+            *[_draw_fault(fault) for fault in self.faults],
         )
 
     @property
@@ -109,3 +124,14 @@ def _format_fault(fault: Fault) -> str:
     """A fault as `ttr check` prints it, with the word fault or warning before it."""
     head = "warning" if fault.severity == "warning" else "fault"
     return f"{head}: {fault}"
+
+
+def _draw_fault(fault: Fault) -> Part:
+    is_warning = fault.severity == "warning"
+    word = Text("warning:", "strong") if is_warning else Text("fault:", "no")
+    place = f"line {fault.span.line}: {fault.span.text.strip()}" if fault.span else ""
+    return below(
+        beside(word, Text(fault.message)),
+        Text(place, "code") if place else None,
+        Text(f"help: {fault.hint}", "quiet") if fault.hint else None,
+    )

@@ -88,7 +88,7 @@ def answer_checks(theory: Theory, model: Model | None = None) -> Report:
     if not isinstance(theory, Theory):
         raise TTRError(f"check takes a theory, found {kind_of(theory)}")
     failures = [
-        Failure(asked, answer.found, answer.why)
+        Failure(asked, answer.found, answer.why, answer.derivation)
         for asked, answer in answers(theory, model)
         if answer.verdict != asked.expected
     ]
