@@ -26,7 +26,8 @@ and talk to it:
   U> @ show cup
   U> {lesson}
 
-Mistakes are told before it talks. docs/how-to/change-what-it-says.md has more to try.
+Mistakes are told before it talks. For more to try, see "Change what it says" in the
+documentation, or kille talk --help.
 """
 
 _LESSONS = {"en": "This is a cup.", "sv": "Det här är en kopp."}
