@@ -15,22 +15,27 @@ def add(commands: Commands) -> None:
     editor = commands.add_parser(
         "editor",
         help="write what an editor needs",
-        description="Writes the extension for Visual Studio Code (vscode, a .vsix), or "
-        "the TextMate grammar of theories (ttr) or stories (dlg).",
+        description="Writes the extension for Visual Studio Code (vscode, a .vsix), "
+        "the syntax of theories for Vim and Neovim (vim, a .vim), or the TextMate "
+        "grammar of theories (ttr) or stories (dlg).",
     )
-    editor.add_argument("what", choices=["vscode", "ttr", "dlg"])
+    editor.add_argument("what", choices=["vscode", "vim", "ttr", "dlg"])
     editor.add_argument("file", type=Path, metavar="FILE", help="the file to write")
     editor.set_defaults(run=_write)
 
 
 def _write(options: argparse.Namespace) -> int:
     from ttr.editing.textmate import GRAMMARS, grammar_text
+    from ttr.editing.vim_syntax import vim_syntax
     from ttr.editing.vscode_package import vscode_package
 
     try:
         if options.what == "vscode":
             write_whole(options.file, vscode_package())
             say(f"{options.file} is written: code --install-extension {options.file}")
+        elif options.what == "vim":
+            write_whole(options.file, vim_syntax())
+            say(f"{options.file} is written")
         else:
             grammar = GRAMMARS[f"{options.what}.tmLanguage.json"]()
             write_whole(options.file, grammar_text(grammar))
