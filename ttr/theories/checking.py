@@ -126,12 +126,17 @@ def _faults(theory: Theory, rules: list[Rule]) -> tuple[Fault, ...]:
 
 def _stuck_definitions(theory: Theory) -> Iterator[Fault]:
     """Warnings of definitions that compute to an application that is kept."""
-    for name, span in theory.defined_at.items():
-        value = theory.definitions[name]
-        if not isinstance(value, Application) or not _is_own(span, theory):
-            continue
+    composed = {
+        name: (value, span)
+        for name, span in theory.defined_at.items()
+        if _is_own(span, theory)
+        and isinstance(value := theory.definitions[name], Application)
+    }
+    purse = purse_of_several(len(composed))
+    for name, (value, span) in composed.items():
         try:
-            computed = normal_value(value, theory)
+            with one_of_several(purse):
+                computed = normal_value(value, theory)
         except TTRError:
             continue  # too large to be computed
         if not isinstance(computed, Application):

@@ -262,7 +262,8 @@ class _RuleReader:
             meant = _field_or_none(Path(0, name.labels), around)
             if meant is None or not above:
                 continue
-            cause = f"{self._describe(variable)} is {len(above)} records further out"
+            out = f"{len(above)} record{'s' * (len(above) > 1)} further out"
+            cause = f"{self._describe(variable)} is {out}"
             if any(variable in _labels_of(scope) for scope in above):
                 cause = f"the label {variable} hides {self._describe(variable)}"
             hint = (
