@@ -105,7 +105,7 @@ def test_a_name_that_is_taken_gets_a_number():
     [
         (r"F := \who:[x : Ind, f : Type]. hug(j, who.f)", "needs Ind for who.f"),
         (r"F := \who:(Ind -> Type). hug(j, who)", "hug(j, who) needs Ind for who"),
-        (r"F := Man([z : Ind, a : Ind])", r"\v:Ind. [e : man(v)] takes objects of Ind"),
+        (r"F := Man([z : Ind, a : Ind])", "Man takes objects of Ind, and [z : Ind, a"),
         (
             "F := [b : Ind, f : (Ind -> Type), c : [y : Ind, d : man(^.f)]]",
             "man(f) needs Ind for f",

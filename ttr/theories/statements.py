@@ -187,7 +187,7 @@ class StatementReader:
         except IllFormedError:
             error = self._error_as_written(value, reader.written)
             hint = error.hint or self._hint_to_definition(tree.value)
-            message = self._with_names(error.message)
+            message = self._with_names(error.message, tree.value)
             span = self.source.span(tree.value)
             raise IllFormedError(message, hint=hint, span=span) from None
         self.draft.definitions[tree.name.text] = value
@@ -204,13 +204,14 @@ class StatementReader:
                     return f"did you mean {meant}?"
         return ""
 
-    def _with_names(self, message: str) -> str:
-        """A message with the names of the functions that are spelt out in it."""
+    def _with_names(self, message: str, term: Term) -> str:
+        """A message with the names of functions of a term that are spelt out in it."""
+        names = [it.labels[0] for it in trees.inside(term) if isinstance(it, Name)]
         spelling = spelling_of(self.draft.written.values())
         functions = {
-            notation(value, spelling): name
-            for name, value in self.draft.definitions.items()
-            if isinstance(value, Function)
+            notation(self.draft.definitions[name], spelling): name
+            for name in names
+            if isinstance(self.draft.definitions.get(name), Function)
         }
         for text in sorted(functions, key=len, reverse=True):
             message = message.replace(text, functions[text])
