@@ -22,7 +22,7 @@ from ttr.semantics.quantifiers import (
     exist_pl,
     extension,
     few,
-    judged,
+    judge_situation,
     many,
     most,
     no,
@@ -151,7 +151,7 @@ def test_a_type_is_settled_as_its_extensions_count(M, q):
 @given(models(), DEFINED)
 def test_the_witness_of_what_holds_is_a_witness(M, q):
     found = settle(M, q(p, RELATED))
-    fits = judged(M, found.witness, found.type)
+    fits = judge_situation(M, found.witness, found.type)
     assert fits.holds == found.holds
 
 

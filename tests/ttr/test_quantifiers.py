@@ -31,7 +31,7 @@ from ttr.semantics.quantifiers import (
     exist_pl,
     extension,
     few,
-    judged,
+    judge_situation,
     many,
     most,
     no,
@@ -93,7 +93,7 @@ def test_the_witness_that_is_given_is_one(M, q):
     assert found.witness == record(
         X={"f", "s"}, f=[record(x="f", e="bf"), record(x="s", e="bs")]
     )
-    assert judged(M, found.witness, found.type, HALF).holds is True
+    assert judge_situation(M, found.witness, found.type, HALF).holds is True
 
 
 def test_every_quantifier_without_a_number_is_listed():
@@ -102,8 +102,8 @@ def test_every_quantifier_without_a_number_is_listed():
 
 def test_a_smaller_witness_set_will_do_where_the_quantifier_rises(M):
     s = record(X={"f"}, f=[record(x="f", e="bf")])
-    assert judged(M, s, exist(dog, bark)).holds is True
-    assert judged(M, s, exist_pl(dog, bark)).holds is False
+    assert judge_situation(M, s, exist(dog, bark)).holds is True
+    assert judge_situation(M, s, exist_pl(dog, bark)).holds is False
 
 
 @pytest.mark.parametrize(
@@ -118,15 +118,18 @@ def test_a_smaller_witness_set_will_do_where_the_quantifier_rises(M):
     ],
 )
 def test_what_is_no_witness_is_refused_with_a_reason(M, s, why):
-    j = judged(M, s, exist(dog, bark))
+    j = judge_situation(M, s, exist(dog, bark))
     assert j.holds is False
     assert why in j.why.rule
 
 
 def test_a_falling_quantifier_needs_all_that_are_both_in_the_set(M):
     T = at_most(2)(dog, bark)
-    assert judged(M, record(X={"f", "s"}), T).holds is True
-    assert judged(M, record(X={"f", "r"}), T).why.rule == "s is both, but not in X"
+    assert judge_situation(M, record(X={"f", "s"}), T).holds is True
+    assert (
+        judge_situation(M, record(X={"f", "r"}), T).why.rule
+        == "s is both, but not in X"
+    )
 
 
 def test_a_quantified_type_is_a_type(M):
@@ -151,7 +154,7 @@ def test_quantifiers_nest(M):
     found = settle(M, T)
     inner = record(X={"k"}, f=[record(x="k", e="hf")])
     assert found.refset[0].situation == inner
-    assert judged(M, found.witness, T).holds is True
+    assert judge_situation(M, found.witness, T).holds is True
 
 
 def test_properties_may_be_of_records_or_types(M):
@@ -351,7 +354,7 @@ def test_truth_and_quantification_are_printed(M):
     ],
 )
 def test_f_is_a_function_from_X(M, f, rule):
-    found = judged(M, record(X={"f"}, f=f), exist(dog, bark))
+    found = judge_situation(M, record(X={"f"}, f=f), exist(dog, bark))
     assert found.holds is False
     assert found.why.rule == rule
 

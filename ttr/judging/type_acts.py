@@ -40,7 +40,7 @@ class Judge:
     """a : T – the agent takes this object to be of the type from now on.
 
     >>> from ttr import Ind
-    >>> print(performed(Judge("fido", Ind), Model()))
+    >>> print(perform(Judge("fido", Ind), Model()))
     fido : Ind   fido : Ind   p = 1
     """
 
@@ -57,7 +57,7 @@ class JudgeSome:
 
     >>> from ttr import Ind, Pred
     >>> M = Model().given("fido", Ind)
-    >>> print(performed(JudgeSome(Pred("dog", Ind)("fido")), M))
+    >>> print(perform(JudgeSome(Pred("dog", Ind)("fido")), M))
     some : dog(fido)   s1 : dog(fido)   p = 1
     """
 
@@ -72,7 +72,7 @@ class Query:
     """a : T? – the agent asks itself whether this object is of the type.
 
     >>> from ttr import Ind
-    >>> print(performed(Query("fido", Ind), Model().given("fido", Ind, 0.8)))
+    >>> print(perform(Query("fido", Ind), Model().given("fido", Ind, 0.8)))
     fido : Ind?   fido : Ind   p = 0.8
     """
 
@@ -89,7 +89,7 @@ class QuerySome:
 
     >>> from ttr import Ind
     >>> M = Model().given("fido", Ind).given("rex", Ind)
-    >>> [it.sit for it in performed(QuerySome(Ind), M).answers]
+    >>> [it.sit for it in perform(QuerySome(Ind), M).answers]
     ['fido', 'rex']
     """
 
@@ -105,7 +105,7 @@ class Create:
 
     >>> from ttr import Ind, Pred
     >>> M = Model().given("fido", Ind)
-    >>> print(performed(Create(Pred("bark", Ind)("fido")), M))
+    >>> print(perform(Create(Pred("bark", Ind)("fido")), M))
     : bark(fido)!   s1 : bark(fido)   p = 1
     """
 
@@ -133,7 +133,7 @@ class Outcome:
     is judged so far, each object that may be of the type with its degree.
 
     >>> from ttr import Ind
-    >>> made = performed(Judge("fido", Ind), Model())
+    >>> made = perform(Judge("fido", Ind), Model())
     >>> print(made.answer, made.model.judge("fido", Ind).holds, sep="; ")
     fido : Ind   p = 1; True
     """

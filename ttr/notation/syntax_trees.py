@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache, cached_property
 from typing import TypeVar, dataclass_transform
 
@@ -70,6 +70,10 @@ class Part:
 
     start: int
     end: int
+
+    def __repr__(self) -> str:
+        found = (f"{it.name}={getattr(self, it.name)!r}" for it in fields(self))
+        return f"{type(self).__name__}({', '.join(found)})"
 
 
 # --- terms: types and objects --------------------------------------------------------

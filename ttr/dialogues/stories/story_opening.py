@@ -68,8 +68,7 @@ def check_consent(story: Story, consent: Consent) -> None:
     Traceback (most recent call last):
         ...
     ttr.safety.consent.NotAllowedError: a.dlg:1: ../games.py lies in another folder:
-    allow it with --allow .., in Python with allow=['..'], or name the game yourself,
-    --game ../games.py:door
+    allow it with --allow ..., or name the game yourself, --game ../games.py:door
     """
     if story.game is None:
         return
