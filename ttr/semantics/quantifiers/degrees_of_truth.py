@@ -34,7 +34,7 @@ class Truth:
     What has none of these `atoms` in common is independent.
 
     >>> from ttr import Ind, Model
-    >>> from ttr.semantics.quantifiers import truth
+    >>> from ttr.semantics.quantifiers.truth import truth
     >>> print(truth(Model().given("fido", Ind, 0.7), Ind).p)
     0.7
     """
