@@ -26,9 +26,7 @@ from kille.dialogue.games.confirming import (
     wonder_what,
     wonder_why,
 )
-from kille.dialogue.games.costing import CORRECTED
 from kille.dialogue.games.courtesy import COURTESY as ALL_COURTESY
-from kille.dialogue.games.initiating import ask_relation
 from kille.dialogue.games.instructing import learn_relation, learn_word, need_places
 from kille.dialogue.games.interrupting import repeat
 from kille.dialogue.games.listening import GLANCED, SAID, SEEN, hear
@@ -42,6 +40,8 @@ from kille.dialogue.games.naming import (
 from kille.dialogue.games.placing import PLACING
 from kille.dialogue.games.referring import REFERRING as REFERRING_TO_WHAT_IS_SEEN
 from kille.dialogue.games.referring import trust_pointing
+from kille.dialogue.games.taking_initiative import ask_relation
+from kille.dialogue.games.tutoring_cost import CORRECTED
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import noun, predicate_at, relation, theory, word_of
 from kille.dialogue.robust_reading.situations import Situation

@@ -12,6 +12,7 @@ Source: Dobnik and de Graaf 2017, section 3.
 from __future__ import annotations
 
 from kille.dialogue.games.abstaining import ACKNOWLEDGING, EXEMPLIFYING
+from kille.dialogue.games.breaking_silence import WATCHING
 from kille.dialogue.games.checking import CHECKING
 from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
 from kille.dialogue.games.classifying import CLASSIFYING, STILL_ANSWERED
@@ -25,14 +26,13 @@ from kille.dialogue.games.counting import COUNTING
 from kille.dialogue.games.courtesy import COURTESY
 from kille.dialogue.games.criticising import CRITICISING
 from kille.dialogue.games.distinguishing import DISTINGUISHING
-from kille.dialogue.games.doubling import BOTH_ANSWERED, DOUBLING
+from kille.dialogue.games.doubting_words import VETTED, VETTING
 from kille.dialogue.games.explaining import EXPLAINING
 from kille.dialogue.games.finding import FINDING
 from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
-from kille.dialogue.games.framing import ASKING_FRAME, FRAMING, SETTLING
-from kille.dialogue.games.gathering import GATHERED, GATHERING
+from kille.dialogue.games.frame_of_reference import ASKING_FRAME, FRAMING, SETTLING
 from kille.dialogue.games.generalising import GENERALISING
-from kille.dialogue.games.initiating import IDLING, INITIATING, STAYING
+from kille.dialogue.games.holding_floor import YIELDING
 from kille.dialogue.games.instructing import INSTRUCTING
 from kille.dialogue.games.interrupting import REPEATING, drop_unsaid
 from kille.dialogue.games.knowing import KNOWING
@@ -40,14 +40,14 @@ from kille.dialogue.games.listening import GLANCED, LISTENING, SAID, SEEN
 from kille.dialogue.games.mishearing import MISHEARD
 from kille.dialogue.games.misspelling import OFFER_ANSWERED, OFFERING
 from kille.dialogue.games.naming import NAMING
-from kille.dialogue.games.noticing import WATCHING
 from kille.dialogue.games.pairing import PAIR_ANSWERED, PAIRING
 from kille.dialogue.games.placing import BETWEEN, PLACING
 from kille.dialogue.games.referring import CHOOSING, REFERRING
-from kille.dialogue.games.several import SEVERAL, SEVERAL_ANSWERED
+from kille.dialogue.games.second_noun import BOTH_ANSWERED, DOUBLING
+from kille.dialogue.games.several_lessons import GATHERED, GATHERING
+from kille.dialogue.games.several_things import SEVERAL, SEVERAL_ANSWERED
 from kille.dialogue.games.surveying import SURVEYING
-from kille.dialogue.games.vetting import VETTED, VETTING
-from kille.dialogue.games.yielding import YIELDING
+from kille.dialogue.games.taking_initiative import IDLING, INITIATING, STAYING
 from ttr.updates import Algorithm, Rule, first, maybe, seq
 
 __all__ = ["TUTORING", "games_with"]

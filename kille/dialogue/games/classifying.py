@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from kille.dialogue.beliefs import knows, knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.games.contradicting import plan_earlier_question
-from kille.dialogue.games.vetting import KIND
+from kille.dialogue.games.doubting_words import KIND
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,

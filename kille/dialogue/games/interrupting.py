@@ -9,7 +9,7 @@ Source: Skantze and Hjalmarsson 2013; Traum 1994 for what counts as grounded.
 
 from __future__ import annotations
 
-from kille.dialogue.games.initiating import OWN_QUESTIONS
+from kille.dialogue.games.taking_initiative import OWN_QUESTIONS
 from kille.dialogue.meanings import DialogueTypes, predicate_at, set_to
 from kille.dialogue.rules import rule
 from ttr import Record, RecordType, record, replace

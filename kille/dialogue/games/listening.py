@@ -14,8 +14,8 @@ from kille.dialogue.beliefs import knows, knows_word
 from kille.dialogue.commitments import claims_here, keep_claims
 from kille.dialogue.criteria import signs_in
 from kille.dialogue.games.attending import ATTENDING
-from kille.dialogue.games.costing import ASKED, CORRECTED
 from kille.dialogue.games.mishearing import MISHEARING
+from kille.dialogue.games.tutoring_cost import ASKED, CORRECTED
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,

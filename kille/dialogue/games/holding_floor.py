@@ -8,8 +8,8 @@ Source: Sacks, Schegloff and Jefferson 1974; Skantze, Hjalmarsson and Oertel 201
 
 from __future__ import annotations
 
-from kille.dialogue.games.initiating import ask_most_wanted
-from kille.dialogue.games.noticing import remark_on_news
+from kille.dialogue.games.breaking_silence import remark_on_news
+from kille.dialogue.games.taking_initiative import ask_most_wanted
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule

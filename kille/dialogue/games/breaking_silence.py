@@ -12,13 +12,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from kille.dialogue.beliefs import is_sure, knows, names_of, thinks
-from kille.dialogue.games.initiating import (
+from kille.dialogue.games.listening import state_after_look
+from kille.dialogue.games.taking_initiative import (
     ask_most_wanted,
     is_told,
     question,
     turn_to,
 )
-from kille.dialogue.games.listening import state_after_look
 from kille.dialogue.meanings import DialogueTypes, set_at, set_to
 from kille.dialogue.moves import number_field, plan, said_of
 from kille.dialogue.rules import rule

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 
 from kille.dialogue.commitments import plan_learning
 from kille.dialogue.games.distinguishing import say_where
+from kille.dialogue.games.doubting_words import MEANT
 from kille.dialogue.games.referring import about
-from kille.dialogue.games.vetting import MEANT
 from kille.dialogue.meanings import (
     DialogueTypes,
     is_denial,

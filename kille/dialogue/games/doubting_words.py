@@ -11,7 +11,7 @@ from __future__ import annotations
 from kille.dialogue.beliefs import knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.criteria import COMPONENT
-from kille.dialogue.games.doubling import BOTH
+from kille.dialogue.games.second_noun import BOTH
 from kille.dialogue.meanings import (
     CLAIMS,
     DialogueTypes,
