@@ -12,7 +12,7 @@ Source: Dobnik and de Graaf 2017, section 3.
 from __future__ import annotations
 
 from kille.dialogue.games.abstaining import ACKNOWLEDGING, EXEMPLIFYING
-from kille.dialogue.games.breaking_silence import WATCHING
+from kille.dialogue.games.breaking_silence import BREAKING_SILENCE
 from kille.dialogue.games.checking import CHECKING
 from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
 from kille.dialogue.games.classifying import CLASSIFYING, STILL_ANSWERED
@@ -26,13 +26,17 @@ from kille.dialogue.games.counting import COUNTING
 from kille.dialogue.games.courtesy import COURTESY
 from kille.dialogue.games.criticising import CRITICISING
 from kille.dialogue.games.distinguishing import DISTINGUISHING
-from kille.dialogue.games.doubting_words import VETTED, VETTING
+from kille.dialogue.games.doubting_words import DOUBT_ANSWERED, DOUBTING_WORDS
 from kille.dialogue.games.explaining import EXPLAINING
 from kille.dialogue.games.finding import FINDING
 from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
-from kille.dialogue.games.frame_of_reference import ASKING_FRAME, FRAMING, SETTLING
+from kille.dialogue.games.frame_of_reference import (
+    ASKING_FRAME,
+    FRAME_ANSWERED,
+    FRAME_OF_REFERENCE,
+)
 from kille.dialogue.games.generalising import GENERALISING
-from kille.dialogue.games.holding_floor import YIELDING
+from kille.dialogue.games.holding_floor import HOLDING_FLOOR
 from kille.dialogue.games.instructing import INSTRUCTING
 from kille.dialogue.games.interrupting import REPEATING, drop_unsaid
 from kille.dialogue.games.knowing import KNOWING
@@ -43,11 +47,11 @@ from kille.dialogue.games.naming import NAMING
 from kille.dialogue.games.pairing import PAIR_ANSWERED, PAIRING
 from kille.dialogue.games.placing import BETWEEN, PLACING
 from kille.dialogue.games.referring import CHOOSING, REFERRING
-from kille.dialogue.games.second_noun import BOTH_ANSWERED, DOUBLING
-from kille.dialogue.games.several_lessons import GATHERED, GATHERING
-from kille.dialogue.games.several_things import SEVERAL, SEVERAL_ANSWERED
+from kille.dialogue.games.second_noun import BOTH_ANSWERED, SECOND_NOUN
+from kille.dialogue.games.several_lessons import LESSONS_ANSWERED, SEVERAL_LESSONS
+from kille.dialogue.games.several_things import SEVERAL_THINGS, THINGS_ANSWERED
 from kille.dialogue.games.surveying import SURVEYING
-from kille.dialogue.games.taking_initiative import IDLING, INITIATING, STAYING
+from kille.dialogue.games.taking_initiative import IDLING, STAYING, TAKING_INITIATIVE
 from ttr.updates import Algorithm, Rule, first, maybe, seq
 
 __all__ = ["TUTORING", "games_with"]
@@ -60,9 +64,9 @@ ANSWERING = first(
     ACKNOWLEDGING,
     CONFIRMING,
     CORRECTING,
-    DOUBLING,
+    SECOND_NOUN,
     INSTRUCTING,
-    SEVERAL,
+    SEVERAL_THINGS,
     NAMING,
     PLACING,
     BETWEEN,
@@ -96,24 +100,24 @@ def games_with(*answers: Rule) -> Algorithm:
             LISTENING,
             first(
                 REPEATING,
-                YIELDING,
+                HOLDING_FLOOR,
                 MISHEARD,
                 OFFER_ANSWERED,
-                GATHERED,
-                VETTED,
+                LESSONS_ANSWERED,
+                DOUBT_ANSWERED,
                 FORGET_ANSWERED,
                 PAIR_ANSWERED,
                 EARLIER_ANSWERED,
                 BOTH_ANSWERED,
                 STILL_ANSWERED,
-                SEVERAL_ANSWERED,
-                SETTLING,
+                THINGS_ANSWERED,
+                FRAME_ANSWERED,
                 seq(
                     maybe(CLARIFYING),
-                    maybe(first(GATHERING, VETTING, CONTINUING, OFFERING)),
+                    maybe(first(SEVERAL_LESSONS, DOUBTING_WORDS, CONTINUING, OFFERING)),
                 ),
             ),
-            maybe(FRAMING),
+            maybe(FRAME_OF_REFERENCE),
             maybe(first(CHOOSING, REFERRING)),
             maybe(ASKING_FRAME),
             maybe(first(*ANSWERING.parts, *answers)),
@@ -122,10 +126,10 @@ def games_with(*answers: Rule) -> Algorithm:
         ),
         SAID,
         GLANCED,
-        WATCHING,
+        BREAKING_SILENCE,
         drop_unsaid,
         seq(STAYING, SEEN, maybe(IDLING)),
-        seq(SEEN, maybe(INITIATING)),
+        seq(SEEN, maybe(TAKING_INITIATIVE)),
     )
 
 

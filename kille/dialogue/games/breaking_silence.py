@@ -127,4 +127,4 @@ def _noun(s: Record, model: Model, x: str) -> tuple[Record, ...]:
     return (beliefs[0].sign,) if is_sure(s, beliefs) else ()
 
 
-WATCHING = seq(watch, maybe(first(remark, ask_in_silence)))
+BREAKING_SILENCE = seq(watch, maybe(first(remark, ask_in_silence)))

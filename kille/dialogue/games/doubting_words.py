@@ -210,6 +210,6 @@ def _as_naming(
     return model.create(move)
 
 
-VETTING = first(ask_meant, tell_names, ask_whole, take_as_remark, ask_kind)
-VETTED = first(take_vetted, ask_how, let_be, let_go)
-"""What answers the questions that vetting asks, or takes the lesson back."""
+DOUBTING_WORDS = first(ask_meant, tell_names, ask_whole, take_as_remark, ask_kind)
+DOUBT_ANSWERED = first(take_vetted, ask_how, let_be, let_go)
+"""What answers the questions whether that is a word, or takes the lesson back."""

@@ -343,10 +343,10 @@ def _plan_question(
     return plan(s, ASKED, asked, signs=signs, asks=asks, pending=pending, types=types)
 
 
-SETTLING = first(ask_front, settle_frame)
+FRAME_ANSWERED = first(ask_front, settle_frame)
 """What answers the question whose perspective is meant."""
 
-FRAMING = first(
+FRAME_OF_REFERENCE = first(
     ask_front, answer_anew, learn_anew, note_frame, leave_places, ask_frame_of_phrase
 )
 """What the tutor says of perspectives, and phrases that depend on them."""

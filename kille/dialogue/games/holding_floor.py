@@ -46,4 +46,4 @@ def _free_floor(s: Record) -> Record:
     return replace(s, {"shared.floor": ()}) if s.shared.floor else s
 
 
-YIELDING = first(hold_floor, take_floor, free_floor)
+HOLDING_FLOOR = first(hold_floor, take_floor, free_floor)

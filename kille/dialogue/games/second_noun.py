@@ -221,4 +221,4 @@ BOTH_ANSWERED = first(
 )
 """What answers whether it is both, or which of the two it is."""
 
-DOUBLING = first(ask_both, ask_earlier_name)
+SECOND_NOUN = first(ask_both, ask_earlier_name)

@@ -142,6 +142,6 @@ def _claim_with_place(
     return set_to(content, target=it)
 
 
-GATHERING = ask_together
-GATHERED = learn_together
+SEVERAL_LESSONS = ask_together
+LESSONS_ANSWERED = learn_together
 """What answers whether all of it is meant."""

@@ -330,10 +330,10 @@ def _lessons_about(s: Record, x: str) -> Iterator[RecordType]:
             yield it
 
 
-SEVERAL_ANSWERED = first(learn_anyway, learn_others, leave_several)
+THINGS_ANSWERED = first(learn_anyway, learn_others, leave_several)
 """What answers whether it is so of something of which something else was said."""
 
-SEVERAL = first(
+SEVERAL_THINGS = first(
     need_two,
     learn_several,
     reject_several,

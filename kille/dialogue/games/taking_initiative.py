@@ -229,5 +229,5 @@ OWN_QUESTIONS = ("ask_relation", "ask_thing", "ask_example", "ask_new", "ask_new
 """What it asks of its own accord, once each."""
 
 STAYING = stay
-INITIATING = first(learn_alone, ask_relation)
+TAKING_INITIATIVE = first(learn_alone, ask_relation)
 IDLING = first(learn_alone, ask)
