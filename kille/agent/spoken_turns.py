@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 
 from kille.agent.agent import Agent
 from kille.dialogue.language import understand
-from kille.dialogue.reading_weights import SURE
 from kille.dialogue.robust_reading.text_hearing import hear_text
+from kille.dialogue.speech_hypotheses import SURE
 from kille.speech.expectations import speech
 from kille.speech.recognition import Hypothesis
 

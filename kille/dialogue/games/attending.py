@@ -11,9 +11,9 @@ Source: Kelleher, Costello and van Genabith 2005 (visual and linguistic salience
 from __future__ import annotations
 
 from kille.dialogue.meanings import DialogueTypes
-from kille.dialogue.reading_weights import FAINTLY
 from kille.dialogue.reference.salience import needs_salience, set_salience
 from kille.dialogue.rules import rule
+from kille.dialogue.speech_hypotheses import FAINTLY
 from ttr import Record
 from ttr.updates import NBest
 

@@ -23,10 +23,10 @@ from kille.dialogue.meanings import (
     set_to,
     word_of,
 )
-from kille.dialogue.reading_weights import FAINTLY, weigh_readings
 from kille.dialogue.reference import roles_in, things_in
 from kille.dialogue.reference.salience import notice, notice_in_view
 from kille.dialogue.rules import rule
+from kille.dialogue.speech_hypotheses import FAINTLY, weigh_readings
 from kille.dialogue.taxonomy import nouns_in, under_kinds
 from ttr import Model, Pred, Record, RecordType, replace
 from ttr.updates import NBest, first, maybe, seq

@@ -11,14 +11,14 @@ from collections.abc import Sequence
 from kille.dialogue.beliefs import knows_word
 from kille.dialogue.meanings import DialogueTypes, claims, single_claims
 from kille.dialogue.moves import issue, plan
-from kille.dialogue.reading_weights import (
+from kille.dialogue.rules import rule
+from kille.dialogue.speech_hypotheses import (
     FAINTLY,
     SURE,
     WeighedMove,
     is_of_one_text,
     weigh_readings,
 )
-from kille.dialogue.rules import rule
 from kille.dialogue.word_lists import PARTIAL
 from ttr import Model, Record, replace
 from ttr.updates import NBest, first

@@ -12,7 +12,8 @@ where the robot has claimed something, "the red one" where it has asked which.
 | `situations` | what the talk is about |
 | `island_kinds` | which islands are treated alike |
 | `island_weights` | how well each fits what the talk is about |
-| `covers`, `sound_covers` | islands that do not overlap; which may stand together |
+| `island_covers` | islands that do not overlap |
+| `admissible_covers` | which of them may stand together |
 | `doubted_claims` | why a claim is asked about, or is none |
 | `rivals` | other ways to take a sentence |
 | `sentence_reading` | a sentence, read by its best cover |

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from kille.dialogue.robust_reading.admissible_covers import is_taken_up
 from kille.dialogue.robust_reading.clause_words import are_harmless
-from kille.dialogue.robust_reading.covers import Cover
+from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import CLAIMS, INDIRECT
 from kille.dialogue.robust_reading.islands import Island
 from kille.dialogue.robust_reading.self_repairs import RepairedSentence
-from kille.dialogue.robust_reading.sound_covers import is_taken_up
 from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists
 
 HEDGING = frozenset({"okay", "affirm", "deny", "ask_deed"})

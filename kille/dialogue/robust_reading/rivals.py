@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from kille.dialogue.language import Sentence
-from kille.dialogue.robust_reading.covers import Cover
+from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import CLAIMS, FALLBACK
 
 RIVAL = 0.5

@@ -16,8 +16,14 @@ from typing import NamedTuple
 from kille.dialogue.language import Reader, Sentence, reader
 from kille.dialogue.meanings import DialogueTypes, packaged_types, value_at
 from kille.dialogue.parsing import parts
-from kille.dialogue.robust_reading.covers import Cover, best_covers
+from kille.dialogue.robust_reading.admissible_covers import (
+    follows_no,
+    is_list_of_names,
+    is_taken_up,
+    keep_admissible,
+)
 from kille.dialogue.robust_reading.doubted_claims import doubt_about
+from kille.dialogue.robust_reading.island_covers import Cover, best_covers
 from kille.dialogue.robust_reading.island_kinds import (
     ALONE,
     CORRECTED,
@@ -35,12 +41,6 @@ from kille.dialogue.robust_reading.lessons_together import (
 from kille.dialogue.robust_reading.rivals import are_rivals, with_rivals
 from kille.dialogue.robust_reading.self_repairs import RepairedSentence, repair_sentence
 from kille.dialogue.robust_reading.situations import Situation
-from kille.dialogue.robust_reading.sound_covers import (
-    follows_no,
-    is_list_of_names,
-    is_taken_up,
-    keep_sound,
-)
 from kille.dialogue.robust_reading.whole_sentences import is_weak
 from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists, word_lists
 
@@ -90,7 +90,7 @@ def read_robustly(
         return NOTHING
     weigh = partial(weigh_island, situation, sentence.is_question, lists)
     found = best_covers(sentence.plain, sentence.words, grammar, weigh, lists, FOLLOWS)
-    covers = [keep_sound(it, sentence, situation) for it in found]
+    covers = [keep_admissible(it, sentence, situation) for it in found]
     ranked = sorted(
         (it for it in covers if it.islands),
         key=lambda it: (

@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.meanings import DialogueTypes, packaged_types
-from kille.dialogue.reading_weights import SURE
 from kille.dialogue.robust_reading.lessons_together import doubt_lesson
 from kille.dialogue.robust_reading.sentence_reading import NOTHING, Understanding
 from kille.dialogue.robust_reading.situations import Situation
@@ -21,6 +20,7 @@ from kille.dialogue.robust_reading.text_hearing import (
     hear_in_parts,
     is_doubted,
 )
+from kille.dialogue.speech_hypotheses import SURE
 from kille.dialogue.word_lists import PARTIAL
 
 Hypotheses = Sequence[tuple[str, float]]

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from kille.dialogue.language import LANGUAGES, Sentence, understand
 from kille.dialogue.meanings import predicate_at
 from kille.dialogue.robust_reading.clause_words import blank_harmless, words_of
-from kille.dialogue.robust_reading.covers import best_covers
+from kille.dialogue.robust_reading.island_covers import best_covers
 from kille.dialogue.robust_reading.island_kinds import CLAIMS
 from kille.dialogue.robust_reading.sentence_reading import read_robustly
 from kille.dialogue.robust_reading.situations import Situation, situation_of

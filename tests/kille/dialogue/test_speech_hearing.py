@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import predicate_at
-from kille.dialogue.reading_weights import SURE
 from kille.dialogue.robust_reading.island_kinds import CLAIMS
 from kille.dialogue.robust_reading.situations import Situation
 from kille.dialogue.robust_reading.speech_hearing import (
@@ -17,6 +16,7 @@ from kille.dialogue.robust_reading.speech_hearing import (
     hear_hypotheses_in_parts,
 )
 from kille.dialogue.robust_reading.text_hearing import hear_in_parts
+from kille.dialogue.speech_hypotheses import SURE
 
 
 def hear_moves(texts: Hypotheses, language: str = "en") -> tuple[UncertainMove, ...]:

@@ -11,7 +11,7 @@ from itertools import count
 from typing import NamedTuple
 
 from kille.dialogue.robust_reading.clause_words import Word, are_harmless
-from kille.dialogue.robust_reading.covers import Cover
+from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import (
     CLAIMS,
     CORRECTABLE,
@@ -73,7 +73,9 @@ LONGEST_ASIDE = 8
 """How many words may stand after a name alone; before it, no more than it may have."""
 
 
-def keep_sound(cover: Cover, sentence: RepairedSentence, situation: Situation) -> Cover:
+def keep_admissible(
+    cover: Cover, sentence: RepairedSentence, situation: Situation
+) -> Cover:
     """The cover without islands that may not stand in it as they do: those it misses.
 
     A yes that answers nothing, and what is said again, is not missed.
@@ -90,7 +92,7 @@ def keep_sound(cover: Cover, sentence: RepairedSentence, situation: Situation) -
             tuple(sorted((*cover.missed, *gone))),
             cover.weight * UNSOUND,
         )
-        return keep_sound(less, sentence, situation)
+        return keep_admissible(less, sentence, situation)
     return cover
 
 
