@@ -71,9 +71,9 @@ def serve(
     one that stands beside it.
     """
     try:
-        from kille.page.inside import Insight
         from kille.page.microphone import why_deaf
         from kille.page.server import Terminal, serve_page
+        from kille.page.state_changes import Insight
     except ImportError:
         return complain(MISSING)
     place = memory_path(memory)

@@ -11,15 +11,15 @@ the page is sent the events after the last one that they have, and the newest pi
 | `robot_thread` | the robot, and whose turn it is |
 | `turn_reports` | turns and views as JSON |
 | `table` | the table from above, arranged by hand; recordings, wound by hand |
-| `inside` | what a turn did to the information state, when somebody asks |
-| `unfired` | the rules that did not fire in a turn, and why |
-| `shelf` | words with their examples, and what was learned from them |
+| `state_changes` | what a turn did to the information state, when somebody asks |
+| `unfired_rules` | the rules that did not fire in a turn, and why |
+| `word_shelf` | words with their examples, and what was learned from them |
 | `stepping` | turns that wait before each rule |
 | `second_robot` | a robot of another theory, which lives through the same |
 | `side_by_side` | what the two made of a turn, with what differs marked |
 | `history` | pictures and events of earlier turns |
 | `exports` | a turn or the dialogue as a file |
-| `reads` | the addresses at which it is looked into |
+| `lookup_routes` | the addresses at which it is looked into |
 | `browser_requests` | what a browser may ask for, checked |
 | `guard` | who may reach the page: hosts, origins, tokens; and safe headers |
 | `certificates` | the certificate of this host, for TLS |

@@ -47,11 +47,11 @@ from kille.page.browser_requests import (
     uttered_request,
 )
 from kille.page.feed import Event, Feed
-from kille.page.inside import MATRIX_STYLE
 from kille.page.live_picture import LivePicture, Watcher
 from kille.page.microphone import Microphone
 from kille.page.robot_thread import BusyError
 from kille.page.spoken_answers import SpokenAnswers
+from kille.page.state_changes import MATRIX_STYLE
 
 BROWSERS = 16
 """How many may look at the page at a time."""

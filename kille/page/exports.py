@@ -10,7 +10,7 @@ from kille.agent.exchanges import Event, Exchange
 from kille.agent.story_log import event_lines, head_lines
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.language_files import plain
-from kille.page.inside import PARTS, Insight
+from kille.page.state_changes import PARTS, Insight
 from ttr import Record, latex, record
 
 FORMATS = ("dlg", "log", "tex")

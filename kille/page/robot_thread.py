@@ -47,8 +47,8 @@ from kille.memory import MemoryFileError
 from kille.page.browser_requests import BrowserRequest
 from kille.page.feed import Feed
 from kille.page.history import History
-from kille.page.inside import PLAIN, Insight, Json
 from kille.page.second_robot import MakeSecond, SecondRobot
+from kille.page.state_changes import PLAIN, Insight, Json
 from kille.page.stepping import Stepper
 from kille.page.table import table_report
 from kille.page.turn_reports import turn_report, view_report

@@ -19,13 +19,13 @@ from kille.page.app import Voice, page_app
 from kille.page.browser_requests import MESSAGE, parse_request
 from kille.page.feed import Event, Feed
 from kille.page.guard import Access, Guard
-from kille.page.inside import PLAIN, Insight
 from kille.page.live_picture import LivePicture
+from kille.page.lookup_routes import lookup_routes
 from kille.page.microphone import Listening, Microphone
-from kille.page.reads import read_routes
 from kille.page.robot_thread import RobotThread, Watch
 from kille.page.second_robot import MakeSecond
 from kille.page.spoken_answers import SpokenAnswers
+from kille.page.state_changes import PLAIN, Insight
 from kille.page.table import table_report
 from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
@@ -143,7 +143,7 @@ def serve_page(
             picture,
             robot.ask,
             lambda: _greeting(robot.robot, second),
-            read_routes(robot),
+            lookup_routes(robot),
             voice,
         )
         server = uvicorn_server(Guard(app, settings.access), settings.certificate)

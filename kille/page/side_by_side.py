@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 from typing import Any
 
 from kille.agent.exchanges import Exchange
-from kille.page.inside import PARTS, Insight
+from kille.page.state_changes import PARTS, Insight
 from ttr import Record
 from ttr.display.differences import mark_differences, omit_common_fields
 from ttr.display.html import part_of_page

@@ -8,7 +8,7 @@ from threading import Condition
 from typing import Any
 
 from kille.agent.exchanges import Exchange
-from kille.page.inside import Insight
+from kille.page.state_changes import Insight
 from ttr.updates import Step
 
 Event = dict[str, Any]

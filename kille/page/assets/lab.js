@@ -1,11 +1,11 @@
 // The lab: what each turn did to the information state, chosen on a timeline.
 
-import { Beside } from "./beside.js";
+import { Beside } from "./side_by_side.js";
 import { byId, el, matrix } from "./dom.js";
 import { lookUp } from "./look_up.js";
-import { Shelf } from "./shelf.js";
+import { Shelf } from "./word_shelf.js";
 import { brief, t } from "./texts.js";
-import { unfired } from "./unfired.js";
+import { unfired } from "./unfired_rules.js";
 
 const KEPT = 200; // turns that can be looked at, with their pictures
 

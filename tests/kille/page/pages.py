@@ -24,9 +24,8 @@ from kille.interfaces.formatting import derivation, in_short
 from kille.page.app import page_app
 from kille.page.feed import Feed
 from kille.page.guard import Access, Guard
-from kille.page.inside import Insight
 from kille.page.live_picture import LivePicture
-from kille.page.reads import read_routes
+from kille.page.lookup_routes import lookup_routes
 from kille.page.robot_thread import RobotThread
 from kille.page.server import (
     Second,
@@ -35,6 +34,7 @@ from kille.page.server import (
     open_voice,
     uvicorn_server,
 )
+from kille.page.state_changes import Insight
 from kille.sensors.sensor import Sensor
 from kille.sensors.sources import open_sensor
 from kille.speech.hearing import HearingProcess
@@ -164,7 +164,7 @@ def page_of(
         picture,
         robot.ask,
         lambda: _greeting(robot.robot, second),
-        read_routes(robot),
+        lookup_routes(robot),
         voice,
     )
     server = uvicorn_server(Guard(app, access or Access("127.0.0.1")))

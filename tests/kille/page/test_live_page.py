@@ -19,8 +19,8 @@ from kille.interfaces.cli import main
 from kille.page.app import BROWSERS, UNDER_WAY
 from kille.page.browser_requests import MESSAGE, parse_request
 from kille.page.history import History
-from kille.page.inside import PLAIN
 from kille.page.robot_thread import READING, WAITING, BusyError, Watch
+from kille.page.state_changes import PLAIN
 from kille.page.stepping import Stepper
 from kille.scene import Frame
 from kille.sensors.sensor import At, SensorError, Stage

@@ -30,11 +30,11 @@ from starlette.routing import Route
 from kille.agent.agent import Agent
 from kille.memory.pictures import JPEG
 from kille.page.exports import FORMATS, file_name, log_text, state_as_latex, story_text
-from kille.page.inside import Json, inside_report
 from kille.page.robot_thread import RobotThread
-from kille.page.shelf import EXAMPLES, example_picture, shelf_page, word_report
 from kille.page.side_by_side import comparison_report
-from kille.page.unfired import unfired_report
+from kille.page.state_changes import Json, inside_report
+from kille.page.unfired_rules import unfired_report
+from kille.page.word_shelf import EXAMPLES, example_picture, shelf_page, word_report
 from ttr import TTRError
 
 _TOGETHER = 8
@@ -45,7 +45,7 @@ _LARGEST_KEY = 2**63 - 1
 _MISSING = Response(status_code=404)
 
 
-def read_routes(robot: RobotThread) -> list[Route]:
+def lookup_routes(robot: RobotThread) -> list[Route]:
     """The addresses at which a robot is looked into."""
     reads = _Reads(robot)
     return [
