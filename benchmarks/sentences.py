@@ -36,7 +36,7 @@ from kille.dialogue.meanings import is_denial
 from kille.dialogue.robust_reading.clause_words import Word, words_of
 from kille.dialogue.word_lists import WordLists, word_lists
 from kille.lab.robots.simulated import SimulatedRobot
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.worlds.games import simulated_game
 from kille.lab.worlds.worlds import draw_world
 from ttr import Record

@@ -20,7 +20,7 @@ from kille.interfaces.terminal import (
     print_json,
     transient_bar,
 )
-from kille.lab.protocols.plans import (
+from kille.lab.protocols.protocols_for_data import (
     OBJECTS,
     RELATIONS,
     Plan,

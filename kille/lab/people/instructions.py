@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.tutors.simulated import BY
 from kille.lab.tutors.tutor import Task
 from kille.lab.tutors.words import Words

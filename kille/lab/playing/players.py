@@ -7,8 +7,8 @@ from datetime import UTC, datetime
 from random import Random
 from typing import Any
 
-from kille.lab.people.robot import TypedRobot
-from kille.lab.people.tutor import Keyboard
+from kille.lab.people.person_as_robot import TypedRobot
+from kille.lab.people.person_as_tutor import Keyboard
 from kille.lab.robots import Robot
 from kille.lab.robots.simulated import SimulatedRobot
 from kille.lab.robots.whole import WholeRobot
@@ -19,12 +19,12 @@ from kille.lab.theories import agent_of, game_of, language_of
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.tutors import SETTINGS
 from kille.lab.tutors.beliefs import Manner
-from kille.lab.tutors.own import load_tutor_maker
 from kille.lab.tutors.scripted import read_script
 from kille.lab.tutors.several import Several
 from kille.lab.tutors.simulated import SimulatedTutor as SimulatedTutor
 from kille.lab.tutors.spatial_judges import Person, Placing, Speaker, read_ratings
 from kille.lab.tutors.tutor import Tutor
+from kille.lab.tutors.user_tutors import load_tutor_maker
 from kille.lab.tutors.words import Words
 from kille.lab.worlds.worlds import COLOURS
 

@@ -22,7 +22,7 @@ from kille.lab.playing.players import robot_of, tutor_of
 from kille.lab.protocols.phases import CHANGING, RESTING, successor, tasks
 from kille.lab.robots import Robot
 from kille.lab.robots.replies import Reply, degrees
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.study import Run, Study
 from kille.lab.tutors.tutor import (
     Asked,

@@ -18,7 +18,7 @@ from random import Random
 
 from kille.lab import scenes
 from kille.lab.scenes import Scene
-from kille.lab.scenes.occasions import KINDS, ORDERS, Occasion, order_occasions
+from kille.lab.scenes.scene import KINDS, ORDERS, Occasion, order_occasions
 from kille.lab.settings import Problem, Setting, Settings, fill_settings, suggest_name
 from kille.lab.study import Named, Phase, Run, Study
 from kille.lab.tutors.tutor import Task

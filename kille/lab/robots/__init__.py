@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 
 __all__ = ["Reply", "Robot"]
 

@@ -10,7 +10,7 @@ from kille.dialogue.robust_reading.text_hearing import hear_text
 from kille.dialogue.tutoring import hear_sentences
 from kille.dialogue.wording import did_not_understand
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.scenes.table_commands import change_world
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glance_event, look_event, number_of, thing

@@ -5,8 +5,8 @@ from __future__ import annotations
 from kille.agent.agent import Agent
 from kille.agent.exchanges import Exchange
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.occasions import Occasion
-from kille.lab.scenes.theatre import Theatre
+from kille.lab.scenes.robot_views import Theatre
+from kille.lab.scenes.scene import Occasion
 from kille.lab.worlds.perception import thing
 
 

@@ -10,7 +10,7 @@ a camera has taken.
 """
 
 from kille.lab.scenes.kinds import SETTINGS, WHOLE, faults, open_scene
-from kille.lab.scenes.occasions import Occasion, Scene
+from kille.lab.scenes.scene import Occasion, Scene
 from ttr.aliases import former_names
 
 __all__ = ["SETTINGS", "WHOLE", "Occasion", "Scene", "faults", "open_scene"]

@@ -12,9 +12,9 @@ from typing import Any
 from kille.lab.errors import StudyError
 from kille.lab.scenes.galleries import Gallery, open_gallery
 from kille.lab.scenes.labelled import LabelledScenes, open_scenes
-from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE
-from kille.lab.scenes.theatre import CaptureView, PictureView, Theatre
+from kille.lab.scenes.robot_views import CaptureView, PictureView, Theatre
+from kille.lab.scenes.scene import Occasion, Scene
 from kille.lab.settings import suggest_name
 from kille.lab.worlds.worlds import Thing, World
 from kille.sensors.captures import Shot

@@ -9,7 +9,6 @@ from itertools import product
 from random import Random
 from typing import Any
 
-from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import (
     BEARINGS,
     Astray,
@@ -18,6 +17,7 @@ from kille.lab.scenes.places import (
     round_place,
     word_group,
 )
+from kille.lab.scenes.scene import Occasion, Scene
 from kille.lab.worlds.perception import oddness
 from kille.lab.worlds.vocabulary import SIDES
 from kille.lab.worlds.worlds import FRONTS, SIDE, Thing, World

@@ -12,8 +12,8 @@ from urllib.parse import quote
 
 from kille.lab.errors import StudyError
 from kille.lab.results import ExperimentError
-from kille.lab.scenes.occasions import KINDS as WORDS
-from kille.lab.scenes.occasions import Scene
+from kille.lab.scenes.scene import KINDS as WORDS
+from kille.lab.scenes.scene import Scene
 from kille.lab.settings import (
     Problem,
     Setting,
@@ -162,7 +162,7 @@ def _opener(kind: str) -> Callable[..., Scene]:
 
             return draw_scene
         case "around":
-            from kille.lab.scenes.around import open_around
+            from kille.lab.scenes.around_landmark import open_around
 
             return open_around
         case "statements":

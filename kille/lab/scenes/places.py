@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from random import Random
 
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.worlds.vocabulary import SIDES
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
 

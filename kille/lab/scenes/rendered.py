@@ -10,9 +10,9 @@ from random import Random
 from typing import Any
 from urllib.parse import quote
 
-from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE, ring_places, round_place, side_of
-from kille.lab.scenes.theatre import Stand, TableView, Theatre, lay_table
+from kille.lab.scenes.robot_views import Stand, TableView, Theatre, lay_table
+from kille.lab.scenes.scene import Occasion, Scene
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.catalogue import TOY_NAMES

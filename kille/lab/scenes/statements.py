@@ -16,9 +16,9 @@ from random import Random
 from typing import Any
 
 from kille.lab.errors import StudyError
-from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import MIDDLE, occasion_alone, round_place
 from kille.lab.scenes.published_judgements import read
+from kille.lab.scenes.scene import Occasion, Scene
 from kille.lab.settings import suggest_name
 from kille.lab.worlds.worlds import STEP, Place, Thing, World
 from kille.scene import Configuration

@@ -6,8 +6,8 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from kille.lab.errors import StudyError
-from kille.lab.scenes.occasions import Occasion
 from kille.lab.scenes.places import TABLE, round_place
+from kille.lab.scenes.scene import Occasion
 from kille.lab.worlds.worlds import World
 
 

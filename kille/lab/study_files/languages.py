@@ -15,12 +15,12 @@ from kille.dialogue.language_files import FILES, STRATEGIES
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.parsing import Grammar
 from kille.dialogue.strategies import strategy
-from kille.lab.own_code import describe_exception
 from kille.lab.settings import Key, Problem, suggest_name, why_no_folder
 from kille.lab.study import Theory
 from kille.lab.study_files.problems import line_of, lines_of
 from kille.lab.theories.games import language_of
 from kille.lab.theories.meanings import meanings_of
+from kille.lab.user_code import describe_exception
 from ttr import TTRError
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text

@@ -6,13 +6,13 @@ from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
 
-from kille.lab.own_code import failing_line
 from kille.lab.results import ExperimentError
 from kille.lab.scenes import Occasion
-from kille.lab.scenes.theatre import Stand, TableView, Theatre
+from kille.lab.scenes.robot_views import Stand, TableView, Theatre
 from kille.lab.settings import Problem, show_value, suggest_name, why_no_file
 from kille.lab.study import Theory
 from kille.lab.theories.classifiers import NAMES, learners_of, words_of
+from kille.lab.user_code import failing_line
 from kille.lab.worlds.worlds import World
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping
 
 from kille.lab.protocols.phases import CHANGING, RESTING, length
 from kille.lab.scenes import Scene
-from kille.lab.scenes.occasions import KINDS
+from kille.lab.scenes.scene import KINDS
 from kille.lab.settings import Problem
 from kille.lab.study import Phase, Study
 from kille.lab.study_files.words import SPEAKING

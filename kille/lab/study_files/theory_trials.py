@@ -14,7 +14,6 @@ from pathlib import Path
 
 from kille.dialogue.tutoring import hear, tutoring
 from kille.lab.errors import TheoryError
-from kille.lab.own_code import describe_exception, failing_line
 from kille.lab.results import ExperimentError
 from kille.lab.settings import Key, Problem, why_no_file
 from kille.lab.study import PERSON, Theory
@@ -28,6 +27,7 @@ from kille.lab.theories.games import (
 )
 from kille.lab.theories.meanings import meanings_of
 from kille.lab.theories.rules import missing_rules, packaged_rules
+from kille.lab.user_code import describe_exception, failing_line
 from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.worlds import Thing, World
 from ttr import TTRError

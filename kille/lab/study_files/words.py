@@ -16,7 +16,7 @@ from kille.dialogue.meanings import value_at
 from kille.lab.results import ExperimentError
 from kille.lab.scenes import Scene
 from kille.lab.scenes.captured import Captured
-from kille.lab.scenes.occasions import KINDS as WORDS
+from kille.lab.scenes.scene import KINDS as WORDS
 from kille.lab.scenes.statements import Statements
 from kille.lab.settings import Problem, show_value, suggest_name
 from kille.lab.study import Named, Phase, Study

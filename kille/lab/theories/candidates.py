@@ -14,14 +14,14 @@ from pathlib import Path
 from reprlib import repr as brief
 from typing import Any, TypeAlias
 
-from kille.lab.own_code import (
+from kille.lab.results import ExperimentError
+from kille.lab.settings import suggest_name
+from kille.lab.user_code import (
     WRITTEN,
     OwnCodeError,
     describe_exception,
     load_maker,
 )
-from kille.lab.results import ExperimentError
-from kille.lab.settings import suggest_name
 from kille.perception.learners import check_degrees
 from ttr.aliases import former_names
 from ttr.safety.consent import Consent

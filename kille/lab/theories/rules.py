@@ -13,15 +13,15 @@ from kille.dialogue.games import TUTORING
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.rules import bind
 from kille.lab.errors import TheoryError
-from kille.lab.own_code import (
+from kille.lab.settings import suggest_name, why_no_file
+from kille.lab.study import Theory
+from kille.lab.theories.meanings import meanings_of
+from kille.lab.user_code import (
     OwnCodeError,
     describe_exception,
     failing_line,
     load_object,
 )
-from kille.lab.settings import suggest_name, why_no_file
-from kille.lab.study import Theory
-from kille.lab.theories.meanings import meanings_of
 from ttr import TTRError
 from ttr.safety.consent import OWN_FOLDER, Consent
 from ttr.theories.theory import load

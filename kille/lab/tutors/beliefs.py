@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from kille.dialogue.beliefs import knows
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.tutors.spatial_judges import Speaker
 from kille.lab.tutors.tutor import Asked, Says, Task
 from kille.lab.tutors.words import Words

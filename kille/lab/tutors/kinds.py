@@ -23,10 +23,10 @@ from kille.lab.settings import (
     why_no_folder,
 )
 from kille.lab.study import Named, Study
-from kille.lab.tutors.own import describe_error, load_tutor_maker
 from kille.lab.tutors.scripted import script_lines, unplayable_lines
 from kille.lab.tutors.simulated import FEEDBACK
 from kille.lab.tutors.spatial_judges import SIDES, read_ratings
+from kille.lab.tutors.user_tutors import describe_error, load_tutor_maker
 from kille.lab.tutors.words import Words
 from ttr.dialogues.stories import StoryError
 

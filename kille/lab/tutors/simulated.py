@@ -11,7 +11,7 @@ from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, replace
 
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.occasions import KINDS, Occasion
+from kille.lab.scenes.scene import KINDS, Occasion
 from kille.lab.tutors.beliefs import Beliefs, Manner
 from kille.lab.tutors.simulated_answers import answer_robot
 from kille.lab.tutors.tutor import Asked, Move, Says, Shows, Task, Turns, Waits

@@ -13,7 +13,7 @@ from random import Random
 from typing import Any, Protocol, TypeAlias
 
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.study import Run
 from kille.lab.worlds.worlds import Thing
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from kille.dialogue.meanings import record_type
 from kille.lab.robots.simulated import SimulatedRobot
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.tutors.exploring import NONSENSE, exploring_tutor
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING

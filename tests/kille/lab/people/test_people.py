@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 
 from kille.lab.errors import StudyError
 from kille.lab.people.instructions import format_view
-from kille.lab.people.robot import TypedRobot
-from kille.lab.people.tutor import Keyboard
+from kille.lab.people.person_as_robot import TypedRobot
+from kille.lab.people.person_as_tutor import Keyboard
 from kille.lab.people.typed_lines import Gone, read_line
 from kille.lab.people.typed_sayings import claimed_words
 from kille.lab.playing import play
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.scenes.table_commands import change_world
 from kille.lab.study import Named, Phase, Run, Study, Theory
 from kille.lab.tutors.tutor import Says, Task

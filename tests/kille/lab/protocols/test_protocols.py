@@ -9,8 +9,9 @@ import cv2
 import numpy as np
 import pytest
 
-from kille.lab.protocols import objects, picture_splits, plans, shots, variations
+from kille.lab.protocols import objects, picture_splits, shots, variations
 from kille.lab.protocols import scenes as scenes_of
+from kille.lab.protocols.protocols_for_data import Plan, object_plans, run_plan
 from kille.lab.protocols.teaching import NOTHING, ObjectAnswer, mean_degrees
 from kille.lab.results import ExperimentError, Result, silent
 from kille.lab.scenes.galleries import Gallery, open_gallery
@@ -213,42 +214,42 @@ def test_scenes_that_cannot_be_split(
 # --- plans ---------------------------------------------------------------------------
 
 
-def names(found: tuple[plans.Plan, ...]) -> list[str]:
+def names(found: tuple[Plan, ...]) -> list[str]:
     return [plan.name for plan in found if plan.usual]
 
 
 def test_data_is_recognised_by_its_content(photos: Path, scenes: Path) -> None:
-    assert names(plans.object_plans(None)) == ["paper", "rotation", "specimens"]
-    assert names(plans.object_plans(str(photos))) == [
+    assert names(object_plans(None)) == ["paper", "rotation", "specimens"]
+    assert names(object_plans(str(photos))) == [
         *("even-odd", "halves", "shots", "degrees")
     ]
-    assert names(plans.object_plans(str(scenes))) == ["scenes", "regions"]
-    only, _ = plans.object_plans(str(scenes / "first"))  # the other is growth
+    assert names(object_plans(str(scenes))) == ["scenes", "regions"]
+    only, _ = object_plans(str(scenes / "first"))  # the other is growth
     assert (only.name, only.compares) == ("regions", ("default", "plain"))
 
 
 def test_real_data_is_recognised_too(data: Path) -> None:
-    found = plans.object_plans(str(data / "ycbv_scenes"), ["0001", "0002"], ["0050"])
+    found = object_plans(str(data / "ycbv_scenes"), ["0001", "0002"], ["0050"])
     assert names(found) == ["scenes", "regions"]
-    assert names(plans.object_plans(str(data / "mosd_scenes"))) == ["regions"]
-    assert names(plans.object_plans(str(data / "ycb_meshes"))) == ["paper", "rotation"]
+    assert names(object_plans(str(data / "mosd_scenes"))) == ["regions"]
+    assert names(object_plans(str(data / "ycb_meshes"))) == ["paper", "rotation"]
 
 
 def test_who_fails_is_left_out_and_the_others_go_on(
     gallery: Gallery, colour: Make, failing: Make
 ) -> None:
     failures: list[MethodFailedError] = []
-    plan = plans.Plan(
+    plan = Plan(
         "even-odd", lambda *a, **b: picture_splits.every_other(gallery, *a, **b)
     )
     taking_part = methods(failing=failing, colour=colour)
-    result, able = plans.run_plan(
+    result, able = run_plan(
         plan, taking_part, seed=0, progress=silent, failed=failures.append
     )
     assert result is not None
     assert [row[0] for row in result.tables[0].rows] == ["colour"] == [*able]
     assert [failure.name for failure in failures] == ["failing"]
-    assert plans.run_plan(
+    assert run_plan(
         plan, methods(failing=failing), seed=0, progress=silent, failed=failures.append
     ) == (None, {})
 

@@ -6,10 +6,10 @@ import pytest
 
 from kille.lab import scenes
 from kille.lab.errors import StudyError
-from kille.lab.people.robot import TypedRobot
+from kille.lab.people.person_as_robot import TypedRobot
 from kille.lab.playing.players import robot_of
 from kille.lab.robots.replies import degrees
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.study import Named, Run, Study, Theory
 from kille.lab.worlds.worlds import Thing, World
 

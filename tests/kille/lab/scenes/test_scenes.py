@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from kille.lab import scenes
 from kille.lab.scenes.labelled import open_scenes
-from kille.lab.scenes.occasions import ORDERS, Occasion, order_occasions
+from kille.lab.scenes.scene import ORDERS, Occasion, order_occasions
 from kille.lab.settings import Problem
 from kille.lab.study import Named, Phase, Run, Study
 from kille.lab.worlds.worlds import STEP

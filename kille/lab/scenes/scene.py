@@ -1,4 +1,4 @@
-"""Occasions: what there is to talk of, in front of a tutor.
+"""A scene, and its occasions: what there is to talk of, in front of a tutor.
 
 An occasion is a value: the world, the thing that is talked of, and what it is compared
 with. Scenes give them in rounds, and a phase of a study brings them in an order.

@@ -13,14 +13,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 from kille.lab.errors import StudyError
-from kille.lab.own_code import (
+from kille.lab.tutors.tutor import Tutor
+from kille.lab.user_code import (
     WRITTEN,
     OwnCodeError,
     describe_exception,
     failing_line,
     load_maker,
 )
-from kille.lab.tutors.tutor import Tutor
 from ttr.safety.consent import Consent
 
 MakeTutor = Callable[..., Tutor]

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from kille.agent.attention import Attention, NumberedLook
 from kille.lab.errors import StudyError
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.scenes.stills import (
     look_at_outlined,
     look_at_picture,

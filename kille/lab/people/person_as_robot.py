@@ -15,7 +15,7 @@ from kille.lab.people.instructions import example, format_view
 from kille.lab.people.typed_lines import Ask, read_line
 from kille.lab.people.typed_sayings import acts, asked_kind, claimed_words, sentences
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.scenes.table_commands import occasion_after
 from ttr import Model, record
 from ttr.judging import Judgement

@@ -16,7 +16,7 @@ from kille.lab.people.instructions import (
 from kille.lab.people.typed_lines import Ask, read_line
 from kille.lab.people.typed_sayings import QUESTIONS, acts, claimed_words
 from kille.lab.robots.replies import Reply
-from kille.lab.scenes.occasions import Occasion
+from kille.lab.scenes.scene import Occasion
 from kille.lab.scenes.table_commands import occasion_after
 from kille.lab.tutors.tutor import (
     Asked,

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
 
-from kille.lab.scenes.occasions import Occasion, Scene
 from kille.lab.scenes.places import (
     MIDDLE,
     Astray,
@@ -21,6 +20,7 @@ from kille.lab.scenes.places import (
     ring_places,
     round_place,
 )
+from kille.lab.scenes.scene import Occasion, Scene
 from kille.lab.worlds.worlds import FRONTS, STEP, Thing, World
 
 
