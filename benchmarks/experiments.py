@@ -25,7 +25,7 @@ from typing import NamedTuple
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.log import write_tables
 from kille.lab.reports import report
-from kille.lab.running import Crew, alone, crew, run
+from kille.lab.running_studies import Crew, alone, crew, run
 from kille.lab.study import Run, Study
 from kille.lab.study_files import parse
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from kille.aliases import FORMER_MODULES
+from kille.former_modules import FORMER_MODULES
 from ttr.aliases import find_former_modules
 from ttr.hooks import set_providers
 

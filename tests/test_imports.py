@@ -137,7 +137,7 @@ def test_a_pickle_is_found(text: str) -> None:
 
 BETWEEN_PROCESSES = {
     "kille/sensors/kinect/channel.py",
-    *(f"kille/lab/running/{it}.py" for it in ("clusters", "local", "workers")),
+    *(f"kille/lab/running_studies/{it}.py" for it in ("clusters", "local", "workers")),
 }
 """What is sent between processes that one has started, or that one trusts to play."""
 

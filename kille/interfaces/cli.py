@@ -822,7 +822,7 @@ def _experiment_run(options: argparse.Namespace) -> int:
 
 def _experiment_resume(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.running import keep_as_is, resume_study
-    from kille.lab.running.runner import forget_broken
+    from kille.lab.running_studies.runner import forget_broken
 
     first = forget_broken if options.again else keep_as_is
     return resume_study(options.folder, _request(options), first)

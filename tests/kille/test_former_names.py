@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import sys
+from importlib import import_module
 from pkgutil import resolve_name
 
 import pytest
+
+from kille.former_modules import FORMER_MODULES
 
 RENAMED = [
     ("kille.dialogue.meanings", "denied", "denial"),
@@ -42,3 +46,18 @@ def test_a_former_name_works_and_warns(place: str, former: str, now: str) -> Non
     owner = resolve_name(place)
     with pytest.warns(DeprecationWarning, match=rf"{former} is now .*{now}"):
         assert getattr(owner, former) is getattr(owner, now)
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+@pytest.mark.parametrize("former", sorted(FORMER_MODULES))
+def test_a_former_module_is_the_one_that_took_its_place(former: str) -> None:
+    now = FORMER_MODULES[former]
+    sys.modules.pop(former, None)
+    with pytest.warns(DeprecationWarning, match=f"^{former} is now {now}$"):
+        assert import_module(former) is import_module(now)
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_module_is_found_in_a_room_by_its_former_name() -> None:
+    former = resolve_name("kille.studies.running.crews")
+    assert former is import_module("kille.lab.running_studies.crews")

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
 
 from kille.interfaces.terminal import console, transient_bar
-from kille.lab.running import Progress
+from kille.lab.running_studies import Progress
 
 PACE_SECONDS = 300
 """The time left is estimated from the pace over this many seconds."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 
 from kille.interfaces.terminal import complain
-from kille.lab.running import Crew, Scheduler, crew
+from kille.lab.running_studies import Crew, Scheduler, crew
 
 
 def scheduler_from(options: Namespace) -> Scheduler | None:

@@ -21,7 +21,7 @@ from kille.lab.log import Broken, Finished, Outcome, RunError
 from kille.lab.log.outcomes import Play, PlayAll
 from kille.lab.people.typed_lines import wait_until_ready
 from kille.lab.protocols.phases import CHANGING, successor, tasks
-from kille.lab.running import Crew, Scheduler, alone
+from kille.lab.running_studies import Crew, Scheduler, alone
 from kille.lab.scenes import open_scene
 from kille.lab.study import PERSON, Run, Study
 

@@ -21,7 +21,7 @@ from kille.interfaces.terminal import (
 from kille.lab import log
 from kille.lab.log import Broken, Outcome, RunError
 from kille.lab.log.sources import changed_sources, sources
-from kille.lab.running import Difference, Progress, replay
+from kille.lab.running_studies import Difference, Progress, replay
 from kille.lab.study import Run
 
 

@@ -22,7 +22,7 @@ from kille.interfaces.terminal import FAILED, FINE, complain, complain_all, cons
 from kille.lab import log, reports
 from kille.lab.errors import StudyError
 from kille.lab.log import write_tables
-from kille.lab.running import Progress, Scheduler, Summary, run
+from kille.lab.running_studies import Progress, Scheduler, Summary, run
 from kille.lab.study import Study
 from kille.lab.study_files import check, read, read_and_check
 from kille.lab.study_files.consent import check_allowed, python_in

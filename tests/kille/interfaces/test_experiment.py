@@ -234,7 +234,7 @@ def test_a_mistake_is_one_line(
 def test_an_address_without_tls_is_warned_of_before_anybody_is_there(
     kille: Run, study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("kille.lab.running.clusters.CONNECTING", 0.5)
+    monkeypatch.setattr("kille.lab.running_studies.clusters.CONNECTING", 0.5)
     done = kille("experiment", "run", str(study), "--scheduler", "tcp://127.0.0.1:1")
     warning, error = done.err.splitlines()
     assert done.code == 2

@@ -14,7 +14,7 @@ from kille.lab import log
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.log import Broken, Finished, Log, RunError
 from kille.lab.log.tables import TABLES, write_tables
-from kille.lab.running import run
+from kille.lab.running_studies import run
 from little_study import BAD, GOOD, folder_of, play
 
 STUDY = little_study.study(theories=(GOOD, BAD))

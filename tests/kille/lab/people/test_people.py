@@ -15,7 +15,7 @@ from kille.lab.people.person_as_robot import TypedRobot
 from kille.lab.people.person_as_tutor import Keyboard
 from kille.lab.people.typed_lines import Gone, read_line
 from kille.lab.people.typed_sayings import claimed_words
-from kille.lab.playing import play
+from kille.lab.playing_dialogues import play
 from kille.lab.robots.replies import Reply
 from kille.lab.scenes.scene import Occasion
 from kille.lab.scenes.table_commands import change_world

@@ -7,7 +7,7 @@ import pytest
 from kille.lab import scenes
 from kille.lab.errors import StudyError
 from kille.lab.people.person_as_robot import TypedRobot
-from kille.lab.playing.players import robot_of
+from kille.lab.playing_dialogues.players import robot_of
 from kille.lab.robots.replies import degrees
 from kille.lab.scenes.scene import Occasion
 from kille.lab.study import Named, Run, Study, Theory

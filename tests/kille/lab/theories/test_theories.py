@@ -22,7 +22,7 @@ from kille.dialogue.rules import bind
 from kille.dialogue.theory_files import redefine
 from kille.grounding.knowledge import Knowledge
 from kille.lab.errors import TheoryError
-from kille.lab.playing import play
+from kille.lab.playing_dialogues import play
 from kille.lab.robots.simulated import SimulatedRobot
 from kille.lab.study import Run, Study, Theory
 from kille.lab.study_files import parse, read

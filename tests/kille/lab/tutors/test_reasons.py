@@ -8,7 +8,7 @@ from random import Random
 import pytest
 
 from kille.dialogue.meanings import noun
-from kille.lab.playing.talking import play
+from kille.lab.playing_dialogues.talking import play
 from kille.lab.scenes.drawn import draw_scene
 from kille.lab.scenes.kinds import SETTINGS
 from kille.lab.settings import fill_settings

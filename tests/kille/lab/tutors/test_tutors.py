@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from kille.lab import tutors as kinds
 from kille.lab.errors import StudyError
-from kille.lab.playing import play
+from kille.lab.playing_dialogues import play
 from kille.lab.settings import Problem
 from kille.lab.study import Named, Phase, Run, Study, Theory
 from kille.lab.tutors.spatial_judges import (

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from kille.lab.log import Log
 from kille.lab.log.outcomes import Broken, Play
-from kille.lab.running.crews import Crew, play_runs
+from kille.lab.running_studies.crews import Crew, play_runs
 from kille.lab.study import Study
 
 

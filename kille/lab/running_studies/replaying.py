@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from kille.lab.dialogues import Played
 from kille.lab.log.outcomes import Broken, Finished, Outcome, Play
-from kille.lab.running.crews import Crew, play_runs
+from kille.lab.running_studies.crews import Crew, play_runs
 from kille.lab.study import Study
 
 

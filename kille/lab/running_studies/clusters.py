@@ -37,8 +37,8 @@ from kille.lab.log.outcomes import (
     RunError,
     play_to_outcome,
 )
-from kille.lab.running.schedulers import Scheduler
-from kille.lab.running.threads import one_thread
+from kille.lab.running_studies.schedulers import Scheduler
+from kille.lab.running_studies.threads import one_thread
 from kille.lab.study import Run, Study
 
 BATCH_SECONDS = 1.0

@@ -25,8 +25,8 @@ from typing import Self
 from joblib import wrap_non_picklable_objects
 
 from kille.lab.log.outcomes import DEADLY, Broken, Outcome, Play, PlayAll, RunError
-from kille.lab.running.threads import READ_WHEN_LOADED
-from kille.lab.running.workers import READY
+from kille.lab.running_studies.threads import READ_WHEN_LOADED
+from kille.lab.running_studies.workers import READY
 from kille.lab.study import Run, Study
 
 AHEAD = 2
@@ -64,7 +64,7 @@ class Workers:
         self._control, theirs = socket.socketpair()
         single = dict.fromkeys((*READ_WHEN_LOADED, "OPENCV_FOR_THREADS_NUM"), "1")
         modules = {"PYTHONPATH": os.pathsep.join(map(str, sys.path))}
-        forking = "kille.lab.running.workers"
+        forking = "kille.lab.running_studies.workers"
         with theirs:
             try:
                 self._process = Popen(

@@ -1,5 +1,5 @@
 """Playing the dialogues of a study."""
 
-from kille.lab.playing.talking import play
+from kille.lab.playing_dialogues.talking import play
 
 __all__ = ["play"]

@@ -18,7 +18,7 @@ from kille.dialogue.state import words
 from kille.lab import scenes
 from kille.lab.dialogues import Answer, Played, Turn
 from kille.lab.errors import StudyError
-from kille.lab.playing.players import robot_of, tutor_of
+from kille.lab.playing_dialogues.players import robot_of, tutor_of
 from kille.lab.protocols.phases import CHANGING, RESTING, successor, tasks
 from kille.lab.robots import Robot
 from kille.lab.robots.replies import Reply, degrees

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.lab.playing import play
+from kille.lab.playing_dialogues import play
 from kille.lab.study import Named, Phase, Run, Study, Theory
 from kille.lab.study_files import read_and_check
 
@@ -185,7 +185,7 @@ def test_it_is_the_same_in_every_process():
     code = (
         "import hashlib, sys; from pathlib import Path;"
         "from kille.lab.study_files import read_and_check;"
-        "from kille.lab.playing import play;"
+        "from kille.lab.playing_dialogues import play;"
         "made = read_and_check(Path(sys.argv[1])); run = list(made.runs())[1];"
         "print(hashlib.sha256(repr(play(made, run)).encode()).hexdigest())"
     )

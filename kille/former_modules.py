@@ -1,4 +1,4 @@
-"""Names that modules of `kille` had until the last release: they still work, and warn.
+"""Modules of `kille` by the names that they had: these still work, and warn.
 
 >>> import warnings
 >>> with warnings.catch_warnings(record=True) as said:
@@ -20,7 +20,9 @@ FORMER_MODULES = {
     "kille.experiments.metrics": "kille.lab.measures.statistics",
     "kille.experiments.report": "kille.lab.reports.result_pages",
     "kille.experiments.results": "kille.lab.results",
+    "kille.lab.playing": "kille.lab.playing_dialogues",
     "kille.lab.protocols.parted": "kille.lab.protocols.picture_splits",
+    "kille.lab.running": "kille.lab.running_studies",
     "kille.simulation": "kille.lab.worlds",
     "kille.simulation.perceiving": "kille.lab.worlds.perception",
     "kille.simulation.playing": "kille.lab.worlds.games",

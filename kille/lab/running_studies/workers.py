@@ -1,8 +1,8 @@
 """The processes of this machine that play dialogues, forked from one that loaded all.
 
-    python -m kille.lab.running.workers CONTROL
+    python -m kille.lab.running_studies.workers CONTROL
 
-`kille.lab.running.local` starts it. CONTROL is the number of an open socket, on
+`kille.lab.running_studies.local` starts it. CONTROL is the number of an open socket, on
 which one byte comes for each worker that is wanted, and with it the worker's channel.
 All sockets are pairs that were handed on: they have no name, so nobody else can connect
 to them. When the control socket is closed, the whole process group is killed; so no
@@ -22,7 +22,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 
 from kille.lab.log.outcomes import Outcome, Play, RunError, broken_run, play_to_outcome
-from kille.lab.running.threads import one_thread
+from kille.lab.running_studies.threads import one_thread
 from kille.lab.study import Run, Study
 
 READY = None
@@ -108,7 +108,7 @@ def _play_pickled(study: Study, run: Run, play: Play) -> bytes:
 
 def load() -> None:
     """Import what plays dialogues, so that all workers share it."""
-    import kille.lab.playing  # noqa: F401
+    import kille.lab.playing_dialogues  # noqa: F401
 
     gc.collect()
     gc.freeze()

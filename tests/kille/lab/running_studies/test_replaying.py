@@ -13,8 +13,8 @@ from kille.lab import log
 from kille.lab.dialogues import Played
 from kille.lab.log import Broken, Finished, Outcome
 from kille.lab.log.outcomes import play_to_outcome
-from kille.lab.running import crew, replay, run
-from kille.lab.running.replaying import difference
+from kille.lab.running_studies import crew, replay, run
+from kille.lab.running_studies.replaying import difference
 from kille.lab.study import Run, Study
 from little_study import BAD, GOOD, play
 

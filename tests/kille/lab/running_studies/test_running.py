@@ -27,12 +27,12 @@ from kille.lab import log
 from kille.lab.errors import StudyError
 from kille.lab.log import Log, write_tables
 from kille.lab.log.outcomes import Outcome, RunError
-from kille.lab.running.clusters import _Cluster, _connect
-from kille.lab.running.crews import alone, crew, play_runs
-from kille.lab.running.local import MOST, Workers
-from kille.lab.running.runner import Progress, forget_broken, run
-from kille.lab.running.schedulers import Scheduler
-from kille.lab.running.threads import READ_WHEN_LOADED, one_thread
+from kille.lab.running_studies.clusters import _Cluster, _connect
+from kille.lab.running_studies.crews import alone, crew, play_runs
+from kille.lab.running_studies.local import MOST, Workers
+from kille.lab.running_studies.runner import Progress, forget_broken, run
+from kille.lab.running_studies.schedulers import Scheduler
+from kille.lab.running_studies.threads import READ_WHEN_LOADED, one_thread
 from kille.lab.study import Run, Study
 from listening import sockets_of
 from little_study import BAD, DEADLY, GOOD, folder_of, play
@@ -166,7 +166,7 @@ def test_a_scheduler_that_goes_away_is_one_line_and_loses_nothing(
 def test_a_cluster_without_workers_is_one_line_and_loses_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("kille.lab.running.clusters.PATIENCE", 0.5)
+    monkeypatch.setattr("kille.lab.running_studies.clusters.PATIENCE", 0.5)
     study = little_study.study(seeds=300)
     with cluster(workers=1) as (address, _, (worker,)):
 
@@ -193,7 +193,7 @@ def test_a_scheduler_that_is_gone_when_runs_are_to_be_sent_is_one_line() -> None
 def test_an_address_where_nobody_is_is_one_line(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("kille.lab.running.clusters.CONNECTING", 0.5)
+    monkeypatch.setattr("kille.lab.running_studies.clusters.CONNECTING", 0.5)
     with pytest.raises(RunError, match="no scheduler can be reached at nowhere"):
         played_by(Scheduler("nowhere"))
 
@@ -201,7 +201,7 @@ def test_an_address_where_nobody_is_is_one_line(
 def test_no_connection_that_failed_is_left_to_the_garbage_collector(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("kille.lab.running.clusters.CONNECTING", 0.5)
+    monkeypatch.setattr("kille.lab.running_studies.clusters.CONNECTING", 0.5)
     gc.disable()
     try:
         with pytest.raises(RunError):
@@ -404,7 +404,7 @@ SCRIPT = """
 import sys
 from pathlib import Path
 import little_study
-from kille.lab.running import crew, run
+from kille.lab.running_studies import crew, run
 
 def play(study, run):
     return little_study.play(study, run)
@@ -485,7 +485,8 @@ def forking_process() -> int:
     (found,) = [
         process
         for process in children(os.getpid())
-        if b"kille.lab.running.workers" in Path(f"/proc/{process}/cmdline").read_bytes()
+        if b"kille.lab.running_studies.workers"
+        in Path(f"/proc/{process}/cmdline").read_bytes()
     ]
     return found
 
@@ -563,7 +564,7 @@ def test_what_is_large_is_sent_whole(tmp_path: Path) -> None:
 
 def test_one_thread_is_there_when_workers_are_forked() -> None:
     told = "import os; print(len(os.listdir('/proc/self/task')))"
-    load = "from kille.lab.running.workers import load; load(); "
+    load = "from kille.lab.running_studies.workers import load; load(); "
     single = dict.fromkeys((*READ_WHEN_LOADED, "OPENCV_FOR_THREADS_NUM"), "1")
     found = subprocess.check_output(
         [sys.executable, "-c", load + told], env=os.environ | single, text=True
@@ -592,7 +593,7 @@ def settle(is_so: Callable[[], bool]) -> None:
 def test_only_a_cluster_needs_dask(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("kille.lab.running.crews.find_spec", lambda name: None)
+    monkeypatch.setattr("kille.lab.running_studies.crews.find_spec", lambda name: None)
     assert crew(1) is alone
     assert run(little_study.study(), tmp_path, play, crew(2)).played == 6
     with pytest.raises(StudyError, match=r"pip install 'kille\[cluster\]'"):
@@ -634,10 +635,10 @@ import signal, sys
 from pathlib import Path
 import little_study
 from kille.interfaces.experiment.stopping import stoppable
-from kille.lab.running.crews import crew
-from kille.lab.running.schedulers import Scheduler
-from kille.lab.running.local import MOST, Workers
-from kille.lab.running.runner import run
+from kille.lab.running_studies.crews import crew
+from kille.lab.running_studies.schedulers import Scheduler
+from kille.lab.running_studies.local import MOST, Workers
+from kille.lab.running_studies.runner import run
 
 def told(it):
     stop.check()

@@ -14,8 +14,8 @@ from importlib.util import find_spec
 from typing import TypeAlias
 
 from kille.lab.log.outcomes import Outcome, Play, PlayAll, RunError, play_to_outcome
-from kille.lab.running.schedulers import Scheduler
-from kille.lab.running.threads import one_thread
+from kille.lab.running_studies.schedulers import Scheduler
+from kille.lab.running_studies.threads import one_thread
 from kille.lab.study import Run, Study
 
 MISSING = "Dask is not installed: pip install 'kille[cluster]'"
@@ -23,7 +23,7 @@ MISSING = "Dask is not installed: pip install 'kille[cluster]'"
 Crew: TypeAlias = Callable[[Study, Play], AbstractContextManager[PlayAll]]
 """Those who play a study, as long as they are needed.
 
->>> from kille.lab.running import Crew, crew
+>>> from kille.lab.running_studies import Crew, crew
 >>> by: Crew = crew(1)
 >>> callable(by)
 True
@@ -50,8 +50,8 @@ def play_runs(
 
 
 def default_play() -> Play:
-    """The function that plays a dialogue, `kille.lab.playing.play`."""
-    from kille.lab.playing import play
+    """The function that plays a dialogue, `kille.lab.playing_dialogues.play`."""
+    from kille.lab.playing_dialogues import play
 
     return play
 
@@ -69,13 +69,13 @@ def crew(workers: int | None = None, scheduler: Scheduler | None = None) -> Crew
         scheduler.check()
         if not find_spec("distributed"):
             raise RunError(f"{MISSING}, or play on this machine without --scheduler")
-        from kille.lab.running.clusters import cluster_crew
+        from kille.lab.running_studies.clusters import cluster_crew
 
         return partial(cluster_crew, scheduler)
     workers = cores() if workers is None else workers
     if workers == 1:
         return alone
-    from kille.lab.running.local import local_crew
+    from kille.lab.running_studies.local import local_crew
 
     return partial(local_crew, workers)
 
