@@ -29,8 +29,8 @@ from kille.dialogue.meanings import word_of
 from kille.dialogue.phrases import phrase
 from kille.scene import Frame, Percept
 from kille.sensors.synthetic import catalogue
-from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import FAULTS, degrade_colour, degrade_depth
+from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, RenderedScene, render_scene
 from kille.sensors.synthetic.specimens import specimen
 from ttr import replace

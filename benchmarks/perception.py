@@ -43,9 +43,9 @@ from threadpoolctl import threadpool_limits
 
 from kille.memory import Memory, Scan, Sighting, Turn
 from kille.perception.cues import EMBEDDING, MissingExtraError, measure_cues
+from kille.perception.descriptor_index import Background, Index, View, rooted
 from kille.perception.features import features_of
 from kille.perception.geometry import points_at
-from kille.perception.index import Background, Index, View, rooted
 from kille.perception.look import look
 from kille.perception.objects import ObjectMemory
 from kille.perception.paper_objects import PaperObjects

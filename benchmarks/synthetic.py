@@ -15,7 +15,7 @@ from functools import partial
 import cv2
 
 from kille.sensors.synthetic import catalogue, open_synthetic
-from kille.sensors.synthetic.camera import SimulatedCamera
+from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import render_scene
 from kille.sensors.synthetic.room import room
 

@@ -31,7 +31,7 @@ from threadpoolctl import threadpool_limits
 from kille.grounding.knowledge import Knowledge
 from kille.lab.protocols.memory_use import resident_memory
 from kille.memory import Memory, Scan, Sighting, Turn
-from kille.perception.index import Background, View
+from kille.perception.descriptor_index import Background, View
 from kille.perception.objects import ObjectMemory
 from kille.scene import Features, Percept, Traits
 

@@ -23,6 +23,7 @@ FORMER_MODULES = {
     "kille.lab.playing": "kille.lab.playing_dialogues",
     "kille.lab.protocols.parted": "kille.lab.protocols.picture_splits",
     "kille.lab.running": "kille.lab.running_studies",
+    "kille.perception.index": "kille.perception.descriptor_index",
     "kille.simulation": "kille.lab.worlds",
     "kille.simulation.perceiving": "kille.lab.worlds.perception",
     "kille.simulation.playing": "kille.lab.worlds.games",

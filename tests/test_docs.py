@@ -473,7 +473,7 @@ def sensing() -> dict[str, set[str]]:
 
 def seeing() -> dict[str, set[str]]:
     """The public names of what sees and learns words of what is seen."""
-    modules = ("segment", "cues", "index", "objects", "evidence", "colours")
+    modules = ("segment", "cues", "descriptor_index", "objects", "evidence", "colours")
     more = ("attributes", "relations", "learners", "methods")
     named = [f"kille.perception.{module}" for module in (*modules, *more)]
     named += ["kille.bus", "kille.nodes.topics", "kille.memory"]

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kille.perception.descriptor_index import View
 from kille.perception.features import NONE
-from kille.perception.index import View
 from kille.perception.objects import ObjectMemory
 from kille.scene import Box, Features, Percept, Region
 

@@ -33,9 +33,9 @@ from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, Palette, colours_of, xkcd
 from kille.perception.colours.palette import pack_palette, unpack_palette
 from kille.perception.cues import CUES, measure_cues
+from kille.perception.descriptor_index import Background, View
 from kille.perception.evidence import Evidence as Heard
 from kille.perception.features import NONE
-from kille.perception.index import Background, View
 from kille.perception.learners import Key
 from kille.perception.objects import ObjectMemory, kept_features
 from kille.perception.relations import RelationMemory

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from kille.perception.index import rooted
+from kille.perception.descriptor_index import rooted
 from kille.perception.lettering import INK, PAPER, text_width, wrap_text, write_text
 from kille.perception.picture_sheet import MARK, outline
 from kille.scene import Box, Colour, Features, Frame, Mask, Region

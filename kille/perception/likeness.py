@@ -41,7 +41,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.calibration import LeftOut, leave_out
-from kille.perception.index import View
+from kille.perception.descriptor_index import View
 from kille.perception.negative_examples import weights_with_denials
 from kille.scene import Traits, Vector
 

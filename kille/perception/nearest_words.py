@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.calibration import LeftOut
-from kille.perception.index import View
+from kille.perception.descriptor_index import View
 from kille.perception.likeness import (
     Examples,
     Kernel,

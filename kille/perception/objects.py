@@ -25,9 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.cues import CUES, Cue, measure_cues
-from kille.perception.evidence import Evidence, Weighing, weighing
-from kille.perception.features import NONE
-from kille.perception.index import (
+from kille.perception.descriptor_index import (
     AGAIN,
     Index,
     View,
@@ -35,7 +33,9 @@ from kille.perception.index import (
     find_repeats,
     rooted,
 )
-from kille.perception.index.builders import Builder
+from kille.perception.descriptor_index.builders import Builder
+from kille.perception.evidence import Evidence, Weighing, weighing
+from kille.perception.features import NONE
 from kille.perception.learners import Key, own_key
 from kille.perception.likeness import SIZE, Examples, Kernel, Likeness
 from kille.perception.nearest_words import MANY, NearestWords
@@ -57,7 +57,7 @@ class ObjectMemory:
     It keeps the views it was taught and nothing else, so that it can be stored as they
     are and built anew from them. `weighed` says how evidence is weighed, and `cues`
     which traits are measured beside those that a percept has; `builder` when the index
-    of features is built, see `kille.perception.index`.
+    of features is built, see `kille.perception.descriptor_index`.
 
     >>> from kille.perception.look import look
     >>> from kille.sensors.synthetic import open_synthetic

@@ -25,8 +25,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.perception.descriptor_index import Rows
 from kille.perception.features import NONE, features_of
-from kille.perception.index import Rows
 from kille.perception.learners import Key, own_key
 from kille.perception.look import Scans
 from kille.scene import Features, Percept, Point

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kille.perception.index import Index, View, rooted
+from kille.perception.descriptor_index import Index, View, rooted
 from kille.perception.learners import Key, own_key
 from kille.perception.objects import descriptors_of, kept_features
 from kille.perception.votes import count_votes

@@ -16,8 +16,15 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index import NOBODY, Neighbours, Rows, View, distances, rooted
-from kille.perception.index.views import thin_views
+from kille.perception.descriptor_index import (
+    NOBODY,
+    Neighbours,
+    Rows,
+    View,
+    distances,
+    rooted,
+)
+from kille.perception.descriptor_index.views import thin_views
 
 UNTAUGHT = 0.45
 """The RootSIFT distance to expect to the descriptor of an untaught thing."""

@@ -32,9 +32,9 @@ from kille.lab.protocols.degrees import is_asserted
 from kille.lab.protocols.teaching import ObjectAnswer
 from kille.perception import evidence
 from kille.perception.cues import CUES, Cue, measure_cues, with_embedding
+from kille.perception.descriptor_index import Index, View, rooted
 from kille.perception.evidence import Weighing, unlike_in_size
 from kille.perception.features import features_of
-from kille.perception.index import Index, View, rooted
 from kille.perception.likeness import SIZE, Examples, Kernel
 from kille.perception.segment import overlap, region_of, segment
 from kille.perception.votes import beyond_chance, votes

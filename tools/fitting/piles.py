@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from kille.scene import Depth, Frame
 from kille.sensors.synthetic import catalogue, obj_files
-from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import infrared_shadow, lost_edges
+from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.specimens import specimen
 from kille.sensors.synthetic.toy_model import ToyModel

@@ -26,8 +26,8 @@ from kille.lab.theories.simulated_words import (
     PrototypeWord,
 )
 from kille.lab.worlds.word_learning import LearnedWord
+from kille.perception.descriptor_index import View
 from kille.perception.evidence import weighing
-from kille.perception.index import View
 from kille.perception.methods import OBJECTS, RELATIONS
 from kille.perception.objects import ObjectMemory
 

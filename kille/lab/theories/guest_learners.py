@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from kille.lab.theories.candidates import Make
 from kille.lab.theories.pupils import Pupil, PupilLesson
+from kille.perception.descriptor_index import View
 from kille.perception.evidence import Evidence
-from kille.perception.index import View
 from kille.perception.learners import Key
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory

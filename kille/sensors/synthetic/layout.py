@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.sensors.synthetic.camera import HEIGHT, WIDTH, SimulatedCamera
+from kille.sensors.synthetic.posed_camera import HEIGHT, WIDTH, SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.room import TABLE_END, TABLE_LEFT, TABLE_NEAR, TABLE_RIGHT
 from kille.sensors.synthetic.toy_model import ToyModel

@@ -17,7 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Mask
-from kille.sensors.synthetic.camera import FAR, HEIGHT, NEAR, WIDTH, SimulatedCamera
+from kille.sensors.synthetic.posed_camera import (
+    FAR,
+    HEIGHT,
+    NEAR,
+    WIDTH,
+    SimulatedCamera,
+)
 from kille.sensors.synthetic.room import Room, room
 from kille.sensors.synthetic.toy_model import ToyModel
 

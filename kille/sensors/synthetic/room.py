@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Mask
 from kille.sensors.pictures import read_colour
-from kille.sensors.synthetic.camera import HEIGHT, WIDTH, SimulatedCamera
+from kille.sensors.synthetic.posed_camera import HEIGHT, WIDTH, SimulatedCamera
 
 TABLE_LEFT, TABLE_RIGHT = -0.70, 0.70
 TABLE_NEAR, TABLE_END = -0.60, 0.50

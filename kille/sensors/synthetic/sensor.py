@@ -14,10 +14,10 @@ from kille.sensors.sensor import At, Beside, Placed, SensorError, TablePlan
 from kille.sensors.stage_commands import RELATIONS
 from kille.sensors.synthetic import catalogue, obj_files, room
 from kille.sensors.synthetic.address import SceneAddress, parse_address
-from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.faults import degrade_colour, degrade_depth
 from kille.sensors.synthetic.layout import SCENES, jitter_pose, objection, poses_beside
 from kille.sensors.synthetic.name_recognition import recognise_name
+from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, RenderedScene, render_scene
 from kille.sensors.synthetic.specimens import specimen
 from kille.sensors.synthetic.toy_model import ToyModel

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.grounding.hindsight import PastLesson, was_right
+from kille.perception.descriptor_index import View
 from kille.perception.features import NONE
-from kille.perception.index import View
 
 LOOKS = [np.random.default_rng(n).random(512) for n in range(3)]
 

@@ -17,8 +17,8 @@ from kille.perception.calibration import (
     calibrate,
     leave_out,
 )
+from kille.perception.descriptor_index import View
 from kille.perception.evidence import Weighing, weighing
-from kille.perception.index import View
 from kille.perception.likeness import Examples, Kernel
 from kille.perception.objects import ObjectMemory
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from tabletop import percept_of, prototypes
 
 from kille.perception import nearest_words, objects
+from kille.perception.descriptor_index import View
 from kille.perception.features import NONE
-from kille.perception.index import View
 from kille.perception.learners import check_learner
 from kille.perception.likeness import Examples, Kernel, Likeness
 from kille.perception.nearest_words import NearestWords

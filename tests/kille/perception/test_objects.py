@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tabletop import percept_of, prototypes
 
+from kille.perception.descriptor_index import View, partition
 from kille.perception.features import NONE
-from kille.perception.index import View, partition
 from kille.perception.learners import check_learner
 from kille.perception.likeness import Examples, Kernel
 from kille.perception.look import look

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from tabletop import percept_of, prototypes
 
 from kille.dialogue.lexicon import lexicon
+from kille.perception.descriptor_index import View
 from kille.perception.evidence import weighing
 from kille.perception.features import NONE
-from kille.perception.index import View
 from kille.perception.likeness import Kernel
 from kille.perception.objects import ObjectMemory
 from kille.perception.relevance import DETAILS, GROUPS, Relevance

@@ -23,9 +23,9 @@ from kille.perception.segment import (
 from kille.scene import Frame, Intrinsics, Point
 from kille.sensors.recordings import open_recording
 from kille.sensors.synthetic import open_synthetic
-from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.catalogue import TOY_NAMES
 from kille.sensors.synthetic.faults import FAULTS, degrade_depth
+from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.toy_model import ToyModel
 from tools.fitting.piles import a_bowl, hide_middle, lift_model, pile

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.perception.index import NOBODY, Neighbours
+from kille.perception.descriptor_index import NOBODY, Neighbours
 from kille.perception.votes import UNTAUGHT, beyond_chance, votes
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from kille.perception.descriptor_index import View
 from kille.perception.evidence import Weighing
-from kille.perception.index import View
 from kille.perception.likeness import Kernel
 from tools.fitting import evidence
 from tools.fitting.evidence import (

@@ -39,8 +39,8 @@ from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.word_learning import LearnedWord
 from kille.lab.worlds.worlds import Thing, World, draw_world
 from kille.memory import Memory
+from kille.perception.descriptor_index import Background, View
 from kille.perception.evidence import Evidence
-from kille.perception.index import Background, View
 from kille.perception.relations import RelationMemory
 from kille.scene import Configuration
 from ttr import TTRError

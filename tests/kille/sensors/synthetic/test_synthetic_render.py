@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.scene import Depth, Intrinsics
-from kille.sensors.synthetic.camera import SimulatedCamera
 from kille.sensors.synthetic.catalogue import TOY_NAMES, toy_model
+from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.room import room
 from tools.modelling.shapes import box, ellipsoid

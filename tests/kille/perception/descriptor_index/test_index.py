@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tabletop import prototypes
 
-from kille.perception.index import (
+from kille.perception.descriptor_index import (
     SEARCHES,
     AtOnce,
     Background,
@@ -320,7 +320,7 @@ def test_what_goes_on_after_the_main_thread_has_ended_builds_for_itself() -> Non
     program = """
 import threading
 import numpy as np
-from kille.perception.index import Background, Index, View
+from kille.perception.descriptor_index import Background, Index, View
 
 def work():
     threading.main_thread().join()
@@ -344,7 +344,7 @@ threading.Thread(target=work).start()
 def test_a_program_may_end_while_trees_are_built() -> None:
     program = """
 import numpy as np
-from kille.perception.index import Background, Index, View
+from kille.perception.descriptor_index import Background, Index, View
 rows = np.random.default_rng(0).integers(0, 255, (50_000, 128)).astype(np.uint8)
 index = Index([View(i, "a", rows) for i in range(8)], builder=Background())
 raise KeyboardInterrupt

@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.views import Descriptors, Rows, rooted
+from kille.perception.descriptor_index.views import Descriptors, Rows, rooted
 
 _DIMENSIONS = 24
 _SAMPLE = 10_000  # descriptors whose principal directions are taken for those of all

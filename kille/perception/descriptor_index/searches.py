@@ -8,9 +8,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.inverted_file import inverted_file
-from kille.perception.index.kd_trees import Trees
-from kille.perception.index.views import Descriptors, Rows
+from kille.perception.descriptor_index.inverted_file import inverted_file
+from kille.perception.descriptor_index.kd_trees import Trees
+from kille.perception.descriptor_index.views import Descriptors, Rows
 from ttr.misspellings import nearest_names
 
 
@@ -34,7 +34,7 @@ SEARCHES: Mapping[str, Callable[[], Maker]] = {
 }
 """`trees` is always available; `faiss` needs the extra kille[faiss].
 
->>> from kille.perception.index import SEARCHES
+>>> from kille.perception.descriptor_index import SEARCHES
 >>> sorted(SEARCHES)
 ['faiss', 'trees']
 """

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.views import LENGTH, Descriptors, Rows, rooted
+from kille.perception.descriptor_index.views import LENGTH, Descriptors, Rows, rooted
 
 _CELLS_VISITED = 8
 _TAUGHT_BY = 50  # descriptors a cell whose places the cells are learned from

@@ -17,7 +17,7 @@ Rows = NDArray[np.float32]
 """Descriptors (n, 128) of length 1, as `rooted` gives them.
 
 >>> import numpy as np
->>> from kille.perception.index import Rows, rooted
+>>> from kille.perception.descriptor_index import Rows, rooted
 >>> rows: Rows = rooted(np.full((2, 128), 7, np.uint8))
 >>> rows.dtype.name
 'float32'
@@ -26,7 +26,7 @@ Descriptors = NDArray[np.uint8]
 """Descriptors (n, 128) as SIFT gives them.
 
 >>> import numpy as np
->>> from kille.perception.index import Descriptors
+>>> from kille.perception.descriptor_index import Descriptors
 >>> none: Descriptors = np.empty((0, 128), np.uint8)
 >>> none.shape
 (0, 128)

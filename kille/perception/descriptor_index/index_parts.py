@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.repeats import Repeats, products_with_found
-from kille.perception.index.searches import Maker, Search
-from kille.perception.index.views import (
+from kille.perception.descriptor_index.repeats import Repeats, products_with_found
+from kille.perception.descriptor_index.searches import Maker, Search
+from kille.perception.descriptor_index.views import (
     LENGTH,
     Descriptors,
     Rows,
@@ -29,7 +29,7 @@ NEIGHBOURS = 10
 NOBODY = -1
 """The column of a view that was forgotten.
 
->>> from kille.perception.index import NOBODY
+>>> from kille.perception.descriptor_index import NOBODY
 >>> NOBODY
 -1
 """
@@ -48,10 +48,10 @@ class Neighbours(NamedTuple):
     infinite distance where fewer were found.
 
     >>> import numpy as np
-    >>> from kille.perception.index import View, rooted
+    >>> from kille.perception.descriptor_index import View, rooted
     >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
     >>> view = View(1, "cup", shades.astype(np.uint8))
-    >>> from kille.perception.index import Index
+    >>> from kille.perception.descriptor_index import Index
     >>> words, distances = Index([view]).neighbours(rooted(view.descriptors))
     >>> words.shape == distances.shape
     True

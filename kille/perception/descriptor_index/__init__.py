@@ -5,12 +5,12 @@ parts, searched by kd-trees, and an exact search over the newest views. Parts ar
 in the background, or when somebody asks.
 """
 
-from kille.perception.index.builders import AtOnce, Background, Builder
-from kille.perception.index.index import Index
-from kille.perception.index.index_parts import NOBODY, Neighbours
-from kille.perception.index.repeats import AGAIN, Repeats, find_repeats
-from kille.perception.index.searches import SEARCHES
-from kille.perception.index.views import (
+from kille.perception.descriptor_index.builders import AtOnce, Background, Builder
+from kille.perception.descriptor_index.index import Index
+from kille.perception.descriptor_index.index_parts import NOBODY, Neighbours
+from kille.perception.descriptor_index.repeats import AGAIN, Repeats, find_repeats
+from kille.perception.descriptor_index.searches import SEARCHES
+from kille.perception.descriptor_index.views import (
     Descriptors,
     Rows,
     View,

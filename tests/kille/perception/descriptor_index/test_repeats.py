@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tabletop import prototypes
 
-from kille.perception.index import (
+from kille.perception.descriptor_index import (
     AGAIN,
     NOBODY,
     Index,

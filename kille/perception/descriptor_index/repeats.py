@@ -15,13 +15,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.views import LENGTH, Rows, apart
+from kille.perception.descriptor_index.views import LENGTH, Rows, apart
 from kille.scene import Features
 
 AGAIN = 0.25
 """RootSIFT distance; what is nearer was seen in an earlier scan.
 
->>> from kille.perception.index import AGAIN
+>>> from kille.perception.descriptor_index import AGAIN
 >>> AGAIN
 0.25
 """

@@ -15,7 +15,7 @@ from collections import deque
 from collections.abc import Sequence
 from typing import Protocol
 
-from kille.perception.index.index_parts import Part
+from kille.perception.descriptor_index.index_parts import Part
 
 _QUICK = 200_000  # descriptors; trees over these take about a third of a second
 _PATIENCE = 20_000  # descriptors; trees over these take about .03 s
@@ -26,7 +26,7 @@ class Builder(Protocol):
     """Arranges that parts are built.
 
     >>> import numpy as np
-    >>> from kille.perception.index import AtOnce, Index, View
+    >>> from kille.perception.descriptor_index import AtOnce, Index, View
     >>> view = View(1, "cup", np.eye(2, 128, dtype=np.uint8))
     >>> builder: Builder = AtOnce()
     >>> Index([view], builder=builder).labels
@@ -52,10 +52,10 @@ class AtOnce:
     before.
 
     >>> import numpy as np
-    >>> from kille.perception.index import View, rooted
+    >>> from kille.perception.descriptor_index import View, rooted
     >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
     >>> view = View(1, "cup", shades.astype(np.uint8))
-    >>> from kille.perception.index import Index
+    >>> from kille.perception.descriptor_index import Index
     >>> Index([view], builder=AtOnce()).settled().labels
     ('cup',)
     """
@@ -82,10 +82,10 @@ class Background:
     program is about to end or when nobody holds the part any more.
 
     >>> import numpy as np
-    >>> from kille.perception.index import View, rooted
+    >>> from kille.perception.descriptor_index import View, rooted
     >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
     >>> view = View(1, "cup", shades.astype(np.uint8))
-    >>> from kille.perception.index import Index
+    >>> from kille.perception.descriptor_index import Index
     >>> Index([view], builder=Background()).settled().labels
     ('cup',)
     """

@@ -7,7 +7,7 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.perception.index.partition import FACTOR, TAIL, partition_views
+from kille.perception.descriptor_index.partition import FACTOR, TAIL, partition_views
 
 sizes = st.lists(st.integers(0, 3 * TAIL), max_size=200)
 

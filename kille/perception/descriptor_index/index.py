@@ -10,12 +10,17 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.builders import AtOnce, Builder
-from kille.perception.index.index_parts import NOBODY, Exact, Neighbours, Part
-from kille.perception.index.partition import Partition, partition_views
-from kille.perception.index.repeats import Repeats
-from kille.perception.index.searches import search_called
-from kille.perception.index.views import Rows, View, count, thin_views
+from kille.perception.descriptor_index.builders import AtOnce, Builder
+from kille.perception.descriptor_index.index_parts import (
+    NOBODY,
+    Exact,
+    Neighbours,
+    Part,
+)
+from kille.perception.descriptor_index.partition import Partition, partition_views
+from kille.perception.descriptor_index.repeats import Repeats
+from kille.perception.descriptor_index.searches import search_called
+from kille.perception.descriptor_index.views import Rows, View, count, thin_views
 from kille.perception.learners import Key
 
 _SKETCH = 200_000  # descriptors of a sketch: it is ready in a third of a second
@@ -33,7 +38,7 @@ class Index:
     are those of an index that was given the present views, however it came to them.
 
     >>> import numpy as np
-    >>> from kille.perception.index import View, rooted
+    >>> from kille.perception.descriptor_index import View, rooted
     >>> shades = np.random.default_rng(1).integers(0, 255, (40, 128))
     >>> view = View(1, "cup", shades.astype(np.uint8))
     >>> index = Index([view])
