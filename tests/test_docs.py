@@ -257,7 +257,9 @@ class Stage:
         match block.language:
             case "diff":
                 edit(self.folder / block.file, block.text)
-            case "dlg":
+            # Named FILE.dlg it is that file; else a robot plays it, and a name is that
+            # of its theory.
+            case "dlg" if not block.file.endswith(".dlg"):
                 story = self.folder / f"{number}.dlg"
                 story.write_text(block.text, encoding="utf-8")
                 theory = ("--theory", block.file) if block.file else ()

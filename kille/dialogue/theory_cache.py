@@ -61,11 +61,17 @@ def _python_files(folder: Path | str) -> Iterator[str]:
 
 
 def _encode(theory: Theory) -> bytes:
-    return pickle.dumps(theory, protocol=5)
+    try:
+        return pickle.dumps(theory, protocol=5)
+    except pickle.PicklingError as error:
+        raise TypeError(f"it cannot be kept: {error}") from error
 
 
 def _decode(body: bytes) -> Theory:
-    found = _TheoryReader(BytesIO(body)).load()
+    try:
+        found = _TheoryReader(BytesIO(body)).load()
+    except pickle.UnpicklingError as error:
+        raise ValueError(f"what was kept is no theory: {error}") from error
     if not isinstance(found, Theory):
         raise TypeError(f"a theory was kept, found {found!r}")
     return found

@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
-from pickle import PickleError
 from typing import TypeVar
 
 from platformdirs import user_cache_dir
@@ -23,7 +22,7 @@ MOST = 30
 
 _T = TypeVar("_T")
 
-_DAMAGES = (OSError, ValueError, TypeError, LookupError, AttributeError, PickleError)
+_DAMAGES = (OSError, ValueError, TypeError, LookupError, AttributeError)
 """What may be raised by a file that is not there, or not as it was written."""
 
 
