@@ -275,7 +275,9 @@ def naming(clock: Clock) -> list[float]:
 
     Each of the things was taught four times. Nothing of what is on the table was asked
     about before: its features are compared, and its traits measured as far as they were
-    not while the frames came.
+    not while the frames came. The clock starts when all scans are extracted, and stops
+    with the last answer: nothing goes on after that. Processor time is that of all
+    threads, and more than one waits where a second core is free.
     """
     learned = ObjectMemory()
     for seed in range(TAUGHT):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from itertools import compress, islice
 from types import MappingProxyType
 
@@ -26,6 +28,7 @@ from kille.perception.learners import Key
 _SKETCH = 200_000  # descriptors of a sketch: it is ready in a third of a second
 _SKETCHED = 3 * _SKETCH  # from here on a part is worth one
 _EXACT = 8_000  # descriptors that are compared one by one at most: about .01 s
+_WORTH_A_THREAD = 500_000  # pairs of a query and a newest descriptor: about .002 s
 
 
 class Index:
@@ -155,21 +158,55 @@ class Index:
         may be left out, if one is given.
         """
         self._catch_up()
-        columns = self._word_columns()
-        if self._exact is None:
-            self._exact = Exact(thin_views(self._tail, _EXACT), columns)
-        if self._owners is None:
-            self._owners = [self._words_of(*serving) for serving in self._serving]
-        if repeats is None or within is None:
-            found = [self._exact.neighbours(query)]
-        else:
-            found = [self._exact.neighbours_within(query, repeats, within)]
-        for (part, _), owners in zip(self._serving, self._owners, strict=True):
-            found.append(part.neighbours(query, owners, repeats))
-        return Neighbours(
+        order: NDArray[np.intp] | slice = slice(None)
+        if repeats is not None:
+            order, repeats = repeats.in_order()
+            query = query.take(order, axis=0)
+        found = self._search(query, repeats, within)
+        ordered = Neighbours(
             np.concatenate([words for words, _ in found], axis=1),
             np.concatenate([apart for _, apart in found], axis=1),
         )
+        words, apart = map(np.empty_like, ordered)
+        words[order], apart[order] = ordered
+        return Neighbours(words, apart)
+
+    def _search(
+        self, query: Rows, repeats: Repeats | None, within: float | None
+    ) -> Sequence[Neighbours]:
+        """The nearest of the newest descriptors, and those in each of the parts.
+
+        The newest are compared in a thread if there is much to compare, since NumPy and
+        FLANN release the interpreter's lock.
+        """
+        exact, owners = self._exact_and_owners()
+        if repeats is None or within is None:
+            compare = partial(exact.neighbours, query)
+        else:
+            compare = partial(exact.neighbours_within, query, repeats, within)
+
+        def search_parts() -> Sequence[Neighbours]:
+            parts = [part for part, _ in self._serving]
+            return [
+                part.neighbours(query, own, repeats)
+                for part, own in zip(parts, owners, strict=True)
+            ]
+
+        if not owners or len(query) * exact.size < _WORTH_A_THREAD:
+            return [compare(), *search_parts()]
+        with ThreadPoolExecutor(1, "kille-index") as worker:
+            comparison = worker.submit(compare)
+            in_parts = search_parts()
+            return [comparison.result(), *in_parts]
+
+    def _exact_and_owners(self) -> tuple[Exact, Sequence[NDArray[np.intp]]]:
+        """The newest views, and the columns of the words of each part that answers."""
+        if self._exact is None:
+            columns = self._word_columns()
+            self._exact = Exact(thin_views(self._tail, _EXACT), columns)
+        if self._owners is None:
+            self._owners = [self._words_of(*serving) for serving in self._serving]
+        return self._exact, self._owners
 
     def nearest(self, query: Rows) -> Rows:
         """The distance (n, labels) from each query to each word's nearest descriptor.

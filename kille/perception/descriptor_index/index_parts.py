@@ -78,6 +78,11 @@ class Exact:
         self._spans = list(starmap(slice, pairwise([*firsts.tolist(), len(owners)])))
         self._rows = rooted(stack_descriptors(ordered))
 
+    @property
+    def size(self) -> int:
+        """The number of descriptors."""
+        return len(self._rows)
+
     def neighbours(self, query: Rows) -> Neighbours:
         """The nearest descriptor of each word, one column for each word."""
         words = np.broadcast_to(self._words, (len(query), len(self._words)))
@@ -101,21 +106,23 @@ class Exact:
         firsts, same, _ = repeats
         reach = distance + repeats.reach() + _ROUNDING
         least = np.asarray(1 - reach**2 / 2, np.float32)
-        near, often = self._near(query[firsts], least)
+        near, often = self._near(query.take(firsts, axis=0), least)
         width = max(_CLOSE, len(self._words))
         words = np.full((len(query), width), NOBODY)
         far = np.full((len(query), width), np.inf, np.float32)
         many = np.flatnonzero((often > _CLOSE)[same])
         words[many, : len(self._words)], far[many, : len(self._words)] = (
-            self.neighbours(query[many])
+            self.neighbours(query.take(many, axis=0))
         )
-        few = np.flatnonzero(((often > 0) & (often <= _CLOSE))[same])
-        numbers, which = np.unique(same[few], return_inverse=True)
-        found = near[numbers]
-        products = products_with_found(self._rows[found], query[few], which)
+        some = (often > 0) & (often <= _CLOSE)
+        few = np.flatnonzero(some[same])
+        which = (np.cumsum(some) - 1)[same[few]]
+        found = near[some]
         there = found >= 0
+        rows, repeated = self._rows.take(found, axis=0), query.take(few, axis=0)
+        alike = apart(products_with_found(rows, repeated, which))
         words[few, :_CLOSE] = np.where(there, self._owners[found], NOBODY)[which]
-        far[few, :_CLOSE] = np.where(there[which], apart(products), np.inf)
+        far[few, :_CLOSE] = np.where(there[which], alike, np.inf)
         return Neighbours(words, far)
 
     def _near(
@@ -129,12 +136,12 @@ class Exact:
         near = np.full((len(query), _CLOSE), NOBODY)
         often = np.zeros(len(query), np.intp)
         for some, products in self._products(query):
-            like = products >= least[some, None]
-            often[some] = np.count_nonzero(like, axis=1)
-            like[often[some] > _CLOSE] = False
-            which, rows = np.nonzero(like)
-            firsts = np.searchsorted(which, which)
-            near[some][which, np.arange(len(which)) - firsts] = rows
+            pairs = np.flatnonzero(products >= least[some, None])
+            which, rows = np.divmod(pairs, products.shape[1])
+            often[some] = np.bincount(which, minlength=len(products))
+            place = np.arange(len(which)) - np.searchsorted(which, which)
+            few = (often[some] <= _CLOSE)[which]
+            near[some][which[few], place[few]] = rows[few]
         return near, often
 
     def _products(self, query: Rows) -> Iterator[tuple[slice, Rows]]:
@@ -215,7 +222,7 @@ class Part:
     def _rooted(self, rows: NDArray[np.int32]) -> Rows:
         """The descriptors of these rows (m, k) as RootSIFT (m, k, 128)."""
         if self.size <= _FEW:
-            return self._all_rooted[rows]
+            return self._all_rooted.take(rows, axis=0)
         once, places = np.unique(rows, return_inverse=True)
         owning = np.searchsorted(self._starts, once, side="right") - 1
         return rooted(self._descriptors(owning, once))[places.reshape(rows.shape)]

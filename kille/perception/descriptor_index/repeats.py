@@ -49,6 +49,14 @@ class Repeats(NamedTuple):
     same: Numbers
     far: Rows
 
+    def in_order(self) -> tuple[Numbers, Repeats]:
+        """An order (n,) of the features in which those that are the same stand
+        together, and the repeats of the features that are put in it."""
+        order = np.argsort(self.same, kind="stable")
+        places = np.empty_like(order)
+        places[order] = np.arange(len(order))
+        return order, Repeats(places[self.firsts], self.same[order], self.far[order])
+
     def reach(self) -> Rows:
         """How far from each of the m features those that repeat it are at most."""
         reach = np.zeros(len(self.firsts), np.float32)
@@ -76,9 +84,12 @@ def find_repeats(query: Rows, scans: Sequence[Features]) -> Repeats:
         later, which, alike = _seen_again(query, heights, new[begin:end], new[end:])
         first[later], far[later] = which, apart(alike)
         new = new[first[new] == new]
-    firsts, same, times = np.unique(first, return_inverse=True, return_counts=True)
-    order = np.argsort(times, kind="stable")
-    return Repeats(firsts[order], np.argsort(order)[same], far)
+    times = np.bincount(first, minlength=len(query))
+    firsts = np.flatnonzero(times)
+    firsts = firsts[np.argsort(times[firsts], kind="stable")]
+    numbers = np.empty_like(first)
+    numbers[firsts] = np.arange(len(firsts))
+    return Repeats(firsts, numbers[first], far)
 
 
 def products_with_found(found: Rows, query: Rows, same: Numbers) -> Rows:
@@ -86,21 +97,18 @@ def products_with_found(found: Rows, query: Rows, same: Numbers) -> Rows:
     each.
 
     `found` (m, k, 128) are the descriptors, `query` (n, 128) the features, and `same`
-    (n,) says which of the m each is, in the order of `Repeats`.
+    (n,) says which of the m each is, in the order of `Repeats`; it must not fall.
     """
     products = np.empty((len(query), found.shape[1]), np.float32)
-    order = np.argsort(same, kind="stable")
-    query, first, member = query[order], 0, 0
+    first, member = 0, 0
     often = np.bincount(np.bincount(same))
     for times in np.flatnonzero(often).tolist():
         these = slice(first, first := first + int(often[times]))
         those = slice(member, member := member + int(often[times]) * times)
         some = query[those].reshape(-1, times, LENGTH)
-        alike = np.matmul(found[these], some.transpose(0, 2, 1))
-        products[those] = alike.transpose(0, 2, 1).reshape(-1, found.shape[1])
-    in_order = np.empty_like(products)
-    in_order[order] = products
-    return in_order
+        into = products[those].reshape(-1, times, found.shape[1])
+        np.matmul(some, found[these].transpose(0, 2, 1), out=into)
+    return products
 
 
 def _seen_again(
@@ -113,7 +121,7 @@ def _seen_again(
     """
     earlier = earlier[np.argsort(heights[earlier], kind="stable")]
     later = later[np.argsort(heights[later], kind="stable")]
-    rows, tops = query[earlier], heights[earlier]
+    rows, tops = query.take(earlier, axis=0), heights[earlier]
     again, which, alike = [later[:0]], [later[:0]], [heights[:0]]
     for start in range(0, len(later), _AT_ONCE):
         some = later[start : start + _AT_ONCE]
@@ -121,7 +129,7 @@ def _seen_again(
         high = np.searchsorted(tops, heights[some[-1]] + _NEAR, side="right")
         if low == high:
             continue
-        products = query[some] @ rows[low:high].T
+        products = query.take(some, axis=0) @ rows[low:high].T
         nearest = products.argmax(axis=1)
         most = products[np.arange(len(some)), nearest]
         same = most > 1 - AGAIN**2 / 2

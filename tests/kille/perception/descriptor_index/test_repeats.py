@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from threading import current_thread, main_thread
+
 import numpy as np
 import pytest
 from tabletop import prototypes
@@ -19,6 +21,7 @@ from kille.perception.descriptor_index import (
     partition,
     rooted,
 )
+from kille.perception.index import index as growing
 from kille.scene import Features
 
 THINGS = {"cup": 1, "book": 2, "shoe": 3}
@@ -75,6 +78,16 @@ def test_each_feature_is_the_first_of_its_kind_or_like_that_of_an_earlier_scan()
 def test_firsts_are_in_the_order_of_how_often_they_are_seen() -> None:
     _, _, (firsts, same, _) = looked()
     assert (np.diff(np.bincount(same, minlength=len(firsts))) >= 0).all()
+
+
+def test_in_order_the_same_features_stand_together_and_repeat_the_same_ones() -> None:
+    _, query, repeats = looked()
+    order, put = repeats.in_order()
+    assert sorted(order) == list(range(len(query)))
+    assert (np.diff(put.same) >= 0).all()
+    assert np.array_equal(order[put.firsts], repeats.firsts)
+    assert np.array_equal(put.same, repeats.same[order])
+    assert np.array_equal(put.far, repeats.far[order])
 
 
 def test_features_of_things_that_moved_far_are_all_different() -> None:
@@ -155,3 +168,30 @@ def test_descriptors_are_the_same_gathered_or_kept(
     for one, other in zip(found[:2], found[2:], strict=True):
         assert np.array_equal(one.words, other.words)
         assert np.array_equal(one.distances, other.distances)
+
+
+@pytest.mark.parametrize("repeated", [False, True])
+def test_two_threads_find_what_one_finds(
+    repeated: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(partition, "TAIL", 100)
+    _, query, repeats = looked()
+    threads, compare = [], index_parts.Exact.neighbours
+
+    def compare_in_thread(
+        exact: index_parts.Exact, query: Rows
+    ) -> index_parts.Neighbours:
+        threads.append(current_thread())
+        return compare(exact, query)
+
+    monkeypatch.setattr(index_parts.Exact, "neighbours", compare_in_thread)
+    found = []
+    for pairs in (1, 10**9):
+        monkeypatch.setattr(growing, "_WORTH_A_THREAD", pairs)
+        index = taught()
+        index.learn(View("newest", "cup", scan(1, 200).descriptors))
+        given = (repeats, 0.45) if repeated else ()
+        found.append(index.neighbours(query, *given))
+    assert [it is main_thread() for it in threads] == [False, True]
+    assert np.array_equal(found[0].words, found[1].words)
+    assert np.array_equal(found[0].distances, found[1].distances)
