@@ -359,6 +359,7 @@ def merge_of(S: RecordType, T: RecordType) -> RecordType:
     return merged
 
 
+@lru_cache(16384)
 def set_to(T: RecordType, **fields: TypeNode) -> RecordType:
     """The record type with some of its fields, or new ones, as they are here.
 

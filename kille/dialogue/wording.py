@@ -175,13 +175,13 @@ def _slots(
 
     What takes some work is done for the slots that are wanted only.
     """
-    yield from _claim_slots(lexicon, content, words)
+    yield from _claim_slots(lexicon, content, words, wanted)
     if not wanted.isdisjoint(_LISTS):
         yield from list_slots(lexicon, content, words)
     for label, field in content.fields:
         sign = next((it for it in words.values() if it.meaning is field), None)
         if sign is not None and label not in (*_PARTS, *lexicon.styles):
-            yield from _forms(lexicon, label, sign)
+            yield from _forms(lexicon, label, sign, wanted)
         elif label == "amid" and isinstance(field, RecordType):
             between = place_words(lexicon, field, words)
             if between is not None:
@@ -195,17 +195,17 @@ def _slots(
 
 
 def _claim_slots(
-    lexicon: Lexicon, content: RecordType, words: Words
+    lexicon: Lexicon, content: RecordType, words: Words, wanted: frozenset[str]
 ) -> Iterator[tuple[str, str]]:
     """The words that a content claims to be true, or not."""
-    alone = "x" in content
+    alone, wanted = "x" in content, _with_claims_denied(wanted)
     for label in _CLAIMS:
         signs = [words[p] for p in claimed_predicates(content.get(label)) if p in words]
         if not signs:
             continue
         several = signs if isinstance(content[label], Join) else signs[:1]
         forms = [
-            dict(_forms(lexicon, (_WORDS if alone else _CLAIMS)[label], sign))
+            dict(_forms(lexicon, (_WORDS if alone else _CLAIMS)[label], sign, wanted))
             for sign in several
         ]
         if label == "a" and not alone:
@@ -222,16 +222,27 @@ def _claim_slots(
             yield "comparative", signs[0].form.rpartition(" ")[0]
 
 
-def _forms(lexicon: Lexicon, slot: str, sign: Record) -> Iterator[tuple[str, str]]:
-    """The forms of a word, as slots."""
+@lru_cache(1024)
+def _with_claims_denied(wanted: frozenset[str]) -> frozenset[str]:
+    """Slots, with those for what is claimed where they are for what is denied."""
+    return wanted.union(slot.removeprefix("not_") for slot in wanted)
+
+
+def _forms(
+    lexicon: Lexicon, slot: str, sign: Record, wanted: frozenset[str]
+) -> Iterator[tuple[str, str]]:
+    """The forms of a word, as slots: the word, and what is wanted besides."""
     yield slot, sign.form
-    if sign.kind == "adjective":
-        yield f"plural_{slot}", lexicon.inflect(sign.form, "WEAK")
-    if sign.kind == "noun":
-        yield f"a_{slot}", lexicon.with_article(sign.form, sign.article)
-        article = lexicon.article(sign)
-        yield f"the_{slot}", noun_phrase(lexicon, sign, "definite")
-        yield f"plural_{slot}", lexicon.inflect(sign.form, "PLURAL", article)
+    if sign.kind == "adjective" and (plural := f"plural_{slot}") in wanted:
+        yield plural, lexicon.inflect(sign.form, "WEAK")
+    if sign.kind != "noun":
+        return
+    if (indefinite := f"a_{slot}") in wanted:
+        yield indefinite, lexicon.with_article(sign.form, sign.article)
+    if (definite := f"the_{slot}") in wanted:
+        yield definite, noun_phrase(lexicon, sign, "definite")
+    if (plural := f"plural_{slot}") in wanted:
+        yield plural, lexicon.inflect(sign.form, "PLURAL", lexicon.article(sign))
 
 
 def _gender(lexicon: Lexicon, content: RecordType, words: Words) -> str:

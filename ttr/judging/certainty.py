@@ -147,7 +147,10 @@ class _Certainty(Evaluator[bool]):
         for label, field in _most_telling_first(T):
             if label not in found:
                 return False
-            if not clauses[type(field)](self, found[label], field, inside, label):
+            value, form = found[label], type(field)
+            if form is ListOf and type(value) is tuple and not value:
+                continue  # most lists of a move are empty
+            if not clauses[form](self, value, field, inside, label):
                 return False
         remember_certain(self.facts, sit, T)
         return True

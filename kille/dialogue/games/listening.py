@@ -281,6 +281,8 @@ def _keys_gone(said: Record) -> set[str]:
 
 def _remove_lessons(s: Record, said: Record) -> Record:
     gone = _keys_gone(said)
+    if not (gone or said.lost or said.drops):
+        return s
     lessons = [it for it in s.private.lessons if it.key not in gone]
     kept = {it.content for it in lessons}
     unlearned = {it.content for it in s.private.lessons if it.key in gone} - kept
