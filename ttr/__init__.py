@@ -57,6 +57,9 @@ PROVIDERS = {
     "ttr.types.syntax.is_subtype": "ttr.computing.subtyping",
     "ttr.computing.subtyping.counterexample": "ttr.judging.counterexamples",
     "ttr.judging.evaluator.make_witness": "ttr.judging.creation",
+    "ttr.theories.theory.read_term": "ttr.theories.loading",
+    "ttr.theories.theory.draft_of_text": "ttr.theories.loading",
+    "ttr.theories.theory.draft_of_file": "ttr.theories.loading",
     "ttr.semantics.quantifiers.truth.truth_of_quantified": (
         "ttr.semantics.quantifiers.quantified_propositions"
     ),

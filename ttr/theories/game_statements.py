@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
-
 from ttr.building.well_formedness import field_at_path
-from ttr.errors import IllFormedError, TTRError
-from ttr.judging.models import model_of
+from ttr.errors import IllFormedError
 from ttr.notation.reader import Reader
 from ttr.notation.syntax_trees import GameStatement, Name, Term
 from ttr.signature.signature import Opening
@@ -15,10 +11,6 @@ from ttr.theories.rule_statements import read_state_type
 from ttr.theories.strategy_statements import read_strategy
 from ttr.types.objects import Path, Record
 from ttr.types.syntax import ListOf, NonEmpty, RecordType, Singleton, TypeNode
-from ttr.updates.games import Game
-
-if TYPE_CHECKING:
-    from ttr.theories.theory import Theory
 
 
 def read_game(tree: GameStatement, reader: Reader) -> Opening:
@@ -73,30 +65,3 @@ def _may_be_list(T: TypeNode) -> bool:
         case ListOf() | NonEmpty():
             return True
     return False
-
-
-def opened(theory: Theory) -> Mapping[str, Game]:
-    """The games of a theory, in the model of its givens.
-
-    Raises `TTRError`, with its place, if the givens contradict one another or the start
-    of a game is not of its type.
-    """
-    if not theory.openings:
-        return {}
-    model = model_of(theory)
-    games: dict[str, Game] = {}
-    for one in theory.openings.values():
-        try:
-            games[one.name] = Game(
-                one.name,
-                one.type,
-                one.start,
-                one.algorithm,
-                model,
-                agenda=one.agenda,
-                hears=one.hears,
-                theory=theory,
-            )
-        except TTRError as error:
-            raise error.at(one.span) if one.span else error from None
-    return games

@@ -15,6 +15,7 @@ from ttr.errors import MistakesError, NotationError, Span, TooLargeError, TTRErr
 from ttr.notation import syntax_trees as trees
 from ttr.notation.names import Names, is_declared, meaning_of
 from ttr.notation.parser import parse_statement
+from ttr.notation.reader import read_term as read_term_of_text
 from ttr.notation.scanning import check_characters, find_statements
 from ttr.notation.syntax_trees import Part, Source
 from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
@@ -22,6 +23,7 @@ from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError, check_calle
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import THEORY
+from ttr.theories import theory
 from ttr.theories.statements import StatementReader, names_mentioned
 from ttr.theories.theory_draft import Draft
 from ttr.types.interning import identity
@@ -46,9 +48,11 @@ def read_theory_text(path: Path) -> str:
     return read_text(path, THEORY)
 
 
-def draft_of_text(
-    text: str, source: str = "<text>", consent: Consent | None = None
-) -> Draft:
+theory.read_term.provided_by(read_term_of_text)
+
+
+@theory.draft_of_text.provided_by
+def _draft_of_text(text: str, source: str, consent: Consent | None) -> Draft:
     """What a text declares of a theory; an import is relative to the working directory.
 
     It may import from the working directory, or from where `consent` allows. Raises the
@@ -60,16 +64,15 @@ def draft_of_text(
     )
 
 
-def draft_of_file(
-    path: Path, consent: Consent = OWN_FOLDER, read: ReadText = read_theory_text
-) -> Draft:
+@theory.draft_of_file.provided_by
+def _draft_of_file(path: Path, consent: Consent, read: ReadText | None) -> Draft:
     """What a file declares of a theory.
 
     It, and what it imports, may import from its folder, or from where the user's
-    consent allows. `read` reads the text of each file. Raises `UnreadableError`, the
-    mistake in it, or `MistakesError`.
+    consent allows. `read` reads the text of each file, if they are not read from disk.
+    Raises `UnreadableError`, the mistake in it, or `MistakesError`.
     """
-    return _draft_if_sound(read_draft(path, consent, read))
+    return _draft_if_sound(read_draft(path, consent, read or read_theory_text))
 
 
 def read_draft(

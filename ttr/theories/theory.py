@@ -10,8 +10,8 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Protocol, overload
 
 from ttr.errors import IllFormedError, Span, TTRError, suggestion
+from ttr.hooks import hook
 from ttr.notation.names import all_names, vocabulary_of
-from ttr.notation.reader import read_term
 from ttr.safety.consent import OWN_FOLDER, Consent
 from ttr.showing import (
     Fields,
@@ -32,13 +32,7 @@ from ttr.signature.signature import (
     Opening,
     Signature,
 )
-from ttr.theories.game_statements import opened
-from ttr.theories.loading import (
-    ReadText,
-    draft_of_file,
-    draft_of_text,
-    read_theory_text,
-)
+from ttr.theories.opened_games import opened
 from ttr.theories.theory_draft import Draft
 from ttr.types.interning import Node
 from ttr.types.objects import Object
@@ -47,10 +41,33 @@ from ttr.types.syntax import Basic, Pred, kind_of
 from ttr.updates.rules import rules_shown
 
 if TYPE_CHECKING:
+    from ttr.theories.loading import ReadText
     from ttr.theories.queries import Check
     from ttr.updates.games import Game
     from ttr.updates.rules import Rule
     from ttr.updates.update_strategies import Algorithm
+
+
+# A theory that was read before is used without what reads theories, which is loaded
+# when something is read.
+
+
+@hook
+def read_term(text: str, theory: Theory) -> Object:
+    """The type or object that a text stands for; provided by `loading`."""
+    raise NotImplementedError
+
+
+@hook
+def draft_of_text(text: str, source: str, consent: Consent | None) -> Draft:
+    """What a text declares of a theory; provided by `loading`."""
+    raise NotImplementedError
+
+
+@hook
+def draft_of_file(path: FilePath, consent: Consent, read: ReadText | None) -> Draft:
+    """What a file declares of a theory; provided by `loading`."""
+    raise NotImplementedError
 
 
 class _ReadTheory(Protocol):
@@ -352,13 +369,13 @@ def theory_of_text(
 
 
 def theory_of_file(
-    path: FilePath, consent: Consent = OWN_FOLDER, read: ReadText = read_theory_text
+    path: FilePath, consent: Consent = OWN_FOLDER, read: ReadText | None = None
 ) -> Theory:
     """The theory in a file; raises `UnreadableError`, the mistake in it, or
     `MistakesError`.
 
     It, and what it imports, may import from its folder, or from where the user's
-    consent allows. `read` reads the text of each file.
+    consent allows. `read` reads the text of each file, if they are not read from disk.
     """
     return theory_of_draft(draft_of_file(path, consent, read))
 

@@ -22,7 +22,7 @@ from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
 from ttr.theories.check_statements import CheckReader
 from ttr.theories.checking import answer_checks
-from ttr.theories.game_statements import opened
+from ttr.theories.opened_games import opened
 from ttr.theories.queries import Check, IsBelow, IsBelowRelabelled, IsOf
 from ttr.types.objects import Object
 from ttr.types.printing import notation
