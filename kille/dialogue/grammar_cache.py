@@ -50,17 +50,17 @@ def _reader() -> str:
 
 def _encode(found: GrammarSource) -> bytes:
     made = [(it.name, it.symbols, it.made, it.only_child) for it in found.productions]
-    initials = {
-        name: None if (signs := found.initials(name)) is None else sorted(signs)
+    beginnings = {
+        name: None if (signs := found.beginnings(name)) is None else sorted(signs)
         for name, pattern in found.terminals.items()
         if is_expression(pattern)
     }
-    kept = made, dict(found.terminals), list(found.ignored), initials
+    kept = made, dict(found.terminals), list(found.ignored), beginnings
     return json.dumps(kept, separators=(",", ":")).encode("utf-8", "surrogatepass")
 
 
 def _decode(body: bytes) -> GrammarSource:
-    made, terminals, ignored, initials = json.loads(body)
+    made, terminals, ignored, begins = json.loads(body)
     symbols: dict[tuple[Any, ...], Symbol] = {}
     productions = [
         Production(
@@ -73,6 +73,6 @@ def _decode(body: bytes) -> GrammarSource:
     ]
     beginnings = {
         name: None if signs is None else frozenset(signs)
-        for name, signs in initials.items()
+        for name, signs in begins.items()
     }
     return GrammarSource(productions, terminals, ignored, beginnings)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from math import prod
 from time import process_time
 from types import MappingProxyType
@@ -70,37 +71,38 @@ class Expression:
 class GrammarSource(NamedTuple):
     """A grammar: its productions, the regular expressions of its terminals.
 
-    What fits one of those in `ignored` is skipped. `known_initials` are those that were
-    found before, when the grammar was read, of terminals whose expressions are ones.
+    What fits one of those in `ignored` is skipped. `known_beginnings` are those that
+    were found before, when the grammar was read, of terminals whose expressions are
+    ones.
     """
 
     productions: Sequence[Production]
     terminals: Mapping[str, str]
     ignored: Sequence[str]
-    known_initials: Mapping[str, frozenset[str] | None] = MappingProxyType({})
+    known_beginnings: Mapping[str, frozenset[str] | None] = MappingProxyType({})
 
     def expression(self, terminal: str) -> Expression:
         """The expression of a terminal; `GrammarError` where it is none."""
         found = _expression(
             [self.terminals[terminal]],
             f"the terminal {terminal}",
-            known=terminal in self.known_initials,
+            known=terminal in self.known_beginnings,
         )
         nothing = found.match("", 0, process_time() + SECONDS)
         if nothing:
             raise GrammarError(f"{found.what} may not be nothing at all")
         return found
 
-    def initials(self, terminal: str) -> frozenset[str] | None:
-        """The signs with which a terminal can begin, in lower case.
+    def beginnings(self, terminal: str) -> frozenset[str] | None:
+        """The one or two signs with which a terminal can begin, in lower case.
 
         None where that cannot be seen from its expression: then any sign has to be
         tried. So it is where there is a mistake in the expression.
         """
-        if terminal in self.known_initials:
-            return self.known_initials[terminal]
+        if terminal in self.known_beginnings:
+            return self.known_beginnings[terminal]
         try:
-            return _initials(self.terminals[terminal])
+            return _beginnings(self.terminals[terminal])
         except (re.error, ValueError, OverflowError, RecursionError):
             return None
 
@@ -157,76 +159,103 @@ for kelvins does as a k.
 """
 
 
-def _initials(pattern: str) -> frozenset[str] | None:
-    r"""The signs with which what a pattern fits can begin, or more, in lower case.
+def _beginnings(pattern: str) -> frozenset[str] | None:
+    r"""What a pattern fits begins with one of these, of one or two signs in lower case.
 
-    None where it may be any sign, or none at all, or a letter beyond `LATIN`.
+    None where it may begin with any sign, or with none at all, or with a letter beyond
+    `LATIN`.
 
-    >>> sorted(_initials(r"(?i:((quite |all )?wrong|colou?r)\b)")), _initials("[^ab]c")
-    (['a', 'c', 'q', 'w'], None)
-    >>> sorted(_initials("(?!nothing)[nsx]o|är"))
-    ['n', 's', 'x', 'ä']
+    >>> sorted(_beginnings(r"(?i:((quite |all )?wrong|colou?r)\b)"))
+    ['al', 'co', 'qu', 'wr']
+    >>> sorted(_beginnings("(?!nothing)[nsx]\w|är")), _beginnings("[^ab]c")
+    (['n', 's', 'x', 'är'], None)
     """
-    try:
-        found, may_be_empty = _first_signs(re._parser.parse(pattern))
-    except _AnySignError:
+    read = _read_beginnings(re._parser.parse(pattern))
+    found = read.whole | read.open
+    if "" in found:
         return None
-    return None if may_be_empty else frozenset(found)
+    return frozenset(it for it in found if len(it) < AHEAD or it[0] not in found)
 
 
-class _AnySignError(Exception):
-    """A pattern may begin with too many signs to be listed."""
+AHEAD = 2
+"""How many signs of what is to come are looked at before an expression is tried."""
+
+_MANY = 1000
+"""Of more beginnings only the first signs are kept."""
 
 
-def _first_signs(parsed: Iterable[tuple[Any, Any]]) -> tuple[set[str], bool]:
-    """The signs with which a parsed pattern can begin, and whether it may be empty."""
-    found: set[str] = set()
+class _Beginnings(NamedTuple):
+    """How what a part of a pattern fits can begin: with `open`, or it is `whole`.
+
+    Of an open one, which may be nothing, it is not known how it goes on.
+    """
+
+    whole: frozenset[str] = frozenset()
+    open: frozenset[str] = frozenset()
+
+    def either(self, other: _Beginnings) -> _Beginnings:
+        return _Beginnings(self.whole | other.whole, self.open | other.open)
+
+    def then(self, other: _Beginnings) -> _Beginnings:
+        """How it can begin if the other follows."""
+        if len(self.whole) * (len(other.whole) + len(other.open)) > _MANY:
+            return _Beginnings(open=self.open | self.whole)
+        both = {(a + b)[:AHEAD] for a in self.whole for b in other.whole}
+        whole = frozenset(it for it in both if len(it) < AHEAD)
+        ahead = {(a + b)[:AHEAD] for a in self.whole for b in other.open}
+        return _Beginnings(whole, self.open | (both - whole) | ahead)
+
+
+_NOTHING, _ANYTHING = _Beginnings(frozenset([""])), _Beginnings(open=frozenset([""]))
+
+
+def _read_beginnings(parsed: Iterable[tuple[Any, Any]]) -> _Beginnings:
+    """How what a parsed pattern fits can begin."""
+    found = _NOTHING
     for op, of in parsed:
-        signs, may_be_empty = _first_signs_of(str(op), of)
-        found |= signs
-        if not may_be_empty:
-            return found, False
-    return found, True
-
-
-def _first_signs_of(op: str, of: Any) -> tuple[set[str], bool]:
-    match op:
-        case "LITERAL":
-            return {_small(of)}, False
-        case "IN":
-            return _signs_in(of), False
-        case "BRANCH":
-            ways = [_first_signs(it) for it in of[1]]
-            return set().union(*(it for it, _ in ways)), any(it for _, it in ways)
-        case "SUBPATTERN":
-            return _first_signs(of[-1])
-        case "MAX_REPEAT" | "MIN_REPEAT":
-            signs, may_be_empty = _first_signs(of[2])
-            return signs, may_be_empty or of[0] == 0
-        case "AT" | "ASSERT" | "ASSERT_NOT":
-            return set(), True
-    raise _AnySignError
-
-
-def _signs_in(listed: Iterable[tuple[Any, Any]]) -> set[str]:
-    """The signs that are listed between square brackets."""
-    found: set[str] = set()
-    for op, of in listed:
-        match str(op):
-            case "LITERAL":
-                found.add(_small(of))
-            case "RANGE" if of[1] < LATIN:
-                found |= set(map(_small, range(of[0], of[1] + 1)))
-            case _:
-                raise _AnySignError
+        if not found.whole:
+            break
+        found = found.then(_beginnings_of(str(op), of))
     return found
 
 
-def _small(code: int) -> str:
-    sign = chr(code)
-    if code >= LATIN and sign.isalpha():
-        raise _AnySignError
-    return sign.lower()
+def _beginnings_of(op: str, of: Any) -> _Beginnings:
+    match op:
+        case "LITERAL" if _is_plain(of):
+            return _Beginnings(frozenset([chr(of).lower()]))
+        case "IN":
+            return _one_sign_of(of)
+        case "BRANCH":
+            return reduce(_Beginnings.either, map(_read_beginnings, of[1]))
+        case "SUBPATTERN":
+            return _read_beginnings(of[-1])
+        case "MAX_REPEAT" | "MIN_REPEAT":
+            least, most, parts = of
+            once = _read_beginnings(parts)
+            found = once.either(once.then(once)) if most > 1 else once
+            return found if least else found.either(_NOTHING)
+        case "AT" | "ASSERT" | "ASSERT_NOT":
+            return _NOTHING
+    return _ANYTHING
+
+
+def _one_sign_of(listed: Iterable[tuple[Any, Any]]) -> _Beginnings:
+    """One of the signs that are listed between square brackets."""
+    found: set[str] = set()
+    for op, of in listed:
+        match str(op):
+            case "LITERAL" if _is_plain(of):
+                found.add(chr(of).lower())
+            case "RANGE" if of[1] < LATIN:
+                found |= {chr(it).lower() for it in range(of[0], of[1] + 1)}
+            case _:
+                return _ANYTHING
+    return _Beginnings(frozenset(found))
+
+
+def _is_plain(code: int) -> bool:
+    """Whether it is a sign that counts as the same only as those with its `lower`."""
+    return code < LATIN or not chr(code).isalpha()
 
 
 def _together(patterns: Sequence[str]) -> str:

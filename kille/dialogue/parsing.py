@@ -13,11 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import takewhile
 from operator import itemgetter
 from time import process_time
 from typing import Any, NamedTuple
 
 from kille.dialogue.grammars import (
+    AHEAD,
     LATIN,
     SECONDS,
     Expression,
@@ -91,7 +93,7 @@ class Grammar:
         self._source = read(source, self.starts)
         self._between = self._source.between()
         self._expressions: dict[str, Expression] = {}
-        self._initials: dict[str, frozenset[str] | None] = {}
+        self._beginnings: dict[str, frozenset[str] | None] = {}
         self._terminals = list(self._source.terminals)
         self._bits = {it: 2 << number for number, it in enumerate(self._terminals)}
         self._impossible: dict[str, int] = {}
@@ -155,32 +157,35 @@ class Grammar:
             known = self._expressions[terminal] = self._source.expression(terminal)
         return known
 
-    def can_begin(self, terminal: str, sign: str) -> bool:
-        """Can a terminal begin with this sign, as far as can be seen at once?
+    def can_begin(self, terminal: str, ahead: str) -> bool:
+        """Can a terminal begin so, as far as can be seen at the next `AHEAD` signs?
 
         Most cannot, and need no expression made for them. No sign is the end of a text.
         """
-        if terminal not in self._initials:
-            self._initials[terminal] = self._source.initials(terminal)
-        initials = self._initials[terminal]
-        if initials is None or sign.lower() in initials:
+        if terminal not in self._beginnings:
+            self._beginnings[terminal] = self._source.beginnings(terminal)
+        known = self._beginnings[terminal]
+        if known is None:
             return True
-        return sign != "" and ord(sign) >= LATIN
+        plain = "".join(takewhile(lambda it: ord(it) < LATIN, ahead)).lower()
+        if plain in known or plain[:1] in known:
+            return True
+        return len(plain) < len(ahead) and any(it.startswith(plain) for it in known)
 
     def terminal(self, number: int) -> str:
         """The name of the terminal of a number; 0 is no terminal, see `NOTHING`."""
         return self._terminals[number - 1]
 
-    def possible(self, terminals: int, letter: str) -> int:
-        """Those of a set of terminals that can begin with this sign, as far as known.
+    def possible(self, terminals: int, ahead: str) -> int:
+        """Those of a set of terminals that can begin with these signs, as far as known.
 
         A set of terminals is a number: the bit of each is set that is in it.
         """
-        return terminals & ~self._impossible.get(letter, 0)
+        return terminals & ~self._impossible.get(ahead, 0)
 
-    def exclude(self, bit: int, letter: str) -> None:
-        """Keep in mind that the terminal of a bit cannot begin with this sign."""
-        self._impossible[letter] = self._impossible.get(letter, 0) | bit
+    def exclude(self, bit: int, ahead: str) -> None:
+        """Keep in mind that the terminal of a bit cannot begin with these signs."""
+        self._impossible[ahead] = self._impossible.get(ahead, 0) | bit
 
     def _first_terminals(
         self, by_name: Mapping[str, list[Production]]
@@ -367,16 +372,16 @@ class _Chart:
     def _terminals_here(self, terminals: int, at: int) -> int:
         """Those of a set of terminals that are here; most productions need others."""
         here, tried = self._here.get(at, NOTHING), self._tried.get(at, NOTHING)
-        sign = self._text[at : at + 1]
-        ahead = self._grammar.possible(terminals & ~tried, sign)
-        if ahead:
-            self._tried[at] = tried | ahead
-        while ahead:
-            bit = ahead & -ahead
-            ahead ^= bit
+        ahead = self._text[at : at + AHEAD]
+        left = self._grammar.possible(terminals & ~tried, ahead)
+        if left:
+            self._tried[at] = tried | left
+        while left:
+            bit = left & -left
+            left ^= bit
             name = self._grammar.terminal(bit.bit_length() - 1)
-            if not self._grammar.can_begin(name, sign):
-                self._grammar.exclude(bit, sign)
+            if not self._grammar.can_begin(name, ahead):
+                self._grammar.exclude(bit, ahead)
             elif self._terminal(name, at) is not None:
                 here |= bit
         self._here[at] = here
@@ -411,8 +416,7 @@ class _Chart:
         return self._terminals[key]
 
     def _look_for(self, name: str, at: int) -> tuple[int, str] | None:
-        sign = self._text[at : at + 1]
-        if not self._grammar.can_begin(name, sign):
+        if not self._grammar.can_begin(name, self._text[at : at + AHEAD]):
             return None
         expression = self._grammar.expression(name)
         found = self._match(expression, at)

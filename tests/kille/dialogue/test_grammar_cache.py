@@ -50,7 +50,7 @@ def test_a_grammar_is_recalled_as_it_was_read(
     assert recall_grammar(text, STARTS) == read
     recalled = recall_without_lark(monkeypatch, text)
     assert recalled[:3] == read[:3]
-    assert all(recalled.initials(it) == read.initials(it) for it in read.terminals)
+    assert all(recalled.beginnings(it) == read.beginnings(it) for it in read.terminals)
 
 
 def test_a_recalled_grammar_is_of_the_same_text_and_the_same_starts(

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.dialogue.grammars import LATIN, GrammarError, read_grammar
+from kille.dialogue.grammars import AHEAD, LATIN, GrammarError, read_grammar
 from kille.dialogue.language import LANGUAGES, grammar_text, reader
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import packaged_types
@@ -199,40 +199,44 @@ WORDS = st.recursive(
 
 
 @given(st.data(), WORDS)
-def test_what_words_fit_begins_with_one_of_their_initials(data, words):
+def test_what_words_fit_begins_with_one_of_their_beginnings(data, words):
     """Except letters beyond `LATIN`, of which some count as others."""
     rule = f"start: A{chr(10)}A: /{words}/i"
-    initials = read_grammar(rule, ["start"]).initials("A")
+    beginnings = read_grammar(rule, ["start"]).beginnings("A")
     text = data.draw(st.from_regex(re.compile(words, re.I), fullmatch=True))
-    if text and initials is not None and ord(text[0]) < LATIN:
-        assert text[0].lower() in initials
+    if text and beginnings is not None and all(ord(it) < LATIN for it in text[:AHEAD]):
+        assert text.lower().startswith(tuple(beginnings))
+        assert Grammar(rule).can_begin("A", text[:AHEAD])
     if not re.search(r"\)[?*]", words):
-        assert initials is not None
+        assert beginnings is not None
 
 
 @pytest.mark.parametrize(
-    ("pattern", "initials"),
+    ("pattern", "beginnings"),
     [
-        ("[ab]c", "ab"),
+        ("[ab]c", "ac bc"),
         ("(?!b)a", "a"),
-        ("a{0,1}b", "ab"),
-        ("å|Ä", "åä"),
-        ("['’]s", "'’"),
-        ("(it |they )?wear", "itw"),
-        ("(?<=x)[a-c]", "abc"),
+        ("a{0,1}b", "ab b"),
+        ("å|Ä", "å ä"),
+        ("['’]s", "'s ’s"),
+        ("(it |they )?wear", "it th we"),
+        ("(?<=x)[a-c]", "a b c"),
+        ("a+b|a?c", "aa ab ac c"),
+        (r"a\w|bc", "a bc"),
+        ("aΩ|aß", "a"),
     ],
 )
-def test_initials_are_seen_in_an_expression(pattern, initials):
+def test_beginnings_are_seen_in_an_expression(pattern, beginnings):
     source = read_grammar(f"start: A{chr(10)}A: /{pattern}/i", ["start"])
-    assert source.initials("A") == {*initials}
+    assert source.beginnings("A") == {*beginnings.split()}
 
 
 @pytest.mark.parametrize("pattern", ["[^ab]c", "Ωb", ".a", "[a-ω]", r"\w", "(a)?(?=b)"])
-def test_initials_that_may_be_any_sign_are_unknown(pattern):
+def test_beginnings_that_may_be_any_sign_are_unknown(pattern):
     rule = f"start: A | B{chr(10)}A: /{pattern}/i{chr(10)}B: /a/i | /{pattern}/i"
     source = read_grammar(rule, ["start"])
-    assert source.initials("A") is None
-    assert source.initials("B") is None
+    assert source.beginnings("A") is None
+    assert source.beginnings("B") is None
 
 
 @cache
@@ -245,7 +249,7 @@ def test_a_terminal_that_cannot_begin_here_is_not_here(text, language):
     grammar = island_grammar(language)
     for terminal in grammar._terminals:
         found = grammar.expression(terminal).match(text, 0, process_time() + 9)
-        assert not found or grammar.can_begin(terminal, text[:1])
+        assert not found or grammar.can_begin(terminal, text[:AHEAD])
 
 
 def test_expressions_are_made_for_words_that_can_be_here_only():
