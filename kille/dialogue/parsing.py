@@ -101,9 +101,8 @@ class Grammar:
         for made in self._source.productions:
             by_name.setdefault(made.name, []).append(made)
         self._first = self._first_terminals(by_name)
-        self._prefixes = {
-            name: self._shared_prefixes(made) for name, made in by_name.items()
-        }
+        self._by_name = by_name
+        self._prefixes: dict[str, _Prefix] = {}
 
     def parse(self, text: str, start: str = "start") -> list[Tree]:
         """Every way to read the whole text, those with the fewest parts first.
@@ -203,15 +202,18 @@ class Grammar:
                 first[name] |= own[it]
         return first
 
-    def _shared_prefixes(self, made: Iterable[Production]) -> _Prefix:
+    def shared_prefixes(self, name: str) -> _Prefix:
         """What the productions of a rule begin with, each beginning once."""
+        if name in self._prefixes:
+            return self._prefixes[name]
         whole = _Prefix()
-        for number, production in enumerate(made):
+        for number, production in enumerate(self._by_name[name]):
             at, first = whole, self._first_of(production)
             for symbol in production.symbols:
                 at = at.further.setdefault(symbol, _Prefix())
                 at.first |= first
             at.made.append((number, production))
+        self._prefixes[name] = whole
         return whole
 
     def _first_of(self, production: Production) -> int:
@@ -350,7 +352,7 @@ class _Chart:
 
         What several of them begin with is looked for once.
         """
-        whole = self._grammar._prefixes[name]
+        whole = self._grammar.shared_prefixes(name)
         nothing: Found = {at: [()]}
         ahead = [
             (prefix, self._by_symbol(symbol, at))
