@@ -59,7 +59,7 @@ def _are_fields_still_of(
         had, has = was[label], found.get(label, _NOTHING)
         if had is has and keeps:
             continue
-        if has is _NOTHING or not _is_part_still_of(had, has, field, model):
+        if has is _NOTHING or not _is_part_still_of(had, has, field, model, keeps):
             return False
     return True
 
@@ -74,7 +74,10 @@ def _has_dependent_fields(T: RecordType) -> bool:
     return any(free_paths(field) for _, field in T.fields)
 
 
-def _is_part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
+def _is_part_still_of(
+    was: Object, found: Object, T: TypeNode, model: Model, keeps: bool
+) -> bool:
+    """Is a part of a record still of its type? If it `keeps`, it cannot change."""
     if was is found:
         return _cannot_change(found, model) or is_certain(model.facts, found, T)
     if isinstance(T, RecordType):
@@ -83,7 +86,7 @@ def _is_part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> 
     elif (
         isinstance(T, ListOf)
         and isinstance(found, tuple)
-        and _cannot_change(was, model)
+        and (keeps or _cannot_change(was, model))
     ):
         new = tuple(_possibly_new_elements(found, was))
         return not new or is_certain(model.facts, new, T)

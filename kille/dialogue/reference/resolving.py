@@ -30,7 +30,7 @@ from kille.dialogue.reference.salience import (
 from kille.dialogue.taxonomy import has_kind, is_kind_of
 from ttr import Model, Pred, Record, RecordType, rectype
 from ttr.safety.budgets import cache_in_question
-from ttr.types import Singleton
+from ttr.types import Singleton, TypeNode
 from ttr.types.objects import Object
 
 PARTS = ("target", "landmark")
@@ -559,10 +559,16 @@ def _set_phrase(
     Claims that held only at that point of the talk (`d`) are dropped.
     """
     x, *beside = things
-    fields = {label: T for label, T in phrase.fields if label != "d"}
-    fields["x"] = types["Ind"] @ x
+    fields: dict[str, TypeNode] = {"x": types["Ind"] @ x}
     if beside:
         landmark = phrase_at(phrase, "landmark")
         fields["landmark"] = _set_phrase(s, landmark, tuple(beside), types=types)
         fields["frame"] = types["Front"] @ front_of(s, beside[0])
-    return rectype(fields)
+    return _set_beyond_talk(phrase, **fields)
+
+
+@lru_cache(4096)
+def _set_beyond_talk(phrase: RecordType, **fields: TypeNode) -> RecordType:
+    """The phrase with these fields, without what held at a point of the talk only."""
+    kept = {label: T for label, T in phrase.fields if label != "d"}
+    return rectype({**kept, **fields})
