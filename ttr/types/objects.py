@@ -501,6 +501,8 @@ def is_immutable(value: Object) -> bool:
     kind = type(value)
     if kind is str or kind is float:
         return True
+    if kind is tuple:
+        return all(map(is_immutable, value))  # type: ignore[arg-type]
     if isinstance(value, Record):
         if value._is_immutable is None:
             found = all(map(is_immutable, value._fields.values()))

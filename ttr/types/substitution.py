@@ -49,15 +49,20 @@ def resolve_paths(value: Object, around: Around) -> Object:
         return value
 
     def at(path: Path) -> Object:
-        name = ".".join(label for label in path.labels if label != BOUND)
         if path.up >= len(around):
-            raise UnresolvedError(f"the path {name} leads out of every record")
-        first, *rest = path.labels
-        if first not in around[path.up]:
-            raise UnresolvedError(f"the path {name} leads nowhere: there is no {first}")
-        return follow_path(around[path.up][first], tuple(rest))
+            raise UnresolvedError(f"the path {_name(path)} leads out of every record")
+        first, scope = path.labels[0], around[path.up]
+        if first not in scope:
+            raise UnresolvedError(
+                f"the path {_name(path)} leads nowhere: there is no {first}"
+            )
+        return follow_path(scope[first], path.labels[1:])
 
     return replace_paths(value, at)
+
+
+def _name(path: Path) -> str:
+    return ".".join(label for label in path.labels if label != BOUND)
 
 
 def instantiate_body(function: Function, argument: Object) -> Object:
