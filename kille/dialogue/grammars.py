@@ -185,15 +185,17 @@ _MANY = 1000
 
 
 class _Beginnings(NamedTuple):
-    """How what a part of a pattern fits can begin: with `open`, or it is `whole`.
+    """How what a part of a pattern fits can begin, as far as `AHEAD` signs tell.
 
-    Of an open one, which may be nothing, it is not known how it goes on.
+    It may be one of `whole` and no more, so that what follows begins after it; or it
+    begins with one of `open`, and how it goes on is not known or does not matter.
     """
 
     whole: frozenset[str] = frozenset()
     open: frozenset[str] = frozenset()
 
     def either(self, other: _Beginnings) -> _Beginnings:
+        """How it can begin if it may be the other as well."""
         return _Beginnings(self.whole | other.whole, self.open | other.open)
 
     def then(self, other: _Beginnings) -> _Beginnings:

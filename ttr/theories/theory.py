@@ -32,7 +32,7 @@ from ttr.signature.signature import (
     Opening,
     Signature,
 )
-from ttr.theories.opened_games import opened
+from ttr.theories.game_opening import open_games
 from ttr.theories.theory_draft import Draft
 from ttr.types.interning import Node
 from ttr.types.objects import Object
@@ -192,7 +192,7 @@ class Theory(NotebookValue, Signature):
         Raises `TTRError` if the givens contradict one another, or the start of a game
         is not of its type.
         """
-        return opened(self)
+        return open_games(self)
 
     @property
     def names(self) -> frozenset[str]:

@@ -22,7 +22,7 @@ from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
 from ttr.theories.check_statements import CheckReader
 from ttr.theories.checking import answer_checks
-from ttr.theories.opened_games import opened
+from ttr.theories.game_opening import open_games
 from ttr.theories.queries import Check, IsBelow, IsBelowRelabelled, IsOf
 from ttr.types.objects import Object
 from ttr.types.printing import notation
@@ -80,7 +80,9 @@ def _declare(session: Session, tree: Statement, source: Source) -> Reply:
     """The session with the statement; a check that fails is not kept."""
     after, changed = declare(session, tree, source)
     if changed or isinstance(tree, trees.GameStatement):
-        opened(after.theory)  # refuses a game that starts from what is no state of it
+        open_games(
+            after.theory
+        )  # refuses a game that starts from what is no state of it
     if not isinstance(tree, trees.Question):
         return Reply(replace(after, before=session), list_changes(changed))
     newest = replace(after.theory, checks=after.theory.checks[-1:])

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ttr.theories.theory import Theory
 
 
-def opened(theory: Theory) -> Mapping[str, Game]:
+def open_games(theory: Theory) -> Mapping[str, Game]:
     """The games of a theory, in the model of its givens.
 
     Raises `TTRError`, with its place, if the givens contradict one another or the start
