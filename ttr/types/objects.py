@@ -502,7 +502,7 @@ def is_immutable(value: Object) -> bool:
     if kind is str or kind is float:
         return True
     if kind is tuple:
-        return all(map(is_immutable, value))  # type: ignore[arg-type]
+        return all(map(is_immutable, value))
     if isinstance(value, Record):
         if value._is_immutable is None:
             found = all(map(is_immutable, value._fields.values()))
