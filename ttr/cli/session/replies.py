@@ -80,9 +80,8 @@ def _declare(session: Session, tree: Statement, source: Source) -> Reply:
     """The session with the statement; a check that fails is not kept."""
     after, changed = declare(session, tree, source)
     if changed or isinstance(tree, trees.GameStatement):
-        open_games(
-            after.theory
-        )  # refuses a game that starts from what is no state of it
+        # Refuses a game that starts from what is no state of it.
+        open_games(after.theory)
     if not isinstance(tree, trees.Question):
         return Reply(replace(after, before=session), list_changes(changed))
     newest = replace(after.theory, checks=after.theory.checks[-1:])
