@@ -32,6 +32,8 @@ class WordLists:
     abstract: frozenset[str] = frozenset()
     doubtful: frozenset[str] = frozenset()
     qualities: frozenset[str] = frozenset()
+    evaluations: frozenset[str] = frozenset()
+    """Words for how good or true it is what was said: no qualities of things."""
     endings: tuple[str, ...] = ()
     parts: frozenset[str] = frozenset()
     """Nouns for what things have, such as handles."""
@@ -138,10 +140,14 @@ class WordLists:
         >>> english = word_lists("en")
         >>> [english.judge_quality(it) for it in ("light blue", "sugar", "life")]
         ['', 'doubtful', 'remark']
+        >>> english.judge_quality("wrong")
+        'remark'
         """
         if not self.qualities:
             return ""
         words = form.split()
+        if not self.evaluations.isdisjoint(words):
+            return REMARK
         if all(map(self._is_quality, words)):
             return ""
         if form in self.names:
@@ -236,6 +242,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         abstract=frozenset(data.get("abstract", "").split()),
         doubtful=frozenset(data.get("doubtful", "").split()),
         qualities=frozenset(data.get("qualities", "").split()),
+        evaluations=frozenset(data.get("evaluations", "").split()),
         endings=tuple(data.get("abstract_endings", "").split()),
         parts=frozenset(data.get("parts", "").split()),
         aspects=frozenset(data.get("aspects", "").split()),
