@@ -54,6 +54,10 @@ class WordLists:
     """
     repairs: frozenset[tuple[str, ...]] = frozenset()
     """Words between what is said by mistake, and what is said instead."""
+    repair: str = ""
+    """One of them, as it is written: "i mean"."""
+    renewals: frozenset[tuple[str, ...]] = frozenset()
+    """Those of them that may begin a sentence of their own: "I mean red!"."""
     names: frozenset[str] = frozenset()
     """Names of persons, which are no words for kinds of things."""
     articles: frozenset[str] = frozenset()
@@ -252,6 +256,8 @@ def _word_lists(language: str, _: int) -> WordLists:
         closed=frozenset(data.get("closed", "").split()),
         unreal=_phrases(data.get("unreal", "")),
         repairs=_phrases(data.get("repairs", "")),
+        repair=next(iter(data.get("renewals", "").split()), "").replace("_", " "),
+        renewals=_phrases(data.get("renewals", "")),
         names=frozenset(data.get("names", "").split()),
         articles=frozenset(data.get("articles", "").split()),
         negations=frozenset(data.get("negations", "").split()),

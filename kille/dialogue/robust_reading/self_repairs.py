@@ -54,7 +54,8 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
     """The text with what its speaker has set right in place of what they said first.
 
     What follows "sorry" or "I mean" between commas takes the place of what was said
-    from where it begins alike, or else of the last word: then that is not certain.
+    from where it begins alike, or else of the last word: then that is not certain,
+    unless both say how things are.
 
     >>> from kille.dialogue.word_lists import word_lists
     >>> english = word_lists("en")
@@ -80,7 +81,9 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
             same = {*lists.articles}
         alike = [n for n, it in enumerate(before) if it.form in same]
         kept = text[: before[alike[-1] if alike else -1].begin]
-        return kept + text[after[0].begin :], bool(alike)
+        are_qualities = {before[-1].form, after[0].form} <= lists.qualities
+        is_certain = bool(alike) or (are_qualities and len(after) == 1)
+        return kept + text[after[0].begin :], is_certain
     return text, True
 
 

@@ -1,0 +1,92 @@
+"""What a speaker sets right at once: "it's a blal. *ball", "it's green. I mean red!".
+
+Such a repair is said, or typed, after what looks like the end of a sentence. It is
+written as the one that it is, so that nothing of what was said first is learned:
+"it's a blal, i mean, ball".
+
+Source: Schegloff, Jefferson and Sacks 1977, for repairs of oneself; the asterisk is the
+custom of chats.
+"""
+
+from __future__ import annotations
+
+import re
+
+from kille.dialogue.typos import slip
+from kille.dialogue.word_lists import WordLists
+
+_AGAIN = re.compile(
+    r"(?P<first>[^\W\d_]+)"
+    r"(?:(?P<pause>\s*[.…,]+\s*|\s+[-–—]+\s+)(?P<star>\*?)|\s+(?P<mark>\*))"
+    r"(?:(?P<article>[^\W\d_]+)\s+)??(?P<again>[^\W\d_]+)\*?(?=\s*(?:[.!…]|$))"
+)
+"""A word, a pause, and perhaps the same word again, at the end of a sentence."""
+
+_MARKED = re.compile(r"\s*\*\s*([^\W\d_][^*.!?]*?)\*?[.!…]*\s*")
+"""A text that is all a repair of what was said in the turn before: "*ball"."""
+
+_ONE_WORD = 2
+"""How many words what takes the place of another has at most: "a mug"."""
+
+_SHORT = 3
+"""Letters; shorter words are alike by chance."""
+
+
+def join_repairs(text: str, lists: WordLists) -> str:
+    """The text with repairs of its last word in the sentence that they are about.
+
+    An asterisk marks a repair, and so does a pause before nearly the same word, or a
+    short sentence that begins with "I mean".
+
+    >>> from kille.dialogue.word_lists import word_lists
+    >>> english = word_lists("en")
+    >>> join_repairs("it's a blal. *ball", english)
+    "it's a blal, i mean, ball"
+    >>> join_repairs("It's green. I mean red! The mug is blue.", english)
+    "It's green, I mean red! The mug is blue."
+    >>> join_repairs("This is a cup. Thanks.", english)
+    'This is a cup. Thanks.'
+    """
+    if not lists.repair:
+        return text
+    if marked := _MARKED.fullmatch(text):
+        return f"{lists.repair} {marked[1]}"
+    return _join_again(_join_renewals(text, lists), lists)
+
+
+def _join_again(text: str, lists: WordLists) -> str:
+    """The text with words that are said again as repairs."""
+
+    def join(found: re.Match[str]) -> str:
+        first, again, article = found["first"], found["again"], found["article"]
+        if article and article.lower() not in lists.articles:
+            return found[0]
+        marked = found["star"] or found["mark"]
+        if marked or _is_again(first.lower(), again.lower(), found["pause"], lists):
+            return f"{first}, {lists.repair}, {again}"
+        return found[0]
+
+    return _AGAIN.sub(join, text)
+
+
+def _is_again(first: str, again: str, pause: str, lists: WordLists) -> bool:
+    """Whether a word after a pause is another try at the one before it."""
+    if lists.is_closed(first) or lists.is_closed(again) or len(again) < _SHORT:
+        return False
+    breaks_off = pause.strip() not in (".", ",") and again.startswith(first)
+    return slip(first, again) is not None or (breaks_off and first != again)
+
+
+def _join_renewals(text: str, lists: WordLists) -> str:
+    """The text with sentences such as "I mean red!" in the one before them."""
+    sentences = re.split(r"(?<=[.!…])\s+", text)
+    joined = sentences[:1]
+    for sentence in sentences[1:]:
+        forms = re.findall(r"[\w'’]+", sentence.lower().replace("’", "'"))
+        ends = (n for n in range(1, len(forms)) if tuple(forms[:n]) in lists.renewals)
+        said = forms[max(ends, default=len(forms)) :]
+        if 0 < len(said) <= _ONE_WORD and not sentence.endswith("?"):
+            joined[-1] = joined[-1].rstrip(".!… ") + f", {sentence}"
+        else:
+            joined.append(sentence)
+    return " ".join(joined) if len(joined) < len(sentences) else text
