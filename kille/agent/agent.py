@@ -50,7 +50,11 @@ from kille.dialogue.robust_reading.speech_hearing import (
     UncertainMove,
     hear_hypotheses_in_parts,
 )
-from kille.dialogue.robust_reading.text_hearing import complete_answer, hear_in_parts
+from kille.dialogue.robust_reading.text_hearing import (
+    complete_answer,
+    hear_in_parts,
+    without_early_answers,
+)
 from kille.dialogue.robust_reading.whole_sentences import needs_parts
 from kille.dialogue.state import blank_model, words
 from kille.dialogue.tutoring import hear_sentences, tutoring
@@ -559,7 +563,7 @@ class Agent(Closing, NotebookValue):
         situation = situation_of(now.state)
         if needs_parts(full, situation, self.language):
             return self._hear_in_parts(full, situation, exchange, now)
-        for sentence in sentences:
+        for sentence in without_early_answers(sentences):
             sentence = self._in_full(sentence, now.state)
             exchange, now = self._answer(
                 sentence, hear_sentences(sentence), exchange, now

@@ -39,6 +39,9 @@ SELF_ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repe
 DOUBTING = frozenset({"ask_certainty", "ask_whether"})
 """Those of them after which a lesson corrects what the robot has claimed."""
 
+ANSWERS = frozenset({"affirm", "deny"})
+"""What is about something that the robot has said."""
+
 HESITATING = frozenset({"hold_floor", "ask_repeat"})
 """What is said in search of words, where anything else is said: "Hang on, a whisk."."""
 
@@ -90,7 +93,24 @@ def hear_text(
     situation = situation_of(s)
     if needs_parts(sentences, situation, language):
         return hear_in_parts(sentences, situation, language, types=types)
-    return Hearing(tuple(sentences), (), in_parts=False)
+    return Hearing(without_early_answers(sentences), (), in_parts=False)
+
+
+def without_early_answers(said: Iterable[Sentence]) -> tuple[Sentence, ...]:
+    """The moves without a yes or no after a question that they ask: it came too early.
+
+    It is about nothing that the robot has said, which answers only then.
+
+    >>> moves = understand("Is this a cup? Yes, right.")
+    >>> [act_of(it) for it in without_early_answers(moves)]
+    ['ask_whether']
+    """
+    kept: list[Sentence] = []
+    for it in said:
+        asks = any(one.readings and act_of(one).startswith("ask_") for one in kept)
+        if not (asks and it.readings and act_of(it) in ANSWERS):
+            kept.append(it)
+    return tuple(kept)
 
 
 def complete_answer(
@@ -143,6 +163,7 @@ def hear_in_parts(
             kind.append(move)
     if len(done) + len(asked) > 1:
         done = [it for it in done if act_of(it) not in HESITATING]
+    done = [*without_early_answers(done)]
     settled, open_ = _settle_lessons(done, asked, types)
     told = join_lessons(open_, lists.qualities, types=types)
     heard = (*_without_repetitions(settled), *told) or tuple(remarks[:1])
