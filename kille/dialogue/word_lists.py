@@ -116,6 +116,8 @@ class WordLists:
             return REMARK
         if len(form) == 1 and self.abstract:
             return DOUBTFUL
+        if head != words[-1] and head in self.parts:
+            return DOUBTFUL  # "a crack in the cup"
         if words[0] in self.doubtful and len(words) > 1:
             return DOUBTFUL
         return DOUBTFUL if form in self.doubtful or head in self.doubtful else ""
