@@ -561,6 +561,8 @@ class Agent(Closing, NotebookValue):
         exchange, now = Exchange(text, None, (), (), self._clock()), self._now_at
         full = [self._in_full(it, now.state) for it in sentences]
         situation = situation_of(now.state)
+        if self.gaze.attention.anew:  # at what the next look shows
+            situation = situation._replace(points_anew=True)
         if needs_parts(full, situation, self.language):
             return self._hear_in_parts(full, situation, exchange, now)
         for sentence in without_early_answers(sentences):

@@ -202,6 +202,15 @@ def are_about_unmarked_things(
     return sum(_is_unmarked(it, types) for it in names) > 1
 
 
+def is_about_unmarked_thing(said: Sentence, *, types: DialogueTypes) -> bool:
+    """Whether a sentence says "this", "that" or "it" of a thing, or nothing."""
+    if not said.readings:
+        return False
+    return is_about_it(said, types=types) or _is_unmarked(
+        said.readings[0].content, types
+    )
+
+
 def _is_unmarked(content: RecordType, types: DialogueTypes) -> bool:
     target = content.get("target")
     if not isinstance(target, RecordType) or set(target.labels) > {"x", "look", "d"}:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from kille.dialogue.answered_questions import last_question
 from kille.dialogue.meanings import predicate_at
+from kille.dialogue.reference import things_in
 from kille.dialogue.state import words
 from ttr import Record
 
@@ -35,6 +36,8 @@ class Situation(NamedTuple):
     """Those of them that say how things are."""
     points: bool = False
     """The tutor points at something."""
+    points_anew: bool = False
+    """The tutor points at something else than what was just spoken of."""
     colours: frozenset[str] = frozenset()
     """Those of them that say of what colour things are."""
 
@@ -48,6 +51,8 @@ def situation_of(s: Record) -> Situation:
     """
     open_ = s.shared.qud[0].ask if s.shared.qud else ""
     said = {predicate_at(move, "e").name for move in s.private.last[-1:]}
+    latest = s.shared.latest
+    spoken_of = {*things_in(latest.content)} if "content" in latest else set()
     return Situation(
         asks_name=bool(said & ASKING_NAME),
         asked=last_question(s),
@@ -58,5 +63,6 @@ def situation_of(s: Record) -> Situation:
         known=frozenset(it.form for it in words(s)),
         qualities=frozenset(it.form for it in s.private.adjectives),
         points=bool(s.view.pointed),
+        points_anew=not {*s.view.pointed} <= spoken_of,
         colours=frozenset(it.form for it in s.private.colours),
     )

@@ -21,6 +21,7 @@ from kille.dialogue.robust_reading.lessons_together import (
     are_about_unmarked_things,
     correct_lesson,
     doubt_lesson,
+    is_about_unmarked_thing,
     join_lessons,
 )
 from kille.dialogue.robust_reading.sentence_reading import Understanding, read_robustly
@@ -30,7 +31,7 @@ from kille.dialogue.robust_reading.whole_sentences import (
     is_weak,
     needs_parts,
 )
-from kille.dialogue.word_lists import NAME, PARTIAL, WordLists, word_lists
+from kille.dialogue.word_lists import NAME, PARTIAL, WordLists, plain_text, word_lists
 from ttr import Record
 
 SELF_ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repeat"})
@@ -50,6 +51,10 @@ NAMING = frozenset({"instruct", "correct"})
 
 TEACHING = NAMING | {"describe", "instruct_several", "relate"}
 """Those by which a tutor says what a thing is, or how, or where."""
+
+
+_SEVERAL = 2
+"""Things in view of which it may not be clear which one is meant."""
 
 
 class Hearing(NamedTuple):
@@ -145,14 +150,21 @@ def hear_in_parts(
     asked: list[Sentence] = []
     remarks: list[Sentence] = []
     missed: list[tuple[Sentence, Understanding]] = []
+    turns_away = False
     for said in sentences:
         found = _read_parts(said, situation, language, lists, types)
+        moves: Sequence[Sentence] = (said,) if found is None else found.moves
+        if turns_away and _is_about_unclear_thing(moves, situation, types):
+            if not missed:
+                words = tuple(said.text.split())
+                missed.append((said, Understanding((), (), words)))
+            continue
+        turns_away |= _turns_away(said, moves, situation, lists)
         if found is None:
             done.append(said)
             continue
         if not found.moves:
             missed.append((said, found))
-        moves: Sequence[Sentence] = found.moves
         if any(map(_says_name, moves)):
             if situation.asks_whether and any(act_of(it) in DOUBTING for it in done):
                 moves = [correct_lesson(it, types=types) for it in moves]
@@ -170,6 +182,31 @@ def hear_in_parts(
     if heard:
         missed = [it for it in missed if len(it[1].missed) > 1]
     return Hearing(heard, tuple(missed))
+
+
+def _turns_away(
+    said: Sentence, moves: Sequence[Sentence], situation: Situation, lists: WordLists
+) -> bool:
+    """Whether a sentence says which thing is meant, or is not, and is not understood.
+
+    "Not that one, the one beside it!", and "The other one." where nobody asked.
+    """
+    if not moves:
+        forms = plain_text(lists.write_out(said.text)).split()
+        return not lists.negations.isdisjoint(forms)
+    return not situation.asks_which and any(act_of(it) == "mention" for it in moves)
+
+
+def _is_about_unclear_thing(
+    moves: Sequence[Sentence], situation: Situation, types: DialogueTypes
+) -> bool:
+    """Whether a lesson is about one of several things, to which nobody now points."""
+    if situation.things < _SEVERAL or situation.points_anew:
+        return False
+    return any(
+        claims_something(it) and is_about_unmarked_thing(it, types=types)
+        for it in moves
+    )
 
 
 def _read_parts(

@@ -203,3 +203,23 @@ def test_a_sentence_of_the_grammar_needs_no_parts() -> None:
     for text in ("This is a cup.", "What is this?", "Where is the book?"):
         assert not needs_parts(understand(text), Situation(things=1))
     assert needs_parts(understand("No worries."), Situation(things=1))
+
+
+@pytest.mark.parametrize(
+    ("language", "text"),
+    [
+        ("en", "No. The one beside it. It's a cap."),
+        ("en", "Not that one, the one beside it! A cap."),
+        ("sv", "nä inte den, den bredvid, ja precis den! en bil"),
+        ("sv", "Nej, den andra. Det är en bil."),
+    ],
+)
+def test_what_turns_to_another_thing_teaches_nothing_of_this_one(
+    language: str, text: str
+) -> None:
+    """But it does teach something of what the tutor points at now."""
+    for anew in (False, True):
+        situation = Situation(things=3, points=True, points_anew=anew)
+        heard = hear_in_parts(understand(text, language), situation, language)
+        acts = [predicate_at(it.readings[0].type, "e").name for it in heard.moves]
+        assert ("instruct" in acts) == anew
