@@ -167,7 +167,7 @@ def _beginnings(pattern: str) -> frozenset[str] | None:
 
     >>> sorted(_beginnings(r"(?i:((quite |all )?wrong|colou?r)\b)"))
     ['al', 'co', 'qu', 'wr']
-    >>> sorted(_beginnings("(?!nothing)[nsx]\w|är")), _beginnings("[^ab]c")
+    >>> sorted(_beginnings(r"(?!nothing)[nsx]\w|är")), _beginnings("[^ab]c")
     (['n', 's', 'x', 'är'], None)
     """
     read = _read_beginnings(re._parser.parse(pattern))
