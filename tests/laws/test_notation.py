@@ -339,5 +339,5 @@ def test_a_rule_reads_back_as_itself(rule):
     except IllFormedError:
         reject()  # a path leads to what does not fit, as the types of the rule say
     found = draft.rules[rule.name]
-    assert replace(found, span=None, text="") == rule
+    assert replace(found, place=None, text="") == rule
     assert format_rule(found) == format_rule(rule)
