@@ -13,7 +13,7 @@ from ttr.semantics.quantifiers import (
     every,
     exist,
     few,
-    judged,
+    judge_situation,
     most,
     settle,
     share,
@@ -43,7 +43,7 @@ found = settle(M, most(dog, bark))
 print(found.why)
 print("witness:", found.witness)
 wrong = record(X={"fido"}, f=[record(x="fido", e="w1")])
-print("too few:", judged(M, wrong, most(dog, bark)).why.rule)
+print("too few:", judge_situation(M, wrong, most(dog, bark)).why.rule)
 
 # How many is most, many or few is up to the agent.
 
