@@ -150,12 +150,16 @@ export class Lab {
     this.showView(turn, this.title());
     byId("lab-tools").replaceChildren(...this.tools, this.now, this.saving());
     if (!turn || byId("lab").hidden) return;
+    const body = byId("lab-body");
+    body.inert = true; // it shows another turn as yet: what is unfolded there would be lost
     const answer = await lookUp(`/inside/${turn.turns.join("/")}`);
-    if (!answer.ok || this.shown !== index) return;
-    const { lines, steps, state } = await answer.json();
+    const found = answer.ok ? await answer.json() : null;
     if (this.shown !== index) return;
+    body.inert = false;
+    if (!found) return;
+    const { lines, steps, state } = found;
     const parts = [this.beside.section(turn, this.views.get(turn)), this.account(lines, steps), unfired(turn), ...state.map((part) => this.part(part))];
-    byId("lab-body").replaceChildren(...parts.filter(Boolean));
+    body.replaceChildren(...parts.filter(Boolean));
   }
 
   /** The derivation: what was heard, each rule with its changes, what was judged and said. */

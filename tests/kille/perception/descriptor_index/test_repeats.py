@@ -6,7 +6,6 @@ from threading import current_thread, main_thread
 
 import numpy as np
 import pytest
-from kille.perception.index import index as growing
 from tabletop import prototypes
 
 from kille.perception.descriptor_index import (
@@ -22,6 +21,7 @@ from kille.perception.descriptor_index import (
     partition,
     rooted,
 )
+from kille.perception.descriptor_index import index as growing
 from kille.scene import Features
 
 THINGS = {"cup": 1, "book": 2, "shoe": 3}
