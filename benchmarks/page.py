@@ -65,12 +65,14 @@ def running_server() -> Iterator[Server]:
         began = time.perf_counter()
         process = subprocess.Popen([*SERVE, *words], stdout=subprocess.PIPE, text=True)
         assert process.stdout is not None
-        for line in process.stdout:
-            if found := re.search(r"http://\S+", line):
-                break
-        yield Server(process.pid, found[0], time.perf_counter() - began)
-        process.terminate()
-        process.wait()
+        try:
+            for line in process.stdout:
+                if found := re.search(r"http://\S+", line):
+                    break
+            yield Server(process.pid, found[0], time.perf_counter() - began)
+        finally:
+            process.terminate()
+            process.wait()
 
 
 def show(what: str, value: float, unit: str, limit: str) -> None:
@@ -157,7 +159,7 @@ def weight_before_frames(browser: Any, server: Server) -> int:
     """The bytes of all files of the page."""
     tab = browser.new_page()
     sent: list[Any] = []
-    tab.on("response", sent.append)
+    tab.on("response", lambda it: sent.append(it))
     tab.goto(server.address)
     tab.locator(".thing").nth(2).wait_for()
     size = sum(len(it.body()) for it in sent)

@@ -142,7 +142,7 @@ def serve_page(
             feed,
             picture,
             robot.ask,
-            lambda: _greeting(robot.robot, second),
+            lambda: _hello_event(robot.robot, second),
             lookup_routes(robot),
             voice,
         )
@@ -167,7 +167,7 @@ def open_voice(
     return Voice(microphone, SpokenAnswers(feed, plain(language), trouble))
 
 
-def _greeting(robot: Agent, second: Second | None = None) -> Event:
+def _hello_event(robot: Agent, second: Second | None = None) -> Event:
     """What a browser is told of the robot first."""
     sensor = robot.gaze.sensor
     return {

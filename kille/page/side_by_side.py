@@ -86,8 +86,8 @@ def _parts(
                 {
                     "name": it,
                     "html": [
-                        _differing(first.get(it), second.get(it)),
-                        _differing(second.get(it), first.get(it)),
+                        _draw_difference(first.get(it), second.get(it)),
+                        _draw_difference(second.get(it), first.get(it)),
                     ],
                 }
                 for it in apart
@@ -101,7 +101,7 @@ def _fields(part: object) -> dict[str, Layout]:
     return {label: layout_of(part[label]) for label in part}
 
 
-def _differing(layout: Layout | None, other: Layout | None) -> str:
+def _draw_difference(layout: Layout | None, other: Layout | None) -> str:
     """A field as HTML, without what is the same in the other."""
     if layout is None:
         return ""

@@ -71,7 +71,7 @@ WRONG = Theory.parse(
 NEVER = Property("P99", "never", "Nobody says <b>.", lambda *_: iter([(1, "<b>")]))
 
 
-def _told() -> dict[str, NotebookValue]:
+def _dialogue_values() -> dict[str, NotebookValue]:
     """Stories, logs and reports about a game."""
     setting = Setting.of(GAME, KENNEL, "kennel.ttr talk")
     text = "--- <b>hello</b>\n@ game kennel.ttr talk\nU> fido\nS>\n{}"
@@ -116,7 +116,7 @@ VALUES = {
     "turn with alternatives": PERHAPS,
     "run": TURN.run,
     "step": TURN.trace[0],
-    **_told(),
+    **_dialogue_values(),
     "report": ttr.check(KENNEL),
     "report of failures": ttr.check(WRONG),
     "several": ttr.show([KENNEL.Dog, "fido"], {"why": JUDGED.why, "game": GAME}),

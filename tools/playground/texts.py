@@ -58,11 +58,13 @@ def theories_in_python(code: str) -> tuple[str, ...]:
         for target in it.targets
         if isinstance(target, ast.Name) and isinstance(it.value.value, str)
     }
-    texts = (textwrap.dedent(it).strip("\n").rstrip() for it in _parsed(tree, bound))
+    texts = (
+        textwrap.dedent(it).strip("\n").rstrip() for it in _theory_texts(tree, bound)
+    )
     return tuple(dict.fromkeys(it for it in texts if opens_alone(it)))
 
 
-def _parsed(tree: ast.AST, bound: Mapping[str, str]) -> Iterator[str]:
+def _theory_texts(tree: ast.AST, bound: Mapping[str, str]) -> Iterator[str]:
     """The texts that are given to `Theory.parse`, as far as they can be told."""
     for it in ast.walk(tree):
         match it:

@@ -48,7 +48,7 @@ def vim_syntax() -> str:
         *(
             f"syntax match ttr{kind} ~{pattern}~"
             for kind, patterns in matches.items()
-            for pattern in map(_escaped, patterns)
+            for pattern in map(_escape, patterns)
         ),
         *(f"highlight default link ttr{kind} {kind}" for kind in matches),
         'let b:current_syntax = "ttr"',
@@ -56,7 +56,7 @@ def vim_syntax() -> str:
     return "\n".join(lines) + "\n"
 
 
-def _escaped(pattern: str) -> str:
+def _escape(pattern: str) -> str:
     return pattern.replace("~", r"\~")
 
 

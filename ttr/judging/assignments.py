@@ -121,7 +121,7 @@ class Assignment:
         number, _ = self.told[T][identity(sit)]
         return number > self.assumed_after
 
-    def assuming(self) -> Assignment:
+    def with_assumptions(self) -> Assignment:
         """The assignment in which all that is told from now on is assumed."""
         if self.assumed_after is not None:
             return self

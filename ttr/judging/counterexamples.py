@@ -194,7 +194,7 @@ def _find_witness(
     """
     spend()
     known = Signature(axioms=theory.axioms, exclusions=theory.exclusions)
-    facts = Assignment(known).assuming()
+    facts = Assignment(known).with_assumptions()
     try:
         sit, facts = create_witness(facts, S, size)
         for term, T in assumed:

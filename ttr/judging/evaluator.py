@@ -488,7 +488,7 @@ class _Derivation(Evaluator[Why]):
                 yield x, self.facts
         for case, size in product(cases_or_whole(domain), (1, 0, 2)):
             with suppress(RefusedError):
-                yield make_witness(self.facts.assuming(), case, size)
+                yield make_witness(self.facts.with_assumptions(), case, size)
 
     def _derive_value(self, sit: Function, T: FunType, x: Object) -> list[Why]:
         """Is x of the function's domain, and the value for x of the result type?"""

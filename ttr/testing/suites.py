@@ -191,7 +191,7 @@ class Suite:
             broken=broken,
             overall=tuple(self._overall(coverage)),
             skipped=tuple((one, lacking) for one, lacking in skipped if lacking),
-            undecided=tuple(self._undecided(coverage)),
+            undecided=tuple(self._undecided_properties(coverage)),
             roles=roles,
         )
 
@@ -217,7 +217,9 @@ class Suite:
             if one.overall is not None and (why := one.overall(coverage)):
                 yield one, why
 
-    def _undecided(self, coverage: Coverage) -> Iterable[tuple[Property, str]]:
+    def _undecided_properties(
+        self, coverage: Coverage
+    ) -> Iterable[tuple[Property, str]]:
         for one in self.properties:
             if one.shortfall is not None and (lacking := one.shortfall(coverage)):
                 yield one, lacking

@@ -64,7 +64,7 @@ class Person:
         >>> [f"{p:.2f}" for p in Person().chances((0.28, 0.0)).values()]
         ['0.90', '0.00', '0.00', '0.00', '0.05', '0.05']
         """
-        bearing = _bearing(place, front)
+        bearing = _angle_from_front(place, front)
         close = self.inside if math.hypot(*place) < _BORDER else self.outside
         fits = [max(0.0, math.cos(bearing - way)) ** 2 for way in _SIDES.values()]
         sides = [(1 - close) * fit / sum(fits) for fit in fits]
@@ -87,7 +87,7 @@ def _shift_share(share: float, by: float) -> float:
     return 1 / (1 + math.exp(-(math.log(share / (1 - share)) + by)))
 
 
-def _bearing(place: Place, front: float | None) -> float:
+def _angle_from_front(place: Place, front: float | None) -> float:
     """The bearing of a place, radians counter-clockwise from right; see `Person`."""
     right, away = place
     bearing = math.atan2(away, right)
@@ -165,7 +165,7 @@ class RatedWords:
     def chances(self, place: Place, front: float | None = None) -> dict[str, float]:
         """By the square of the rating at the nearest place that was rated."""
         if front is not None:
-            far, bearing = math.hypot(*place), _bearing(place, front)
+            far, bearing = math.hypot(*place), _angle_from_front(place, front)
             place = far * math.cos(bearing), far * math.sin(bearing)
         weights = {
             word: min((math.dist(at, place), it) for at, it in rated)[1] ** 2

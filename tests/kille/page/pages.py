@@ -29,7 +29,7 @@ from kille.page.lookup_routes import lookup_routes
 from kille.page.robot_thread import RobotThread
 from kille.page.server import (
     Second,
-    _greeting,
+    _hello_event,
     listen,
     open_voice,
     uvicorn_server,
@@ -163,7 +163,7 @@ def page_of(
         feed,
         picture,
         robot.ask,
-        lambda: _greeting(robot.robot, second),
+        lambda: _hello_event(robot.robot, second),
         lookup_routes(robot),
         voice,
     )

@@ -38,7 +38,7 @@ def pair() -> Iterator[Page]:
         yield made
 
 
-def compared(page: Page, turn: dict[str, Any]) -> dict[str, Any]:
+def comparison(page: Page, turn: dict[str, Any]) -> dict[str, Any]:
     first, last = turn["turns"]
     found: dict[str, Any] = json.loads(fetch_text(page, f"/beside/{first}/{last}"))
     return found
@@ -77,7 +77,7 @@ def test_what_differs_is_told_apart(pair: Page) -> None:
         turn = browser.say("Hello.")
         beside = browser.until("beside", ref=turn["ref"])
         assert (turn["said"], beside["said"]) == ("Hello.", "")
-        report = compared(pair, turn)
+        report = comparison(pair, turn)
         by = {it["name"]: it["by"] for it in report["rules"]}
         assert (by["hear"], by["GreetBack to Greet"]) == ("both", "first")
         shared = report["state"][0]
@@ -113,7 +113,7 @@ def test_with_the_same_theory_nothing_differs(scene: str, talk: tuple[str]) -> N
             beside = browser.until("beside", ref=turn["ref"])
             assert (beside["said"], beside["failed"]) == (turn["said"], "")
             assert beside["lessons"] == turn["lessons"]
-            report = compared(page, turn)
+            report = comparison(page, turn)
             assert {it["by"] for it in report["rules"]} <= {"both"}
             assert [it["fields"] for it in report["state"] if it["fields"]] == []
         browser.ask_for("beside", do="restart")
