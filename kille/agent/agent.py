@@ -66,7 +66,7 @@ from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
 from kille.perception.prominence import prominences
 from kille.perception.shown_looks import Picture, annotated_picture, view_shown
-from kille.scene import Colour, Configuration, Percept
+from kille.scene import Configuration, Percept
 from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.stage_commands import perform
 from ttr import Model, Record, RecType, Theory, TTRError, record
@@ -470,8 +470,8 @@ class Agent(Closing, NotebookValue):
         known = count_of(len([*words(self.state)]), "word")
         return f"<Agent that looks through {self.gaze.sensor.name} and knows {known}>"
 
-    def reason_picture(self) -> Colour | None:
-        """The reason that it gave last, as a picture (H, W, 3) RGB.
+    def reason_picture(self) -> Picture | None:
+        """The reason that it gave last, as a picture: a notebook shows it.
 
         What it saw and the lesson that it was reminded of are side by side, with the
         details that both have, and how much each cue counted. None if it has given no

@@ -86,7 +86,7 @@ def _why(robot: Agent, file: str) -> str:
             'there is no reason to show: ask "Why?" after the robot has said what '
             "something is"
         )
-    _write(path, picture)
+    _write(path, picture.pixels)
     return f"Its reason is in {path}."
 
 

@@ -12,15 +12,19 @@ from kille.memory import Memory
 from kille.memory.pictures import Picture
 from kille.perception.comparison_picture import Side, comparison_picture, side_of
 from kille.perception.features import features_of
+from kille.perception.shown_looks import Picture as ShownPicture
 from kille.perception.thumbnails import decode_picture, restore_crop
-from kille.scene import Colour, Percept
+from kille.scene import Percept
 from ttr import Record, RecordType
+
+_SHOWN_WIDTH = 640
+"""How wide a reason stands in a notebook, where there is room: pixels of the page."""
 
 
 def reason_picture(
     said: RobotSentence, seen: WitnessFunctions, memory: Memory, lexicon: Lexicon
-) -> Colour | None:
-    """The reason that a sentence gives, as a picture (H, W, 3) RGB.
+) -> ShownPicture | None:
+    """The reason that a sentence gives, as a picture without a ground of its own.
 
     None if it gives none for which there is anything to show. Raises ValueError if the
     picture of the lesson cannot be decoded.
@@ -31,7 +35,8 @@ def reason_picture(
     sides = [it for it in (_now(reason, seen), _then(reason, memory)) if it is not None]
     if not sides:
         return None
-    return comparison_picture(said.text, cue_shares(lexicon, reason), *sides)
+    pixels = comparison_picture(said.text, cue_shares(lexicon, reason), *sides)
+    return ShownPicture(pixels, f"a reason: {said.text}", _SHOWN_WIDTH)
 
 
 def _now(reason: Record, seen: WitnessFunctions) -> Side | None:

@@ -1,11 +1,12 @@
 """A picture of a reason: what is seen now, beside the lesson that it is most like.
 
-Lines join the details that both have, and bars show how much each cue counted.
+Lines join the details that both have, and bars show how much each cue counted. It has
+no ground of its own, and so can stand on a light page and on a dark one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -13,14 +14,18 @@ import cv2
 import numpy as np
 
 from kille.perception.descriptor_index import rooted
-from kille.perception.lettering import INK, PAPER, text_width, wrap_text, write_text
+from kille.perception.lettering import (
+    INK_ON_ANY_PAGE,
+    text_width,
+    wrap_text,
+    write_text,
+)
 from kille.perception.picture_sheet import MARK, outline
 from kille.scene import Box, Colour, Features, Frame, Mask, Region
 
 _PANEL = (360, 300)  # width and height of each side
 _MARGIN, _LINE, _BAR = 16, 24, 18  # pixels
 _JOIN = (0, 170, 255)
-_QUIET = (226, 228, 232)
 _RATIO = 0.8  # of the distances to the nearest detail and the next: Lowe 2004
 _MOST = 40  # lines; with more, nothing can be told apart
 
@@ -49,18 +54,40 @@ def side_of(frame: Frame, region: Region, features: Features) -> Side:
 def comparison_picture(
     sentence: str, shares: Mapping[str, float], *sides: Side
 ) -> Colour:
-    """The picture (H, W, 3) RGB of a reason, as it is said, with the cues' shares.
+    """The picture (H, W, 4) RGBA of a reason, as it is said, with the cues' shares.
 
     There are one or two sides: what is seen now, and what the lesson showed.
     """
+    on_black, on_white = (_draw(it, sentence, shares, sides) for it in (0, 255))
+    return _seen_through(on_black, on_white)
+
+
+def _seen_through(on_black: Colour, on_white: Colour) -> Colour:
+    """The picture (H, W, 4) that is these two where it lies on black and on white.
+
+    On a ground b a pixel is c α + b (1 - α): so the two differ by 1 - α.
+    """
+    black, white = on_black.astype(np.float32), on_white.astype(np.float32)
+    alpha = 255 - (white - black).mean(axis=2, keepdims=True)
+    colour = 255 * black / np.maximum(alpha, 1)
+    both = np.concatenate([colour, alpha], axis=2)
+    drawn: Colour = np.clip(np.rint(both), 0, 255).astype(np.uint8)
+    return drawn
+
+
+def _draw(
+    ground: int, sentence: str, shares: Mapping[str, float], sides: Sequence[Side]
+) -> Colour:
+    """The same (H, W, 3) RGB on a ground of this grey, from 0 to 255."""
     width = 2 * _PANEL[0] + 3 * _MARGIN
     lines = wrap_text(sentence, width - 2 * _MARGIN, _LINE)
     top = 2 * _MARGIN + len(lines) * _LINE
     bars = top + _PANEL[1] + _MARGIN
     height = bars + len(shares) * (_BAR + 8) + _MARGIN
-    sheet: Colour = np.full((height, width, 3), PAPER, np.uint8)
+    sheet: Colour = np.full((height, width, 3), ground, np.uint8)
     for number, line in enumerate(lines):
-        write_text(sheet, line, (_MARGIN, _MARGIN + number * _LINE), _LINE - 4)
+        at = _MARGIN, _MARGIN + number * _LINE
+        write_text(sheet, line, at, _LINE - 4, ink=INK_ON_ANY_PAGE)
     places = [
         _place(sheet, it, (_MARGIN + n * (_PANEL[0] + _MARGIN), top))
         for n, it in enumerate(sides)
@@ -105,8 +132,6 @@ class _Placement(NamedTuple):
 def _place(sheet: Colour, side: Side, at: tuple[int, int]) -> _Placement:
     """Put a picture into the middle of a panel, as large as it fits there."""
     picture = side.picture
-    panel = np.s_[at[1] : at[1] + _PANEL[1], at[0] : at[0] + _PANEL[0]]
-    sheet[panel] = np.array(_QUIET, np.uint8)
     height, width = picture.shape[:2]
     scale = min(_PANEL[0] / width, _PANEL[1] / height)
     size = max(1, round(width * scale)), max(1, round(height * scale))
@@ -150,11 +175,10 @@ def _draw_bars(sheet: Colour, shares: Mapping[str, float], top: int) -> None:
     for number, (name, share) in enumerate(shares.items()):
         at = top + number * (_BAR + 8)
         end = start + max(2, round(share * most))
-        write_text(sheet, name, (_MARGIN, at), _BAR)
         cv2.rectangle(sheet, (start, at + 2), (end, at + _BAR - 2), MARK, -1)
-        write_text(
-            sheet, f"{share:.0%}".replace("%", " %"), (end + 8, at), _BAR, ink=INK
-        )
+        said = f"{share:.0%}".replace("%", " %")
+        for text, left in ((name, _MARGIN), (said, end + 8)):
+            write_text(sheet, text, (left, at), _BAR, ink=INK_ON_ANY_PAGE)
 
 
 def _widen(box: Box, shape: tuple[int, ...]) -> Box:

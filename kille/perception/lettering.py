@@ -13,6 +13,9 @@ from kille.scene import Box, Colour
 INK, PAPER = (32, 32, 36), (255, 255, 255)
 """The colours of letters and of what they stand on, RGB; the other way round, too."""
 
+INK_ON_ANY_PAGE = (122, 122, 122)
+"""Of letters on no ground of their own, RGB: 4 : 1 of contrast on white and on dark."""
+
 _BOLD, _REGULAR = 700, 400
 
 

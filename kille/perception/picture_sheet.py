@@ -68,9 +68,13 @@ def write_picture(path: Path, picture: Colour) -> None:
 def encode_picture(picture: Colour, ending: str, settings: Sequence[int] = ()) -> bytes:
     """The picture as a file of this kind, `.png` or `.jpg`. ValueError if it is none.
 
-    `settings` are those of `cv2.imencode`.
+    `settings` are those of `cv2.imencode`. What can be seen through, (H, W, 4) RGBA, is
+    kept so in a `.png`.
     """
-    bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR)
+    seen_through = picture.shape[-1] == 4
+    bgr = cv2.cvtColor(
+        picture, cv2.COLOR_RGBA2BGRA if seen_through else cv2.COLOR_RGB2BGR
+    )
     done, encoded = cv2.imencode(ending, bgr, settings)
     if not done:
         raise ValueError("the picture could not be encoded")

@@ -28,13 +28,14 @@ _NO_ROLES: Mapping[int, str] = MappingProxyType({})
 
 @dataclass(frozen=True, eq=False)
 class Picture(NotebookValue):
-    """A picture (H, W, 3) RGB, and what it shows in words.
+    """A picture (H, W, 3) RGB or (H, W, 4) RGBA, and what it shows in words.
 
-    A notebook shows it; `save` writes it.
+    A notebook shows it `width` pixels wide, where there is room; `save` writes it.
     """
 
     pixels: Colour
     about: str
+    width: int = _SHOWN_WIDTH
 
     def save(self, path: Path | str) -> None:
         """Write it as PNG; raises OSError if that cannot be done."""
@@ -44,7 +45,7 @@ class Picture(NotebookValue):
         return encode_picture(self.pixels, ".png")
 
     def _shown_as_(self) -> Part:
-        return figure_of(self.pixels, self.about)
+        return figure_of(self.pixels, self.about, self.width)
 
     def __repr__(self) -> str:
         height, width = self.pixels.shape[:2]
@@ -52,12 +53,15 @@ class Picture(NotebookValue):
 
 
 def figure_of(pixels: Colour, about: str, width: int = _SHOWN_WIDTH) -> Figure:
-    """A picture (H, W, 3) RGB as a part of what a notebook shows, of bounded size."""
+    """A picture, RGB or RGBA, as a part of what a notebook shows, of bounded size."""
     height, wide = pixels.shape[:2]
     if wide > _WIDEST:
         size = _WIDEST, max(1, round(height * _WIDEST / wide))
         smaller = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA)
         pixels = smaller.astype(np.uint8)
+    if pixels.shape[-1] == 4:  # JPEG knows nothing of what can be seen through
+        data = encode_picture(pixels, ".png")
+        return Figure(data, "image/png", about, min(width, wide))
     data = encode_picture(pixels, ".jpg", (cv2.IMWRITE_JPEG_QUALITY, _QUALITY))
     return Figure(data, "image/jpeg", about, min(width, wide))
 

@@ -641,12 +641,12 @@ def test_a_reason_can_be_shown() -> None:
         robot.hear("Why?")
         picture = robot.reason_picture()
         assert picture is not None
-        assert picture.shape[1] > 700
+        assert picture.pixels.shape[1] > 700
         robot.hear("Forget that.")
         kept = robot.reason_picture()
         assert kept is not None, "what was seen is there, if not what was taught"
-        assert kept.shape == picture.shape
-        assert not np.array_equal(kept, picture)
+        assert kept.pixels.shape == picture.pixels.shape
+        assert not np.array_equal(kept.pixels, picture.pixels)
 
 
 def test_how_things_stand_can_be_shown_as_a_reason() -> None:

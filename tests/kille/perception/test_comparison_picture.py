@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from kille.perception.comparison_picture import (
     _JOIN,
     Side,
+    _draw,
     comparison_picture,
     matched_details,
     side_of,
@@ -108,7 +109,18 @@ def test_a_picture_shows_what_matches_and_how_much_each_cue_counted(
 
 def has_lines(picture: Colour) -> bool:
     """Whether details are joined by lines in a picture."""
-    return bool((picture == _JOIN).all(axis=2).any())
+    return bool((picture[..., :3] == _JOIN).all(axis=2).any())
+
+
+def test_a_picture_looks_alike_on_any_page(cup: Percept) -> None:
+    sides = (side(cup), side(cup))
+    drawn = comparison_picture("Because.", {"size": 0.9}, *sides).astype(float)
+    assert (drawn[0, :, 3] == 0).all(), "it has no ground of its own"
+    opacity = drawn[..., 3:] / 255
+    for page in (0, 30, 255):
+        seen = drawn[..., :3] * opacity + page * (1 - opacity)
+        meant = _draw(page, "Because.", {"size": 0.9}, sides).astype(float)
+        assert np.abs(seen - meant).max() <= 2
 
 
 def test_things_without_details_are_compared_without_lines(cup: Percept) -> None:
