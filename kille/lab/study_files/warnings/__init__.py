@@ -13,7 +13,7 @@ from kille.lab.scenes import open_scene
 from kille.lab.settings import Problem
 from kille.lab.study import Run, Study
 from kille.lab.study_files.problems import format_problems
-from kille.lab.study_files.warnings import phases, scenes, theories, tutors
+from kille.lab.study_files.warnings import phases, scenes, scripts, theories, tutors
 
 
 def warnings_of(study: Study) -> tuple[str, ...]:
@@ -25,5 +25,6 @@ def _all_warnings(study: Study) -> Iterator[Problem]:
     seen = {name: open_scene(study, Run("", "", name, 0)) for name in study.scenes}
     yield from theories.theory_warnings(study)
     yield from tutors.tutor_warnings(study, seen)
+    yield from scripts.script_warnings(study)
     yield from scenes.scene_warnings(study, seen)
     yield from phases.phase_warnings(study, seen)

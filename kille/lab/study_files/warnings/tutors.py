@@ -1,19 +1,14 @@
-"""What makes no difference in tutors, and scripts that nobody understands."""
+"""What makes no difference in tutors, and words that they lack."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import zip_longest
 
-from kille.dialogue.tutoring import hear
 from kille.lab.scenes import Scene
 from kille.lab.settings import Problem
-from kille.lab.study import PERSON, Named, Study
+from kille.lab.study import Named, Study
 from kille.lab.study_files.phases import TEACHING, kind_of
 from kille.lab.study_files.words import SPEAKING, names_in_scenes, words_of
-from kille.lab.theories import language_of
-from kille.lab.theories.meanings import meanings_of
-from kille.lab.tutors.scripted import script_lines
 from kille.lab.tutors.words import Words
 from kille.lab.worlds.worlds import KINDS
 
@@ -27,8 +22,6 @@ def tutor_warnings(study: Study, opened: Mapping[str, Scene]) -> Iterator[Proble
                 *_missing_words(tutor, study, opened),
             )
             yield from (it.within("tutors", name) for it in found)
-        if tutor.kind == "scripted":
-            yield from _script_warnings(tutor, study)
 
 
 def _unused_settings(
@@ -84,35 +77,3 @@ def _has_one(words: Words, own: Iterable[str], there: Iterable[str]) -> bool:
     return bool(
         {words.word_for(it) for it in own} & {words.word_for(it) for it in there}
     )
-
-
-# --- scripts --------------------------------------------------------------------------
-
-
-def _script_warnings(tutor: Named, study: Study) -> Iterator[Problem]:
-    key = ("tutors", tutor.name, "file")
-    lines = script_lines(study.path(tutor.settings["file"]))
-    for line in lines:
-        if line.mark in ("S~", "="):
-            told = f"what {line.mark} expects is not measured: write S> and all of it"
-            yield Problem(key, told, line.place)
-    for line, after in zip_longest(lines, lines[1:]):
-        is_expected = after is not None and after.mark[0] == "S"
-        if (
-            line.mark == "U>"
-            and not is_expected
-            and (lost := _who_is_lost(line.text, study))
-        ):
-            told = f"{lost} does not understand “{line.text}”"
-            yield Problem(key, told, line.place)
-
-
-def _who_is_lost(text: str, study: Study) -> str:
-    """The first theory that does not understand a text, if there is one."""
-    heard = (
-        name
-        for name, theory in study.theories.items()
-        if theory.mode != PERSON
-        and hear(text, language_of(theory), types=meanings_of(theory)) is None
-    )
-    return next(heard, "")

@@ -181,6 +181,35 @@ def test_lines_of_a_script_that_nobody_understands_are_told(tmp_path: Path) -> N
     assert found(tmp_path, script) == []
 
 
+def test_words_that_a_script_asks_for_and_nobody_teaches_are_told(
+    tmp_path: Path,
+) -> None:
+    script = (ANN, '[tutors.Ann]\nkind = "scripted"\nfile = "a.dlg"')
+    lines = [
+        *("U> This is a cup.", "S> OK, I learned a cup.", "U> This is a red book."),
+        *("U> Is this a cpu?", "S> Yes.", "U> Is the book green?", "S> No."),
+        *("U> Where is the teapot?", "U> Is the blue book near the cup?", "S> Yes."),
+    ]
+    (tmp_path / "a.dlg").write_text("\n".join(lines))
+    assert found(tmp_path, script) == [
+        "a.dlg:4: “cpu” is asked for, and no line teaches it: did you mean cup?",
+        "a.dlg:8: “teapot” is asked for, and no line teaches it: teach it, or take the "
+        "line out",
+        "a.dlg:9: “near” is asked for, and no line teaches it: teach it, or take the "
+        "line out",
+    ]
+
+
+def test_a_script_may_ask_for_what_the_robot_is_not_to_know(tmp_path: Path) -> None:
+    script = (ANN, '[tutors.Ann]\nkind = "scripted"\nfile = "a.dlg"')
+    said = "S> I have not learned what a teapot is. Please show me one."
+    (tmp_path / "a.dlg").write_text(f"U> Where is the teapot?\n{said}\n")
+    assert found(tmp_path, script) == []
+    several = '\n[tutors.Bo]\nkind = "simulated"\n[[phases]]\ndo = "change_tutor"\n'
+    (tmp_path / "a.dlg").write_text("U> Where is the teapot?\n")
+    assert found(tmp_path, (script[0], script[1] + several)) == []
+
+
 # --- scenes ---------------------------------------------------------------------------
 
 
