@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import shutil
 import sys
 from pathlib import Path
@@ -32,6 +33,7 @@ def build(site: Path = SITE, work: Path = WORK) -> int:
     for name in (bare := names_without_example()):
         print(f"{name} has no example in its docstring", file=sys.stderr)
     has_playground = add_playground(site)
+    set_up_kernels(work / "ipython")
     files = compose(work / "pages", has_playground)
     status = sphinx(
         [
@@ -61,6 +63,19 @@ def build(site: Path = SITE, work: Path = WORK) -> int:
     if (size := size_of(site)) > MOST_BYTES:
         print(f"the site has {size:,} bytes, of {MOST_BYTES:,}", file=sys.stderr)
     return 1 if bare or lost or size > MOST_BYTES else 0
+
+
+def set_up_kernels(folder: Path) -> None:
+    """Has the kernels of notebooks read this folder, and nobody's own settings.
+
+    They talk to nobody but this program, with signed messages: so they need not warn
+    that they do so in the clear.
+    """
+    profile = folder / "profile_default"
+    profile.mkdir(parents=True, exist_ok=True)
+    settings = 'c.IPKernelApp.log_level = "ERROR"\n'
+    (profile / "ipython_kernel_config.py").write_text(settings, encoding="utf-8")
+    os.environ["IPYTHONDIR"] = str(folder)
 
 
 def size_of(site: Path) -> int:
