@@ -4,6 +4,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import ttr
 from ttr import (
@@ -24,6 +26,7 @@ from ttr import (
 from ttr.errors import UnsupportedError
 from ttr.types import Application, EventString, Universe
 from ttr.types.printing import notation
+from ttr.types.short_notation import shorten_notation
 
 dog, hug, asks = Pred("dog", Ind), Pred("hug", Ind, Ind), Pred("asks", Type)
 A, Type1 = Basic("A"), Universe("Type", 1)
@@ -142,3 +145,35 @@ def test_what_nests_too_deep_to_be_printed_is_said_so(shown):
     for deep in (T, r):
         with pytest.raises(UnsupportedError, match="nests deeper than can be followed"):
             shown(deep)
+
+
+# --- in few columns ------------------------------------------------------------------
+
+
+@given(st.text("[](){}'\", ab:=\\", max_size=80), st.integers(1, 60))
+def test_shortening_takes_any_text_and_adds_nothing(text: str, room: int) -> None:
+    shown = shorten_notation(text, room)
+    assert len(shown) <= len(text)
+    assert shown == text or len(text) > room
+
+
+def test_brackets_are_shortened_from_inside() -> None:
+    deep = "[x : Ind, y : [z : [a : Ind, b : hug(a, ^^.x)], c : dog(x)], s = '[,' : A]"
+    assert shorten_notation(deep, 80) == deep
+    shown = "[x : Ind, y : [z : […], c : dog(x)], s = '[,' : A]"
+    assert shorten_notation(deep, 60) == shown
+    assert shorten_notation(deep, 40) == "[x : Ind, y : […], s = '[,' : A]"
+    assert shorten_notation(deep, 24) == "[x : Ind, … 2 more]"
+
+
+def test_a_derivation_has_room_for_each_of_its_steps() -> None:
+    names = [f"a_label_{n}" for n in range(30)]
+    T = rectype(**dict.fromkeys(names, Ind))
+    M = ttr.Model().given("fido", Ind)
+    why = M.judge(record(**dict.fromkeys(names, "fido")), T).why
+    first, *others = str(why).splitlines()
+    assert first.endswith("(field by field)")
+    assert len(first) < 160
+    assert "… 28 more" in first
+    assert len(others) == 30
+    assert "a_label_29" in ttr.box(why)

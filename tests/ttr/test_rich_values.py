@@ -304,8 +304,8 @@ def test_a_long_text_is_cut() -> None:
 def test_a_large_state_folds_and_what_changed_stays_open() -> None:
     part = record({f"f{i}": [f"a{i}"] * 3 for i in range(20)})
     state = record(shared=part, private=part)
-    assert state._repr_html_().count("<details>") == 2
-    assert record(a=1, b=[2])._repr_html_().count("<details>") == 0
+    assert state._repr_html_().count('<details class="ttr-folded">') == 2
+    assert record(a=1, b=[2])._repr_html_().count('<details class="ttr-folded">') == 0
     later = ttr.replace(state, {"shared.f1": []})
 
     @dataclass(frozen=True)
@@ -314,8 +314,18 @@ def test_a_large_state_folds_and_what_changed_stays_open() -> None:
             return Value(later, before=state)
 
     drawn = Changed()._repr_html_()
-    assert drawn.count("<details>") == 1
+    assert drawn.count('<details class="ttr-folded">') == 1
     assert drawn.count('class="ttr-changed"') == 1
+
+
+def test_a_large_claim_folds_and_is_still_there() -> None:
+    T = rectype(**{f"label_{n}": Ind for n in range(30)})
+    made = record(**{f"label_{n}": "fido" for n in range(30)})
+    shown = ttr.html(Model().given("fido", Ind).judge(made, T).why)
+    assert "{30 fields}" in shown
+    assert "[30 fields]" in shown
+    assert shown.count("label_29") == 3, "in the object, in the type, in its own step"
+    assert "ttr-folded" not in ttr.html(JUDGED.why).partition("</style>")[2]
 
 
 def test_rooms_inside_a_room_share_it() -> None:

@@ -21,6 +21,7 @@ from ttr.display.layout import (
     Subscript,
     Superscript,
     Word,
+    fold_claim,
 )
 from ttr.escapes import html_text
 from ttr.safety.budgets import spend
@@ -93,6 +94,10 @@ STYLE = """
   border-left: 1px solid rgba(128, 128, 128, .45); }
 .ttr .ttr-why li { margin: .1em 0; padding: 0; }
 .ttr .ttr-why summary { cursor: pointer; }
+.ttr .ttr-why .ttr-folded { display: inline-block; vertical-align: middle; }
+.ttr .ttr-why .ttr-folded[open] { vertical-align: top; }
+.ttr .ttr-why .ttr-folded > summary { list-style: none;
+  text-decoration: underline dotted; text-underline-offset: .2em; }
 .ttr .ttr-why .ttr-leaf { padding-left: 1em; }
 .ttr .ttr-mark { font-weight: bold; margin-right: .3em; }
 .ttr .ttr-yes { color: #2e9e4f; }
@@ -133,8 +138,8 @@ def layout_markup(layout: Layout) -> str:
             return _list(layout)
         case Folded(summary, inside):
             return (
-                f"<details><summary>{layout_markup(summary)}</summary>"
-                f"{layout_markup(inside)}</details>"
+                f'<details class="ttr-folded"><summary>{layout_markup(summary)}'
+                f"</summary>{layout_markup(inside)}</details>"
             )
         case Matrix():
             return _matrix(layout)
@@ -230,4 +235,9 @@ def _claim(step: Step) -> str:
     mark = f'<span class="ttr-mark{kind}">{html_text(step.mark)}</span> '
     where = f'<span class="ttr-label">{html_text(step.where)}</span>: '
     because = f' <span class="ttr-rule">({html_text(step.because)})</span>'
-    return mark + where * bool(step.where) + layout_markup(step.claim) + because
+    return (
+        mark
+        + where * bool(step.where)
+        + layout_markup(fold_claim(step.claim))
+        + because
+    )

@@ -335,16 +335,50 @@ def fold_large_fields(layout: Layout) -> Layout:
 
 def _fold_if_large(row: Row) -> Row:
     inside = fold_large_fields(row.has)
-    match row.has:
-        case Matrix(rows=found):
-            many = f"{len(found):,} fields"
-        case Bracketed(parts=parts):
-            many = f"{len(parts):,} items"
-        case _:
-            return row
+    if not (many := _count_inside(row.has)):
+        return row
     if row.changed or words_in(row.has) <= LARGE or _has_changes(row.has):
         return replace(row, has=inside)
     return replace(row, has=Folded(Word(many, "text"), inside))
+
+
+def _count_inside(layout: Layout) -> str:
+    """How many fields or items a matrix or a list has; empty of anything else."""
+    match layout:
+        case Matrix(rows=found):
+            return f"{len(found):,} fields"
+        case Bracketed(parts=parts):
+            return f"{len(parts):,} items"
+    return ""
+
+
+LARGE_IN_CLAIM = 16
+"""What has more words than this folds in the claim of a step that rests on others."""
+
+
+def fold_claim(claim: Layout) -> Layout:
+    """A claim with what is large in it folded: its parts stand in steps of their own.
+
+    A bracket around a single thing, as in `list([x : Ind])`, stays.
+    """
+    if words_in(claim) <= LARGE_IN_CLAIM:
+        return claim
+    match claim:
+        case Matrix(opening, _, rows, closing):
+            many = f"{opening}{_count_inside(claim)}{closing}"
+            return (
+                Folded(Word(many, "text"), fold_large_fields(claim)) if rows else claim
+            )
+        case Bracketed(parts=[alone]):
+            return replace(claim, parts=(fold_claim(alone),))
+        case Bracketed(opening=opening, closing=closing):
+            many = f"{opening}{_count_inside(claim)}{closing}"
+            return Folded(Word(many, "text"), claim)
+        case Line(parts) | Chain(parts=parts):
+            return replace(claim, parts=tuple(map(fold_claim, parts)))
+        case Subscript(base, value):
+            return Subscript(fold_claim(base), fold_claim(value))
+    return claim
 
 
 def _has_changes(layout: Layout) -> bool:

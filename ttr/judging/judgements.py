@@ -24,6 +24,7 @@ from ttr.showing import NotebookValue
 from ttr.types.interning import identity
 from ttr.types.objects import Object
 from ttr.types.printing import notation
+from ttr.types.short_notation import shorten_notation
 from ttr.types.syntax import Basic, PType, TypeNode
 
 if TYPE_CHECKING:
@@ -35,6 +36,9 @@ How: TypeAlias = Literal["all", "any", "none"]
 
 SHOWN = 3
 """The number of types or objects that a remedy names."""
+
+_ROOM = 80
+"""The columns that an object, or its type, has in a line of a derivation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,12 +131,19 @@ class Why(NotebookValue):
         return next(iter([*refuted, *uncertain]), None)
 
     def __str__(self) -> str:
-        """The derivation as an indented tree, what is claimed before its grounds."""
+        """The derivation as an indented tree, what is claimed before its grounds.
+
+        What is long is shortened, as its parts have it in steps of their own;
+        `ttr.box(why)` draws all of it.
+        """
         return "\n".join(self._lines(""))
 
     def _lines(self, indent: str) -> Iterator[str]:
         where = f"{self.where}: " if self.where else ""
-        claim = f"{notation(self.sit)} : {self.type}"
+        sit, kind = (
+            shorten_notation(it, _ROOM) for it in (notation(self.sit), str(self.type))
+        )
+        claim = f"{sit} : {kind}"
         yield f"{indent}{mark(self.p)} {where}{claim}   ({self.because})"
         for part in self.parts:
             yield from part._lines(indent + "  ")
@@ -167,9 +178,11 @@ def degree_if_decided(how: How, degrees: Sequence[Degree | None]) -> Degree | No
 
 
 def _describe_types(facts: Assignment, sit: Object) -> str:
-    kinds = sorted(str(kind) for kind in facts.types_of(sit))
+    kinds = [
+        shorten_notation(it, _ROOM) for it in sorted(map(str, facts.types_of(sit)))
+    ]
     shown = ", ".join(kinds[:SHOWN]) + ", …" * (len(kinds) > SHOWN)
-    return f"{notation(sit)} is of {shown}" if kinds else ""
+    return f"{shorten_notation(notation(sit), _ROOM)} is of {shown}" if kinds else ""
 
 
 def _describe_remedy(facts: Assignment, T: TypeNode) -> str:
