@@ -14,6 +14,8 @@ pytest.importorskip("jupytext", reason="needs kille[docs]")
 pytest.importorskip("matplotlib", reason="needs kille[plots]")
 
 from tools.notebooks import ROOT, NotebookError, notebooks, read_cells, run_page
+from tools.playground.texts import theories_in_notebook
+from ttr import Theory, check
 
 GALLERY = notebooks()
 
@@ -32,6 +34,15 @@ def test_a_notebook_asks_a_question_and_says_what_to_change(page: Path) -> None:
     cells = read_cells(page)
     checked = [it for it in cells if it.shows or "assert " in it.source]
     assert len(checked) >= 3, "hardly anything that it says is checked"
+
+
+@pytest.mark.parametrize("page", GALLERY, ids=lambda page: page.stem)
+def test_a_notebook_has_a_theory_that_opens_or_says_why_not(page: Path) -> None:
+    text = page.read_text("utf-8")
+    opened = theories_in_notebook(text)
+    for theory in opened:
+        assert check(Theory.parse(theory)).holds
+    assert opened or "../how-to/run-a-theory-in-a-browser.md" in text
 
 
 def write_page(folder: Path, *parts: str) -> Path:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tools.playground.links import LONGEST_FRAGMENT, LONGEST_TEXT
 from tools.playground.pyodide import pyodide_files, wheels
-from tools.playground.texts import theories_in_python
+from tools.playground.texts import theories_in_notebook
 from ttr.display.html import STYLE
 from ttr.notation.scanning import LETTER, LETTER_OR_DIGIT
 from ttr.notation.syntax_errors import KEYWORDS
@@ -21,8 +21,6 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 ASSETS = Path(__file__).resolve().parent / "assets"
 THEORIES = ("functions", "gameboard", "collections", "attitudes", "scopes", "mistakes")
 """Which theories of the tests are examples, too."""
-
-_CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 _DOCUMENTATION = "<!-- documentation -->"
 """Where the page has the link to the documentation."""
@@ -100,11 +98,9 @@ def _examples_of_gallery() -> Iterator[dict[str, str]]:
     for page in sorted((ROOT / "docs" / "gallery").glob("*.md")):
         text = page.read_text(encoding="utf-8")
         title = re.search(r"^# (.+)$", text, re.MULTILINE)
-        for number, cell in enumerate(_CELL.findall(text)):
-            for theory in theories_in_python(cell):
-                assert title is not None
-                name = f"{page.stem}-{number}"
-                yield _example(name, "Gallery", title[1], theory)
+        for number, theory in enumerate(theories_in_notebook(text)):
+            assert title is not None
+            yield _example(f"{page.stem}-{number}", "Gallery", title[1], theory)
 
 
 def _examples_in_files() -> Iterator[dict[str, str]]:

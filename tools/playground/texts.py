@@ -11,6 +11,8 @@ from ttr.errors import TTRError
 from ttr.theories.theory import Theory
 
 _IMPORT = re.compile(r"^\s*import\b", re.MULTILINE)
+_CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+_FILE = re.compile(r"^```ttr\b[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
 _PROMPT = re.compile(r"^(?:>>>|\.\.\.) ?(.*)$", re.MULTILINE)
 
 
@@ -62,6 +64,17 @@ def theories_in_python(code: str) -> tuple[str, ...]:
         textwrap.dedent(it).strip("\n").rstrip() for it in _theory_texts(tree, bound)
     )
     return tuple(dict.fromkeys(it for it in texts if opens_alone(it)))
+
+
+def theories_in_notebook(page: str) -> tuple[str, ...]:
+    """The theories of a notebook that open: its files, or else what its cells parse.
+
+    >>> theories_in_notebook("```{code-cell}\\nTheory.parse('basic A')\\n```")
+    ('basic A',)
+    """
+    files = tuple(it.rstrip() for it in _FILE.findall(page) if opens_alone(it))
+    cells = (it for cell in _CELL.findall(page) for it in theories_in_python(cell))
+    return files or tuple(cells)
 
 
 def _theory_texts(tree: ast.AST, bound: Mapping[str, str]) -> Iterator[str]:
