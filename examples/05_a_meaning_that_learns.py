@@ -125,7 +125,7 @@ def picture(path: str) -> None:
         axes.set_title(title, fontsize=10)
     names = before.get_legend_handles_labels()
     figure.legend(*names, loc="outside lower left", ncols=3, fontsize=9, frameon=False)
-    curve.plot([100 * one.share for one in course.series], color="#205080")
+    curve.plot([100 * one.share for one in course.series], color="#0072B2")
     curve.set(ylim=(0, 103), xlabel="exchanges", ylabel="judged alike, %")
     curve.set_title("Ann and Bo", fontsize=10)
     curve.spines[["top", "right"]].set_visible(False)
@@ -141,14 +141,14 @@ def boundary(axes, bos) -> None:
     levels = [-1e9, 0, 1e9]
     axes.contourf(grid, grid, above, levels=levels, colors=["#ffffff", "#cfe0f2"])
     axes.fill_between([], [], color="#cfe0f2", label="Bo: right")
-    axes.contour(grid, grid, above, levels=[0], colors="#205080")
+    axes.contour(grid, grid, above, levels=[0], colors="#0072B2")
     for marker, wanted, name in (
         ("o", True, "Ann: right"),
         ("x", False, "Ann: not right"),
     ):
         places = [r.pos for r in probes[:80] if says(to_the_right, r) is wanted]
         axes.scatter(
-            *zip(*places, strict=True), marker=marker, s=14, color="#b04020", label=name
+            *zip(*places, strict=True), marker=marker, s=14, color="#D55E00", label=name
         )
     axes.set(xticks=[-1, 0, 1], yticks=[-1, 0, 1], aspect="equal")
 

@@ -96,7 +96,7 @@ def draw(path: str) -> None:
     matrix, bars = figure.subplots(1, 2, sharey=True, width_ratios=(1, 1))
     last = len(rows) - 1
     for row, (label, kind, p) in enumerate(rows):
-        colour = "#b5542a" if row == last else "#2f6f8f"
+        colour = "#D55E00" if row == last else "#0072B2"
         text = f"{label} : {kind}" if label else "the whole record"
         matrix.text(0.1, row, text, va="center", family="DejaVu Sans Mono", size=11)
         bars.plot((p.lo, p.hi), (row, row), color=colour, lw=7, solid_capstyle="butt")
@@ -109,7 +109,7 @@ def draw(path: str) -> None:
     matrix.axis("off")
     bars.set(xlim=(0, 1), xticks=(0, 0.5, 1), yticks=())
     bars.spines[["left", "right", "top"]].set_visible(False)
-    figure.savefig(path, dpi=150)
+    figure.savefig(path, dpi=150, bbox_inches="tight", pad_inches=0.1)
     print(f"\npicture: {path}")
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from grounds import remove_ground
 
 from kille.perception.colours import BASIC, lab_of, rgb_of, xkcd
 from kille.perception.picture_sheet import write_picture
@@ -88,7 +89,6 @@ def framed(picture: Colour) -> Colour:
     """The picture with its axes: hue in degrees, lightness."""
     size = HEIGHT + MARGIN + EDGE, WIDTH + MARGIN + 2 * EDGE, 3
     page = np.full(size, 255, np.uint8)
-    page[EDGE : EDGE + HEIGHT, MARGIN : MARGIN + WIDTH] = picture
     for hue in range(0, 361, 60):
         x = MARGIN + hue * (WIDTH - 1) // 360
         label(page, str(hue), (x - 4 * len(str(hue)), EDGE + HEIGHT + 16))
@@ -97,7 +97,10 @@ def framed(picture: Colour) -> Colour:
         y = EDGE + round((97 - light) / 93 * HEIGHT)
         label(page, str(light), (MARGIN - 24, y + 5))
     label(page, "L", (6, EDGE + HEIGHT // 2 + 5))
-    return page
+    bare = remove_ground(page)
+    inside = bare[EDGE : EDGE + HEIGHT, MARGIN : MARGIN + WIDTH]
+    inside[..., :3], inside[..., 3] = picture, 255
+    return bare
 
 
 def label(page: Colour, text: str, at: tuple[int, int]) -> None:

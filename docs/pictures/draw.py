@@ -6,6 +6,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from grounds import remove_ground
 
 from kille.perception.look import look
 from kille.perception.picture_sheet import picture_sheet, write_picture
@@ -38,14 +39,14 @@ def _close_up(sensor: Synthetic, name: str) -> Colour:
 
 
 def _named(name: str, picture: Colour) -> Colour:
-    """The picture with a white border, and the name below it."""
+    """The picture, with room around it and the name below it, on no ground."""
     below = np.full((TITLE, WIDTH, 3), 255, np.uint8)
     (across, _), _ = cv2.getTextSize(name, cv2.FONT_HERSHEY_SIMPLEX, 0.45, 1)
     at = ((WIDTH - across) // 2, TITLE - 7)
-    ink = (40, 40, 40)
-    cv2.putText(below, name, at, cv2.FONT_HERSHEY_SIMPLEX, 0.45, ink, 1, cv2.LINE_AA)
-    cell = np.vstack([picture, below])
-    return cv2.copyMakeBorder(cell, 4, 0, 4, 4, cv2.BORDER_CONSTANT, None, [255] * 3)
+    cv2.putText(below, name, at, cv2.FONT_HERSHEY_SIMPLEX, 0.45, 0, 1, cv2.LINE_AA)
+    opaque = np.dstack([picture, np.full(picture.shape[:2], 255, np.uint8)])
+    cell = np.vstack([opaque, remove_ground(below)])
+    return cv2.copyMakeBorder(cell, 4, 0, 4, 4, cv2.BORDER_CONSTANT, None, [0] * 4)
 
 
 def seen(sensor: Synthetic, *names: str) -> Colour:

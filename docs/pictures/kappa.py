@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from grounds import remove_ground_of
 from matplotlib.figure import Figure
 
 from kille.lab.measures.statistics import bootstrap
@@ -14,7 +15,7 @@ from kille.perception.relations import PaperRelations, RelationMemory
 HERE = Path(__file__).parent
 RUNS, SEED = 30, 1
 METHODS = {"linear SVC, as in the paper": PaperRelations, "templates": RelationMemory}
-HUES = ("#b26a00", "#0b5fa5")
+HUES = ("#D55E00", "#0072B2")
 PUBLISHED = 0.054
 
 
@@ -49,6 +50,7 @@ def main() -> None:
     axes.tick_params(axis="y", length=0)
     axes.legend(loc="lower center", bbox_to_anchor=(0.3, 1.0), ncols=2, frameon=False)
     drawn.savefig(HERE / "kappa.png", dpi=110)
+    remove_ground_of(HERE / "kappa.png")
 
 
 if __name__ == "__main__":

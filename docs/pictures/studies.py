@@ -12,6 +12,7 @@ from itertools import chain, combinations
 from pathlib import Path
 
 import numpy as np
+from grounds import remove_ground_of
 
 from kille.lab import log
 from kille.lab.measures import ScoredDialogue, kappas, score_dialogue, vocabulary
@@ -67,6 +68,7 @@ def main() -> None:
         names = list(log.study(folder / name).theories)
         picture = drawing(figure(group_by_theory(names, dialogues)))
         picture.savefig(HERE / f"{name}.png", dpi=110, facecolor="white")
+        remove_ground_of(HERE / f"{name}.png")
         if name == "do_explanations_pay":
             sys.stdout.writelines(explained_differences(dialogues))
 

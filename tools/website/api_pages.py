@@ -336,7 +336,11 @@ def _room_page(room: Room) -> str:
     for kind in _LISTED:
         found = [it for it in room.names if it.kind == kind]
         if found:
-            parts += [f"## {_HEADINGS[kind]}\n", "| name | is |", "| --- | --- |"]
+            parts += [
+                f"## {_HEADINGS[kind]}\n",
+                "| name | what it is |",
+                "| --- | --- |",
+            ]
             parts += [_table_row(it, link) for it in found]
             parts.append("")
     return "\n".join(parts)

@@ -6,6 +6,18 @@ import re
 from collections.abc import Mapping, Sequence
 
 from pybtex.database import Entry, Person, parse_file
+from pybtex.plugin import register_plugin
+from pybtex.style.formatting.plain import Style as Plain
+from pybtex.style.formatting.unsrt import date
+from pybtex.style.template import (
+    field,
+    join,
+    optional,
+    optional_field,
+    sentence,
+    tag,
+    toplevel,
+)
 
 from tools.website.public_names import ROOT
 
@@ -19,9 +31,26 @@ is told by [which definitions](/explanation/which-definitions.md).
 
 ```{bibliography}
 :all:
-:style: plain
+:style: volumes
 ```
 """
+
+
+class PlainWithVolumes(Plain):  # type: ignore[misc]
+    """BibTeX's plain style, which leaves out the volume of an article without pages."""
+
+    def get_article_template(self, e: Entry) -> object:
+        """How an article stands in the bibliography."""
+        volume = optional[" ", field("volume")]
+        return toplevel[
+            self.format_names("author"),
+            self.format_title(e, "title"),
+            sentence[join[tag("em")[field("journal")], volume], date],
+            sentence[optional_field("note")],
+        ]
+
+
+register_plugin("pybtex.style.formatting", "volumes", PlainWithVolumes)
 
 
 def cited_as() -> Mapping[str, str]:

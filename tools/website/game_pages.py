@@ -115,7 +115,7 @@ def _index(sections: Mapping[str, tuple[str, str]]) -> str:
         "# The games of tutoring, one by one\n",
         "What a tutor and the robot can do with words is a game, and a game is a page",
         "of rules of update. [One page](/reference/games.md) has them all.\n",
-        "| game | is |",
+        "| game | what it is |",
         "| --- | --- |",
     ]
     for name, (title, _) in sections.items():

@@ -70,6 +70,7 @@ PART_STYLE = """
 .ttr .ttr-table > tbody > tr + tr > td { border-top: 1px solid rgba(128, 128, 128, .25);
   }
 .ttr details > summary { cursor: pointer; opacity: .85; }
+.ttr .ttr-table .ttr-fold > summary { white-space: nowrap; }
 .ttr .ttr-fold > .ttr-inside { margin: .3em 0 .3em .45em; padding-left: .8em;
   border-left: 1px solid rgba(128, 128, 128, .45); }
 .ttr .ttr-figure { margin: .2em 0; }
