@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from pybtex.database import Entry, Person, parse_file
 from pybtex.plugin import register_plugin
+from pybtex.style.formatting import toplevel
 from pybtex.style.formatting.plain import Style as Plain
 from pybtex.style.formatting.unsrt import date
 from pybtex.style.template import (
@@ -16,7 +17,6 @@ from pybtex.style.template import (
     optional_field,
     sentence,
     tag,
-    toplevel,
 )
 
 from tools.website.public_names import ROOT

@@ -33,7 +33,7 @@ class Signature:
 
 
 def signature_of(value: object, module: str, *, bound: bool = False) -> Signature:
-    """The signature of what can be called; empty for what has none.
+    """The signature of what can be called; empty for what has none, or takes anything.
 
     >>> def half(x: int, *, exact: bool = False) -> float: ...
     >>> signature_of(half, __name__).text
@@ -44,6 +44,8 @@ def signature_of(value: object, module: str, *, bound: bool = False) -> Signatur
     except (TypeError, ValueError):
         return Signature("", (), "", module)
     parameters = list(found.parameters.values())[bound:]
+    if _takes_anything(parameters):
+        return Signature("", (), "", module)
     returns = (
         "" if isinstance(value, type) else _annotation_text(found.return_annotation)
     )
@@ -90,6 +92,13 @@ def linked_names(text: str, module: str) -> Iterator[tuple[str, PublicName | Non
         word = ""
         if letter != "\0":
             yield letter, None
+
+
+def _takes_anything(parameters: list[inspect.Parameter]) -> bool:
+    """Are the parameters those of a class that others make, `(*args, **kwargs)`?"""
+    empty = inspect.Parameter.empty
+    names = [it.name for it in parameters if it.annotation is empty]
+    return names == ["args", "kwargs"] and len(parameters) == 2
 
 
 def _function(value: object) -> Any:

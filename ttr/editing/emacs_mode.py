@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ttr.editing.story_tokens import MARKS
+from ttr.dialogues.stories.story_reader import MARKS
 from ttr.editing.tokens import BEFORE_BRACKETS
 from ttr.notation.parser import BEFORE_NAMES
 from ttr.notation.syntax_errors import KEYWORDS
