@@ -31,7 +31,7 @@ def script_warnings(study: Study) -> Iterator[Problem]:
             *_lost(lines, theories),
             *(
                 _untaught(lines, scripts, theories[0])
-                if _alone(study, theories)
+                if _only_scripts_teach(study, theories)
                 else ()
             ),
         ):
@@ -57,7 +57,7 @@ def _lost(
                 break
 
 
-def _alone(study: Study, theories: Sequence[Theory]) -> bool:
+def _only_scripts_teach(study: Study, theories: Sequence[Theory]) -> bool:
     """Whether all that is taught in front of the robot is in the scripts."""
     kinds = {it.kind for it in study.tutors.values()} - {"scripted"}
     change = any(it.do == "change_tutor" for it in study.phases)
