@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from functools import cache
 
 from pybtex.database import Entry, Person, parse_file
 from pybtex.plugin import register_plugin
@@ -53,6 +54,7 @@ class PlainWithVolumes(Plain):  # type: ignore[misc]
 register_plugin("pybtex.style.formatting", "volumes", PlainWithVolumes)
 
 
+@cache
 def cited_as() -> Mapping[str, str]:
     """The ways in which the pages cite a work, each with its place in the bibliography.
 
