@@ -7,6 +7,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from grounds import remove_ground
+from PIL import Image
 
 from kille.perception.look import look
 from kille.perception.picture_sheet import picture_sheet, write_picture
@@ -65,6 +66,7 @@ def smaller(picture: Colour, width: int) -> Colour:
 
 
 if __name__ == "__main__":
-    write_picture(HERE / "objects.png", objects(open_synthetic(SENSOR)))
+    things = Image.fromarray(objects(open_synthetic(SENSOR)))
+    things.save(HERE / "objects.png", optimize=True)
     rows = seen(open_synthetic(SENSOR), "cup", "teddy bear")
     write_picture(HERE / "seen.png", smaller(rows, 800))
