@@ -55,6 +55,7 @@ from kille.page.turn_reports import turn_report, view_report
 from kille.scene import Box
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
+from ttr.escapes import terminal_text
 from ttr.updates import Game
 
 T = TypeVar("T")
@@ -279,7 +280,8 @@ class RobotThread:
             perhaps = [[it.text, round(it.p, 3)] for it in request.perhaps]
             about = {"perhaps": perhaps} if request.perhaps else {}
             arranges = {"arranges": True} if request.arranges else {}
-            self._publish("heard", request, says=request.shown, **about, **arranges)
+            says = terminal_text(request.shown)
+            self._publish("heard", request, says=says, **about, **arranges)
         turns, began = len(robot.exchanges), perf_counter()
         self._turns = turns
         self.stepper.begin_turn()
@@ -296,7 +298,7 @@ class RobotThread:
             self._tell_of_table(request, again=request.arranges)
             return
         self._tell_trouble("")
-        took = round((perf_counter() - began) * 1000)
+        took = round((perf_counter() - began - self.stepper.waited) * 1000)
         if request.pointed is not None:
             self._publish("pointed", request, **request.pointed)
             return

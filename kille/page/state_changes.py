@@ -64,14 +64,19 @@ def _step(step: Step) -> Json:
     """What a rule that fired was waiting for, and what it has bound."""
     rule = step.rule
     return {
-        "on": "" if rule.on is None else _cut(str(rule.on)),
-        "when": _cut(str(rule.when)),
-        "bindings": [[it, _cut(notation(at))] for it, at in step.bindings.items()],
+        "on": "" if rule.on is None else cut_text(str(rule.on)),
+        "when": cut_text(str(rule.when)),
+        "bindings": [[it, cut_text(notation(at))] for it, at in step.bindings.items()],
     }
 
 
-def _cut(text: str) -> str:
-    return text if len(text) <= LONGEST else text[:LONGEST] + " …"
+def cut_text(text: str, longest: int = LONGEST) -> str:
+    """The beginning of a text that is longer than so many characters.
+
+    >>> cut_text("This is a cup.", 7)
+    'This is …'
+    """
+    return text if len(text) <= longest else text[:longest] + " …"
 
 
 def _part(name: str, before: Record, after: Record) -> Json:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from datetime import UTC, datetime
 from threading import Condition
+from time import perf_counter
 from typing import Any
 
 from kille.agent.exchanges import Exchange
-from kille.page.state_changes import Insight
+from kille.page.state_changes import Insight, cut_text
 from ttr.updates import Step
 
 Event = dict[str, Any]
@@ -42,6 +43,8 @@ class Stepper:
         self._tell, self._insight, self._patience = tell, insight, patience
         self._changed = Condition()
         self._on = self._rest = self._may = False
+        self.waited = 0.0
+        """Seconds that this turn has waited."""
 
     def ask(self, deed: str) -> None:
         """Do one of the `DEEDS`."""
@@ -61,6 +64,7 @@ class Stepper:
         """Wait in this turn, even if the rest of the one before was let go."""
         with self._changed:
             self._rest = self._may = False
+        self.waited = 0.0
 
     def __call__(self, step: Step) -> None:
         """Wait before a step, if that is wanted."""
@@ -68,11 +72,13 @@ class Stepper:
             if not self._on or self._rest:
                 return
             self._may = False
+        began = perf_counter()
         self._tell({"type": "step", **self._report(step)})
         with self._changed:
             went_on = self._changed.wait_for(
                 lambda: self._may or self._rest or not self._on, self._patience
             )
+        self.waited += perf_counter() - began
         if not went_on:
             self.ask("off")
 
@@ -84,5 +90,5 @@ class Stepper:
         return {
             "rule": step.rule.name,
             "does": step.rule.doc.split("\n")[0],
-            "changes": [it[:_LONGEST] for it in changes[:CHANGES]],
+            "changes": [cut_text(it, _LONGEST) for it in changes[:CHANGES]],
         }

@@ -15,6 +15,7 @@ from kille.page.phrases import Phrases, phrases
 from kille.perception.outlines import polygon_of
 from kille.scene import Percept
 from ttr import Record, RecordType
+from ttr.escapes import terminal_text
 from ttr.types.printing import notation
 
 Json = dict[str, Any]
@@ -87,7 +88,7 @@ def turn_report(robot: Agent, turns: Iterable[Exchange]) -> Json:
     lessons = lessons_of(turns)
     text = phrases(plain(robot.language))
     return {
-        "heard": " ".join(turn.text for turn in turns if turn.text),
+        "heard": terminal_text(" ".join(turn.text for turn in turns if turn.text)),
         "said": "\n".join(it.text for it in said),
         "lessons": lessons,
         "thing": _thing_talked_of(robot),
@@ -143,23 +144,24 @@ def _thing_talked_of(robot: Agent) -> int | None:
 def answers_to(robot: Agent) -> list[Json]:
     """What could be answered to what the robot has just asked or claimed.
 
-    An answer has its text, or the number of a thing that is meant.
+    An answer has its text; that of a thing its number, and what it is called, too.
     """
     s, text = robot.state, phrases(plain(robot.language))
     if s.shared.qud:
-        return [*_answers_to_question(s, text)]
+        return [*_answers_to_question(robot, text)]
     claimed = [text.right, text.wrong] if s.shared.pending else []
     return [*_answers_to_own_question(robot, text), *({"says": it} for it in claimed)]
 
 
-def _answers_to_question(s: Record, text: Phrases) -> Iterator[Json]:
+def _answers_to_question(robot: Agent, text: Phrases) -> Iterator[Json]:
     """The answers to what it asks about something that the tutor said."""
+    s, names = robot.state, robot.names_in_view()
     issue = s.shared.qud[0]
     if issue.ask in REFERENTS:
         for x in differing_things(issue.options)[1]:
             if x in s.view.things:
-                number = s.view.things.index(x) + 1
-                yield {"says": f"#{number}", "thing": number}
+                n = s.view.things.index(x)
+                yield {"says": f"#{n + 1}", "thing": n + 1, "name": names[n]}
     elif issue.ask in YES_OR_NO:
         yield {"says": text.yes}
         yield {"says": text.no}

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from kille.agent.exchanges import Exchange
+from kille.page.state_changes import cut_text
 from ttr.errors import UpdateError
 from ttr.safety.budgets import within_budget
 from ttr.updates import Game, Rule, Step, run
@@ -75,7 +76,7 @@ def _why(game: Game, rule: Rule, steps: Sequence[Step]) -> str:
     state = first.after if event is None and taken else first.before
     reason = why_not(rule, state, event, model)
     if reason:
-        return reason if len(reason) <= LONGEST else reason[:LONGEST] + " …"
+        return cut_text(reason, LONGEST)
     events = [] if event is None else [event]
     try:
         after = run(rule, state, type=game.type, model=model, events=events)

@@ -25,6 +25,7 @@ from kille.page.stepping import Stepper
 from kille.scene import Frame
 from kille.sensors.sensor import At, SensorError, Stage
 from kille.sensors.sources import open_sensor
+from ttr.escapes import terminal_text
 
 from .pages import Page, fetch_text, fresh_ref, page_of
 
@@ -92,7 +93,9 @@ def test_a_question_which_one_has_an_answer_for_each_thing(page: Page) -> None:
         apple = {"thing": "apple", "right": 0, "away": -0.15, "turn": 30}
         assert len(browser.ask_for("view", do="place", **apple)["things"]) == 3
         turn = browser.say("This is a cup.")
-        assert sorted(it["thing"] for it in turn["answers"]) == [1, 2, 3]
+        view = browser.events[-1]
+        names = {it["number"]: it["name"] for it in view["things"]}
+        assert {it["thing"]: it["name"] for it in turn["answers"]} == names
         meant = turn["answers"][1]
         last = browser.say(meant["says"])
         assert (last["thing"], last["answers"]) == (meant["thing"], [])
@@ -245,6 +248,7 @@ def test_a_turn_does_not_wait_for_ever() -> None:
         assert robot.hear("Hello.") == "Hello."
     assert [it["type"] for it in told] == ["stepping", "step", "stepping"]
     assert told[-1]["on"] is False
+    assert stepper.waited > 0  # which is no time that the robot took
 
 
 def test_only_the_latest_pictures_are_kept() -> None:
@@ -347,7 +351,11 @@ def test_hostile_words_are_words(page: Page, words: str) -> None:
         browser.ask(do="say", text=words, ref=ref)
         while browser.next()["type"] not in ("turn", "failed", "refused"):
             pass
-        assert browser.events[-1]["ref"] == ref
+        answered = browser.events[-1]
+        assert answered["ref"] == ref
+        heard = [it["says"] for it in browser.events if it["type"] == "heard"]
+        for shown in (*heard, answered.get("heard", "")):
+            assert terminal_text(shown) == shown  # all that can be seen, and no more
         browser.say("Hello.")
 
 
