@@ -1,10 +1,10 @@
 // The lab: what each turn did to the information state, chosen on a timeline.
 
 import { Beside } from "./side_by_side.js";
-import { byId, el, matrix } from "./dom.js";
+import { byId, el, matrix, renewChildren } from "./dom.js";
 import { lookUp } from "./look_up.js";
 import { Shelf } from "./word_shelf.js";
-import { brief, t } from "./texts.js";
+import { brief, nameOf, t } from "./texts.js";
 import { unfired } from "./unfired_rules.js";
 
 const KEPT = 200; // turns that can be looked at, with their pictures
@@ -22,6 +22,7 @@ export class Lab {
     this.beside = new Beside();
     this.shown = -1;
     this.folded = new Map();
+    this.save = el("details", { class: "save" });
     this.toggle = byId("lab-toggle");
     this.timeline = byId("timeline");
     for (const it of ["pointerover", "pointerout"])
@@ -44,8 +45,9 @@ export class Lab {
     byId("lab").setAttribute("aria-label", t("lab"));
     this.timeline.setAttribute("aria-label", t("timeline"));
     this.shelf.label();
-    byId("lab-tools").replaceChildren(...this.tools, this.now, this.saving());
+    byId("lab-tools").replaceChildren(...this.tools, this.now, this.save);
     this.now.textContent = t("now");
+    this.offerFiles();
     this.title();
   }
 
@@ -113,26 +115,20 @@ export class Lab {
     const number = this.dropped + this.shown + 1;
     const heard = turn ? turn.heard || t("looked") : "";
     const title = turn ? t("turn", { number, heard }) : t("noTurn");
-    byId("lab-title").textContent = title;
+    byId("lab-title").textContent = byId("lab-title").title = title;
     this.timeline.setAttribute("aria-valuetext", title);
     return title;
   }
 
   /** Where the turn that is shown, and the dialogue, can be had as files. */
-  saving() {
-    const files = (under) =>
-      ["dlg", "log", "tex"].map((kind) =>
-        el("a", { class: "chip", href: `/export${under}/${kind}`, download: true, "aria-label": `${t(under ? "saveTurn" : "saveAll")}: ${t(kind)}` }, t(kind)),
-      );
+  offerFiles() {
+    const file = (name, under, kind) =>
+      el("a", { class: "chip", href: `/export${under}/${kind}`, download: true, "data-key": `${name} ${kind}`, "aria-label": `${t(name)}: ${t(kind)}` }, t(kind));
+    const row = (name, under) =>
+      el("p", { class: "save__row" }, el("span", {}, t(name)), ...["dlg", "log", "tex"].map((kind) => file(name, under, kind)));
     const turn = this.turns[this.shown];
-    const row = (name, under) => el("p", { class: "save__row" }, el("span", {}, t(name)), ...files(under));
-    return el(
-      "details",
-      { class: "save", open: byId("lab-tools").querySelector(".save")?.open },
-      el("summary", {}, t("save")),
-      turn ? row("saveTurn", `/${turn.turns.join("/")}`) : null,
-      row("saveAll", ""),
-    );
+    const rows = [...(turn ? [row("saveTurn", `/${turn.turns.join("/")}`)] : []), row("saveAll", "")];
+    renewChildren(this.save, el("summary", { "data-key": "save" }, t("save")), ...rows);
   }
 
   /** Show in the picture what was in view in a turn, or what is in view now. */
@@ -140,7 +136,9 @@ export class Lab {
     const view = this.views.get(turn);
     if (view && turn !== this.turns.at(-1) && !byId("lab").hidden) this.replay.show(turn, view, title);
     else this.replay.end();
+    const left = document.activeElement === this.now;
     this.now.hidden = !this.replay.on;
+    if (left && this.now.hidden) this.timeline.focus();
   }
 
   async show(index) {
@@ -148,7 +146,7 @@ export class Lab {
     this.shown = index;
     this.timeline.value = index + 1;
     this.showView(turn, this.title());
-    byId("lab-tools").replaceChildren(...this.tools, this.now, this.saving());
+    this.offerFiles();
     if (!turn || byId("lab").hidden) return;
     const body = byId("lab-body");
     body.inert = true; // it shows another turn as yet: what is unfolded there would be lost
@@ -156,7 +154,10 @@ export class Lab {
     const found = answer.ok ? await answer.json() : null;
     if (this.shown !== index) return;
     body.inert = false;
-    if (!found) return;
+    if (!found) {
+      body.replaceChildren(el("p", { class: "part__empty" }, t(answer.status === 404 ? "gone" : "notNow")));
+      return;
+    }
     const { lines, steps, state } = found;
     const parts = [this.beside.section(turn, this.views.get(turn)), this.account(lines, steps), unfired(turn), ...state.map((part) => this.part(part))];
     body.replaceChildren(...parts.filter(Boolean));
@@ -172,7 +173,7 @@ export class Lab {
         changes = el("ul", { class: "step__changes" });
         made.append(this.step(text, fired.next().value, changes));
       } else if (kind === "" && changes) changes.append(el("li", {}, brief(text)));
-      else made.append(el("p", { class: "line" }, el("span", { class: "line__kind" }, kind), brief(text)));
+      else made.append(el("p", { class: "line" }, el("span", { class: "line__kind" }, nameOf("line", kind)), el("span", {}, brief(text))));
     }
     return made;
   }

@@ -1,7 +1,7 @@
 // The lesson view: what comes from the robot goes to its part of the page, and back.
 
 import { Connection } from "./connection.js";
-import { byId, el } from "./dom.js";
+import { byId, el, leave } from "./dom.js";
 import { Lab } from "./lab.js";
 import { LivePicture } from "./picture.js";
 import { Replay } from "./replay.js";
@@ -9,7 +9,7 @@ import { Region } from "./region.js";
 import { Stepping } from "./stepping.js";
 import { Table } from "./table.js";
 import { Talk } from "./talk.js";
-import { setLanguage, t } from "./texts.js";
+import { nameOf, setLanguage, t } from "./texts.js";
 import { Things } from "./things.js";
 import { Voice } from "./voice.js";
 
@@ -25,12 +25,13 @@ const field = byId("text");
 const HELD = 350; // milliseconds
 const said = []; // by the tutor, for the arrow keys
 let recalled = 0;
-let unconfirmed = null;
+const unconfirmed = new Map(); // what was said and not answered yet, by its name
 let language = "";
 let meant = null; // the thing that the robot has just spoken of
 let old = 0; // the last event that had happened before this page was open
 let frozen = false;
-let undo = ""; // what takes the latest lesson back
+let offered = ""; // what takes the latest lesson back
+let undo = ""; // the same, while the robot is not at it
 let instead = ""; // what is said first when the text in the field replaces what was heard
 
 const connection = new Connection({
@@ -55,7 +56,7 @@ const connection = new Connection({
   unheard: () => voice.unheard(),
   "sound-lost": () => voice.lost(),
   heard: (event) => {
-    offerUndo("");
+    undo = "";
     talk.heard(event);
   },
   uttered: (event) => talk.uttered(event),
@@ -64,7 +65,7 @@ const connection = new Connection({
   turn: (event) => {
     stepping.over();
     things.settle();
-    confirm(event.ref);
+    unconfirmed.delete(event.ref);
     if (event.said) voice.playback.expect(event.id, event.said.split("\n").length);
     offerUndo(event.undo_last);
     lab.add(event);
@@ -77,12 +78,13 @@ const connection = new Connection({
     talk.notice(t("anew"));
   },
   failed: (event) => {
+    undo = offered;
     stepping.over();
-    confirm(event.ref);
+    unconfirmed.delete(event.ref);
     talk.failed(event);
   },
   refused: (event) => {
-    confirm(event.ref);
+    unconfirmed.delete(event.ref);
     talk.failed(event);
   },
   beside: (event) => {
@@ -117,8 +119,8 @@ function hello(event, before) {
       ["sensor", event.sensor],
       ["memory", event.memory],
       ["words", event.words],
-      ["mode", event.mode],
-      ["language", event.language],
+      ["mode", nameOf("mode", event.mode)],
+      ["language", nameOf("language", event.language)],
       ["microphone", ""],
     ].map(([name, value]) =>
       el("div", {}, el("dt", {}, t(name)), el("dd", { title: String(value), id: `fact-${name}` }, String(value))),
@@ -138,11 +140,11 @@ function hello(event, before) {
   }
   if (before && before !== event.run) {
     talk.notice(t("again"));
-    if (unconfirmed && !field.value) {
-      field.value = unconfirmed.text;
-      talk.notice(t("unconfirmed"));
+    for (const text of unconfirmed.values()) {
+      talk.notice(t("unconfirmed", { text }));
+      field.value ||= text;
     }
-    unconfirmed = null;
+    unconfirmed.clear();
   }
 }
 
@@ -159,7 +161,6 @@ function label(spoken) {
   link.textContent = t(link.dataset.state);
   for (const [id, name] of [["picture", "picture"], ["things", "things"], ["seen", "seen"], ["talk", "talk"], ["turns", "talk"], ["answers", "answers"], ["tools", "tools"], ["deeds", "deeds"]])
     byId(id).setAttribute("aria-label", t(name));
-  byId("empty").textContent = t("empty");
   stepping.label();
   lab.label();
   voice.label();
@@ -192,8 +193,9 @@ function choose(number) {
 
 /** What takes the latest lesson back, if anything does. */
 function offerUndo(says) {
-  undo = says;
-  byId("undo").disabled = !says;
+  undo = offered = says;
+  const button = byId("undo");
+  leave(button, () => { button.disabled = !says; });
 }
 
 byId("undo").addEventListener("click", () => undo && say(undo));
@@ -215,12 +217,8 @@ function edit(text, first) {
 function say(text) {
   voice.playback.stop();
   const ref = connection.ask({ do: "say", text });
-  if (ref) unconfirmed = { ref, text };
+  if (ref && text) unconfirmed.set(ref, text);
   return Boolean(ref);
-}
-
-function confirm(ref) {
-  if (unconfirmed?.ref === ref) unconfirmed = null;
 }
 
 byId("say").addEventListener("submit", (event) => {

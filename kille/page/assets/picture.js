@@ -1,6 +1,7 @@
 // The live picture on its canvas: the newest one, drawn when the browser draws.
 
 import { byId } from "./dom.js";
+import { lookUp } from "./look_up.js";
 
 export class LivePicture {
   constructor() {
@@ -10,14 +11,14 @@ export class LivePicture {
     this.held = "";
   }
 
-  /** Show a picture of earlier, and none of those that come. */
+  /** Show a picture of earlier, or none if it cannot be had, and none of those that come. */
   async hold(address) {
     this.held = address;
-    const answer = await fetch(address);
-    if (!answer.ok || this.held !== address) return;
-    const bitmap = await createImageBitmap(await answer.blob());
-    if (this.held === address) this.paint(bitmap);
-    bitmap.close();
+    const answer = await lookUp(address);
+    const bitmap = answer.ok ? await createImageBitmap(await answer.blob()) : null;
+    if (this.held === address && bitmap) this.paint(bitmap);
+    else if (this.held === address) this.context.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    bitmap?.close();
   }
 
   /** Show what comes again. */

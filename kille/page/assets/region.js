@@ -17,6 +17,7 @@ export class Region {
     this.frame = byId("box");
     this.start = null;
     this.box = null;
+    this.cameFrom = null; // what had the focus before a region was drawn by keys
     this.stage.addEventListener("pointerdown", (event) => this.begin(event));
     this.stage.addEventListener("pointermove", (event) => this.move(event));
     this.stage.addEventListener("pointerup", (event) => this.end(event));
@@ -72,6 +73,7 @@ export class Region {
     const [width, height] = this.size;
     this.show([width * 0.4, height * 0.4, width * 0.6, height * 0.6].map(Math.round));
     this.frame.setAttribute("aria-label", t("box"));
+    this.cameFrom = document.activeElement;
     this.frame.focus();
   }
 
@@ -79,9 +81,13 @@ export class Region {
     const moves = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] };
     const by = moves[event.key];
     if (by) this.show(event.shiftKey ? this.resized(by) : this.moved(by));
-    else if (event.key === "Enter") this.send();
-    else if (event.key === "Escape") this.cancel();
-    else return;
+    else if (event.key === "Enter") {
+      this.send();
+      byId("text").focus(); // to say what is there
+    } else if (event.key === "Escape") {
+      this.cancel();
+      this.cameFrom.focus();
+    } else return;
     event.preventDefault();
     event.stopPropagation();
   }

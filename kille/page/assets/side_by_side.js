@@ -2,7 +2,7 @@
 
 import { el, matrix } from "./dom.js";
 import { lookUp } from "./look_up.js";
-import { brief, percent, t } from "./texts.js";
+import { brief, nameOf, percent, t } from "./texts.js";
 
 const ROBOTS = ["first", "second"];
 
@@ -84,7 +84,7 @@ function names(view, told) {
 
 /** What was heard, judged and said: first what both have, then what only one has. */
 function lines([one, other]) {
-  const text = ([kind, line]) => `${kind} ${brief(line)}`.trim();
+  const text = ([kind, line]) => `${nameOf("line", kind)} ${brief(line)}`.trim();
   const [ours, theirs] = [one.map(text), other.map(text)];
   const shared = ours.filter((it) => theirs.includes(it));
   const only = (its) => its.filter((it) => !shared.includes(it)).map((it) => el("p", { class: "beside__line" }, it));

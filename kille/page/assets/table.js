@@ -1,7 +1,7 @@
 // The table by hand: a plan on which things are dragged and turned, what can be put on it,
 // or a slider through a recording.
 
-import { byId, el, svg } from "./dom.js";
+import { byId, el, renewChildren, svg } from "./dom.js";
 import { t } from "./texts.js";
 
 const STEP = 0.01; // metres that an arrow key moves; with Shift five times as far
@@ -31,10 +31,11 @@ export class Table {
     const { things, plan, recording } = table;
     this.frame.hidden = !(things.length || recording);
     this.frame.querySelector("summary").textContent = t(recording ? "wind" : "table");
+    byId("empty").textContent = t(plan ? "emptyTable" : "empty");
     if (this.held || this.timer) return; // what is being moved stays in the hand
     if (recording) this.showRecording(recording);
     else if (plan) this.showPlan(plan, things);
-    else this.body.replaceChildren(this.catalogue(things, "show", "show"));
+    else renewChildren(this.body, this.catalogue(things, "show", "show"));
   }
 
   // --- a recording ---
@@ -57,7 +58,7 @@ export class Table {
   // --- a plan ---
 
   showPlan(plan, things) {
-    const focused = document.activeElement?.dataset?.placed;
+    const focused = this.body.contains(document.activeElement) ? document.activeElement.dataset.key : undefined;
     this.plan = { ...plan, placed: plan.placed.map((it) => ({ ...it })) };
     const [left, near, right, far] = plan.table;
     const drawing = svg("svg", { class: "plan__drawing", viewBox: `${left} ${-far} ${right - left} ${far - near}`, "aria-hidden": "true" });
@@ -72,6 +73,7 @@ export class Table {
       el("div", { class: "table__beside" }, this.catalogue(things.filter((it) => !present.has(it)), "add", "add"), el("p", { class: "tools__hint" }, t("planHint"))),
     );
     for (const it of this.plan.placed) this.lay(it);
+    // What was put there can be moved at once.
     if (focused) (this.buttons.get(focused) ?? this.body.querySelector("button"))?.focus();
   }
 
@@ -89,7 +91,7 @@ export class Table {
   button(thing) {
     const { name } = thing;
     return el("button", {
-      class: "plan__thing", type: "button", "data-placed": name, "aria-description": t("planHint"),
+      class: "plan__thing", type: "button", "data-placed": name, "data-key": name, "aria-description": t("planHint"),
       onkeydown: (event) => this.key(event, thing),
       onpointerdown: (event) => this.take(event, thing),
       onpointermove: (event) => this.drag(event, thing),
@@ -178,7 +180,7 @@ export class Table {
       "div",
       { class: "table__things", role: "group", "aria-label": t("catalogue") },
       ...names.map((thing) =>
-        el("button", { class: "button", type: "button", "aria-label": t(text, { thing }), onclick: () => this.ask({ do: verb, thing }) }, thing),
+        el("button", { class: "button", type: "button", "data-key": thing, "aria-label": t(text, { thing }), onclick: () => this.ask({ do: verb, thing }) }, thing),
       ),
     );
   }

@@ -1,6 +1,6 @@
 // The lesson as it was held: what was said, what came of it, and what can be answered.
 
-import { byId, el } from "./dom.js";
+import { byId, el, leave } from "./dom.js";
 import { percent, t } from "./texts.js";
 
 const KEPT = 300; // turns on the page
@@ -184,21 +184,22 @@ export class Talk {
 
   /** "Undo" and "Why?" are about the latest turn: earlier ones lose theirs. */
   endLatest() {
-    for (const it of this.list.querySelectorAll(".chip--do")) it.remove();
+    for (const it of this.list.querySelectorAll(".chip--do")) leave(it, () => it.remove());
   }
 
   /** Offer answers to what the robot has asked. */
   offer(answers) {
     this.answers = answers;
     const bar = byId("answers");
+    leave(bar, () => bar.replaceChildren(...answers.map((it) => this.answer(it))));
     bar.hidden = answers.length === 0;
-    bar.replaceChildren(
-      ...answers.map(({ says, thing }) => {
-        const show = (on) => () => thing && this.light(thing, on);
-        const on = { onpointerenter: show(true), onpointerleave: show(false), onfocus: show(true), onblur: show(false) };
-        return el("button", { class: "button", type: "button", ...on, onclick: () => this.say(says) }, says);
-      }),
-    );
+  }
+
+  /** A button that says an answer; where that is the number of a thing, with its word. */
+  answer({ says, thing, name }) {
+    const show = (on) => () => thing && this.light(thing, on);
+    const on = { onpointerenter: show(true), onpointerleave: show(false), onfocus: show(true), onblur: show(false) };
+    return el("button", { class: "button", type: "button", ...on, onclick: () => this.say(says) }, name ? `${says} ${name}` : says);
   }
 
   /** What to say for a thing that is chosen, if the robot has asked which one. */

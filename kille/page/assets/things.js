@@ -4,6 +4,7 @@ import { bar, byId, el, svg } from "./dom.js";
 import { percent, t } from "./texts.js";
 
 const GAP = 4;
+const CROWD = 7; // things among which those without a word have their number alone
 
 export class Things {
   /** `choose` is called with the number of a thing that is meant. */
@@ -137,20 +138,21 @@ export class Things {
     card.style.left = `${clamp(at.left - stage.left, 0, stage.width - card.offsetWidth)}px`;
   }
 
-  /** Put the buttons beside their things, so that none covers another. Where there is no
-   *  room for its word, a thing has its number, and the word while one looks at it. */
+  /** Put the buttons beside their things, so that none covers another, as far as that can
+   *  be. Where there is no room for its word, a thing has its number, and the word while
+   *  one looks at it. */
   layOut() {
-    const buttons = [...this.buttons.values()];
+    const { things, size } = this.view;
     byId("rivals").hidden = true;
-    for (const it of buttons) it.classList.remove("thing--brief");
     const taken = [];
-    for (const thing of this.view.things) {
+    for (const thing of things) {
       const button = this.buttons.get(thing.number);
-      const free = () => placesFor(thing.box, this.view.size, button).find((it) => !taken.some((other) => overlaps(it, other)));
-      let place = free();
-      if (!place) {
+      const best = () => leastCovering(placesFor(thing.box, size, button), taken);
+      button.classList.toggle("thing--brief", things.length >= CROWD && !thing.name);
+      let place = best();
+      if (place.covers) {
         button.classList.add("thing--brief");
-        place = free() ?? placesFor(thing.box, this.view.size, button)[0];
+        place = best();
       }
       taken.push(place);
       button.style.left = `${place.left}px`;
@@ -201,8 +203,14 @@ function smoothPath(corners) {
 
 const clamp = (value, least, most) => Math.max(least, Math.min(value, Math.max(least, most)));
 
-const overlaps = (one, other) =>
-  one.left < other.left + other.width + GAP &&
-  other.left < one.left + one.width + GAP &&
-  one.top < other.top + other.height + GAP &&
-  other.top < one.top + one.height + GAP;
+/** The first of the places that covers least of those that are taken. */
+function leastCovering(places, taken) {
+  const measured = places.map((it) => ({ ...it, covers: taken.reduce((sum, other) => sum + overlap(it, other), 0) }));
+  return measured.reduce((best, it) => (it.covers < best.covers ? it : best));
+}
+
+/** The area that two places share, with a gap around one of them. */
+function overlap(one, other) {
+  const along = (start, length) => Math.min(one[start] + one[length], other[start] + other[length] + GAP) - Math.max(one[start], other[start] - GAP);
+  return Math.max(0, along("left", "width")) * Math.max(0, along("top", "height"));
+}

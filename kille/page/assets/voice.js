@@ -43,6 +43,8 @@ export class Voice {
     this.aloud &&= !event.mute;
     this.connection.send({ do: "voice", on: this.aloud });
     if (this.wanted) this.ask();
+    for (const id of ["hold", "open-mic"]) byId(id).disabled = Boolean(event.deaf);
+    this.tell(this.status, this.slots);
     this.show();
   }
 
@@ -233,7 +235,8 @@ export class Voice {
   tell(text, slots = {}) {
     this.status = text;
     this.slots = slots;
-    byId("voice-status").textContent = text ? t(text, slots) : "";
+    const idle = this.deaf ? `deaf_${this.deaf}` : "micReady";
+    byId("voice-status").textContent = t(text || idle, slots);
   }
 
   show() {

@@ -1,6 +1,6 @@
 // The word shelf: every word that was taught, its examples, and what was learned from them.
 
-import { el, svg } from "./dom.js";
+import { el, renewChildren, svg } from "./dom.js";
 import { lookUp } from "./look_up.js";
 import { percent, t } from "./texts.js";
 
@@ -32,14 +32,14 @@ export class Shelf {
       this.reload();
       return;
     }
-    this.list.replaceChildren(...(count ? words.map((it) => this.word(it)) : [el("p", { class: "part__empty" }, t("noWords"))]), ...this.pages(count, words.length));
+    renewChildren(this.list, ...(count ? words.map((it) => this.word(it)) : [el("p", { class: "part__empty" }, t("noWords"))]), ...this.pages(count, words.length));
     if (this.chosen) this.show(this.chosen);
   }
 
   pages(count, shown) {
     if (count <= shown) return [];
     const turn = (name, start, can) =>
-      el("button", { class: "chip", type: "button", disabled: !can, onclick: () => { this.start = start; this.reload(); } }, t(name));
+      el("button", { class: "chip", type: "button", "data-key": name, disabled: !can, onclick: () => { this.start = start; this.reload(); } }, t(name));
     const step = Math.max(shown, this.step ?? 0);
     this.step = step;
     return [
@@ -54,7 +54,7 @@ export class Shelf {
     const pressed = String(this.chosen?.kind === kind && this.chosen?.name === name);
     return el(
       "button",
-      { class: "chip shelf__word", type: "button", "aria-pressed": pressed, onclick: () => this.choose({ kind, name }) },
+      { class: "chip shelf__word", type: "button", "data-key": `${kind} ${name}`, "aria-pressed": pressed, onclick: () => this.choose({ kind, name }) },
       swatch ? dye(swatch) : null, form, el("span", { class: "shelf__count" }, ` ${lessons}`),
     );
   }

@@ -192,15 +192,19 @@ def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
     replayed.to_contain_text("As it was: Turn 1")
     playwright.expect(thing(tab, 1)).to_have_count(1)
     assert tab.locator("#things").evaluate("it => it.inert")
-    tab.get_by_role("button", name="Back to now").click()
+    tab.get_by_role("button", name="Back to now").press("Enter")
     replayed.to_be_hidden()
+    playwright.expect(tab.get_by_role("slider", name="Turn")).to_be_focused()
     playwright.expect(title).to_contain_text("Thank you.")
     tab.get_by_text("Rules that did not fire, and why").click()
     tab.locator(".unfired__event[open] .step summary").first.click()
     playwright.expect(tab.locator(".unfired__event li b").first).not_to_be_empty()
     say(tab, "#1 This is a jug.", "a jug")
     tab.locator("#shelf summary").click()
-    tab.locator("#shelf").get_by_role("button", name="jug 1").click()
+    jug = tab.locator("#shelf").get_by_role("button", name="jug 1")
+    jug.press("Enter")
+    playwright.expect(jug).to_have_attribute("aria-pressed", "true")
+    playwright.expect(jug).to_be_focused()
     example = tab.get_by_role("img", name=re.compile("^jug, 20"))
     playwright.expect(example).to_be_visible()
     assert example.evaluate("async it => (await it.decode(), it.naturalWidth)") > 20
@@ -241,6 +245,8 @@ def test_a_lesson_by_keys_alone(start: Start, tab: Tab) -> None:
     press_until(tab, "Put the cup on the table")
     keys.press("Enter")
     expect_things(tab, 1)
+    # What was put there has the focus, to be moved; nothing that is pressed loses it.
+    playwright.expect(tab.locator("[data-placed=cup]")).to_be_focused()
     keys.press("1")
     playwright.expect(thing(tab, 1)).to_be_focused()
     keys.press("/")
@@ -256,16 +262,21 @@ def test_a_lesson_by_keys_alone(start: Start, tab: Tab) -> None:
     playwright.expect(right).to_be_focused()
     with await_answer(tab, "OK"):
         keys.press("Enter")
-    press_until(tab, "#1, cup, 100 %")
+    field = tab.get_by_role("textbox", name="Say something")
+    playwright.expect(field).to_be_focused()
+    press_until(tab, "Mark a region")
+    keys.press("Enter")
+    keys.press("Escape")
+    playwright.expect(tab.get_by_role("button", name="Mark a region")).to_be_focused()
     keys.press("r")
     for key in ("ArrowDown", "Shift+ArrowRight"):
         playwright.expect(tab.locator("#box")).to_be_focused()
         keys.press(key)
     keys.press("Enter")
     playwright.expect(tab.locator(".stage__box--sent")).to_be_visible()
-    keys.press("/")
+    playwright.expect(field).to_be_focused()
     keys.press("ArrowUp")
-    playwright.expect(tab.locator("#text")).to_have_value("What is this?")
+    playwright.expect(field).to_have_value("What is this?")
 
 
 def press_until(tab: Tab, name: str) -> None:
@@ -298,17 +309,25 @@ def test_it_comes_back_by_itself_and_knows_what_was_confirmed(
         program.process.send_signal(signal.SIGCONT)
     # Killed, it has kept what it had answered, and the rest is to be said again.
     program.process.send_signal(signal.SIGSTOP)
-    field.fill("This is a mug.")
-    field.press("Enter")
+    for text in ("This is a mug.", "Thank you."):
+        field.fill(text)
+        field.press("Enter")
     program.process.kill()
     program.process.wait()
     playwright.expect(tab.get_by_role("status")).to_contain_text("Lost")
+    # What cannot be looked into is not shown as what it is not.
+    tab.get_by_role("button", name="Look inside", exact=True).click()
+    inside = tab.locator("#lab-body")
+    playwright.expect(inside).to_have_text(re.compile("cannot be looked into now"))
     port = program.address.rstrip("/").rpartition(":")[2]
     start(*EMPTY, "--port", port)
     playwright.expect(tab.get_by_role("status")).to_contain_text(
         "Connected", timeout=PATIENCE
     )
     playwright.expect(tab.get_by_text("The robot was started anew")).to_be_visible()
+    for text in ("This is a mug.", "Thank you."):
+        told = tab.get_by_text(f"It had not confirmed “{text}”")
+        playwright.expect(told).to_be_visible()
     playwright.expect(field).to_have_value("This is a mug.")
     playwright.expect(tab.locator("#fact-words")).to_have_text("1")
 
