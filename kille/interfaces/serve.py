@@ -8,6 +8,7 @@ import secrets
 import socket
 import webbrowser
 from collections.abc import Callable, Mapping
+from contextlib import ExitStack
 from datetime import datetime
 from pathlib import Path
 from threading import Thread
@@ -38,6 +39,10 @@ DEAF = {
 """What is told where no microphone can be heard, by the reason."""
 
 _TAKEN = (errno.EADDRINUSE, getattr(errno, "WSAEACCES", errno.EADDRINUSE))
+_ELSEWHERE = (
+    errno.EADDRNOTAVAIL,
+    getattr(errno, "WSAEADDRNOTAVAIL", errno.EADDRNOTAVAIL),
+)
 
 
 class Against(NamedTuple):
@@ -134,19 +139,22 @@ def _settings(host: str, port: int) -> PageSettings:
         return PageSettings(listen(host, port), Access(host))
     from kille.page.certificates import host_certificate
 
-    certificate = host_certificate(host, default_path().parent)
+    with ExitStack() as failing:
+        listener = failing.enter_context(listen(host, port))
+        certificate = host_certificate(host, default_path().parent)
+        failing.pop_all()
     console().print(
         "Others can reach this page: it speaks TLS. Its certificate is this host's "
         "own; trust it in the browser if this is its fingerprint (SHA-256):\n"
         f"  {certificate.fingerprint}"
     )
     access = Access(host, secure=True, token=secrets.token_urlsafe(24))
-    return PageSettings(listen(host, port), access, certificate.path)
+    return PageSettings(listener, access, certificate.path)
 
 
 def _why_no_page(host: str, port: int, error: OSError) -> str:
     """Why the page cannot listen there, and what to do."""
-    if isinstance(error, socket.gaierror):
+    if isinstance(error, socket.gaierror) or error.errno in _ELSEWHERE:
         return f"this machine has no host {host}: leave --host out, or name another"
     if isinstance(error, PermissionError) and port < 1024:
         return f"port {port} is for the system: take one from 1024 on with --port N"
@@ -182,7 +190,13 @@ def _welcome(
     if settings.access.token and out.is_terminal:
         out.print(f"For a phone:\n{qr_code(address)}", highlight=False)
     if show:
-        Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+        Thread(target=open_in_browser, args=(address,), daemon=True).start()
+
+
+def open_in_browser(address: str) -> None:
+    """Open an address in this user's browser; say so if there is none."""
+    if not webbrowser.open(address):
+        complain(f"no browser can be opened here: open {address} yourself")
 
 
 def _address(settings: PageSettings) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import socket
 import ssl
+import subprocess
 import sys
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -15,7 +17,7 @@ from kille.interfaces.cli import main
 from kille.interfaces.serve import MISSING
 from kille.memory import Memory
 
-from .pages import Browser, Start
+from .pages import PATIENCE, Browser, Start
 
 EMPTY = "--sensor", "synthetic:empty?seed=7"
 
@@ -157,6 +159,7 @@ def test_a_memory_in_use_is_one_line(
         (["--sensor", "synthetic:nowhere"], "nowhere"),
         (["--sensor", "/nowhere/at/all"], "/nowhere/at/all"),
         (["--host", "no.such.host.invalid"], "no host no.such.host.invalid"),
+        (["--host", "203.0.113.9"], "no host 203.0.113.9"),
         (["--theory", "nothing.txt"], "is no theory"),
         (["--against", "nothing.txt"], "is no theory"),
         (["--against", "packaged"], "both robots would have the theory packaged"),
@@ -171,8 +174,10 @@ def test_what_cannot_be_served_is_one_line(
 ) -> None:
     memory = ["--memory", str(tmp_path / "memory.db")]
     assert main(["serve", "--port", "0", *memory, *words]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    said = capsys.readouterr()
+    (line,) = said.err.splitlines()
     assert told in line
+    assert said.out == ""
 
 
 @pytest.mark.parametrize("port", ["65536", "-1", "x"])
@@ -183,6 +188,21 @@ def test_a_wrong_port_is_one_line(
         main(["serve", f"--port={port}"])
     assert left.value.code == 2
     assert "is no port from 0 to 65535" in capsys.readouterr().err
+
+
+def test_where_no_browser_opens_the_address_is_told() -> None:
+    code = "from kille.interfaces.serve import open_in_browser as it; it('http://x/')"
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={"PATH": "", "PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        check=True,
+    )
+    assert (
+        done.stderr == "kille: no browser can be opened here: open http://x/ yourself\n"
+    )
 
 
 def test_without_the_extra_it_says_what_to_install(
