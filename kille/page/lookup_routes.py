@@ -76,14 +76,19 @@ class _Reads:
     async def inside(self, request: Request) -> Response:
         if (span := _span(request)) is None:
             return _MISSING
-        turns, insight = slice(*span), self._robot.insight
+        first, last = span
+
+        def look(robot: Agent) -> Json | None:
+            turns, earlier = robot.exchanges[first:last], robot.exchanges[:first]
+            if not turns:
+                return None
+            return inside_report(turns, self._robot.insight, earlier)
+
         try:
-            found = await self._read(
-                lambda it: inside_report(it.exchanges[turns], insight)
-            )
+            found = await self._read(look)
         except TTRError as error:
-            found = {"lines": [["", str(error)]], "state": []}
-        return JSONResponse(found) if found["lines"] or found["state"] else _MISSING
+            found = {"lines": [["", str(error)]], "steps": [], "state": []}
+        return _MISSING if found is None else JSONResponse(found)
 
     async def beside(self, request: Request) -> Response:
         second, insight = self._robot.second, self._robot.insight

@@ -41,21 +41,22 @@ PLAIN = Insight()
 
 
 @within_budget
-def inside_report(turns: Sequence[Exchange], insight: Insight) -> Json:
+def inside_report(
+    turns: Sequence[Exchange], insight: Insight, earlier: Sequence[Exchange] = ()
+) -> Json:
     """The derivation of a turn, and the state after it with what has changed marked.
 
     `steps` are the rules that fired, in order: their events and conditions, and what
-    they have bound. `state` has a matrix for each field of the state's parts, as HTML.
+    they have bound. `state` has a matrix for each field of the state's parts, as HTML;
+    where no rule fired, it is the state after the `earlier` turns.
     """
     steps = [step for turn in turns for step in turn.steps]
     lines = [line for turn in turns for line in insight.derive(turn)]
+    latest = [it.steps[-1].after for it in reversed(earlier) if it.steps][:1]
+    states = [steps[0].before, steps[-1].after] if steps else latest * 2
     state: list[Json] = []
-    if steps:
-        before, after = (
-            insight.shorten(steps[0].before),
-            insight.shorten(steps[-1].after),
-        )
-        if isinstance(before, Record) and isinstance(after, Record):
+    match [*map(insight.shorten, states)]:
+        case [Record() as before, Record() as after]:
             state = [_part(name, before[name], after[name]) for name in PARTS]
     return {"lines": lines, "steps": [*map(_step, steps)], "state": state}
 

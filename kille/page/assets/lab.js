@@ -159,7 +159,7 @@ export class Lab {
       return;
     }
     const { lines, steps, state } = found;
-    const parts = [this.beside.section(turn, this.views.get(turn)), this.account(lines, steps), unfired(turn), ...state.map((part) => this.part(part))];
+    const parts = [this.beside.section(turn, this.views.get(turn)), this.account(lines, steps), steps.length ? unfired(turn) : null, ...state.map((part) => this.part(part))];
     body.replaceChildren(...parts.filter(Boolean));
   }
 
@@ -167,6 +167,7 @@ export class Lab {
   account(lines, steps) {
     const made = el("section", { class: "part" }, el("h3", {}, t("derivation")));
     let changes = null;
+    if (!lines.length) made.append(el("p", { class: "part__empty" }, t("noRule")));
     const fired = steps.values();
     for (const [kind, text] of lines) {
       if (kind === "rule") {

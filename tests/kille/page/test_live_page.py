@@ -36,7 +36,7 @@ HOSTILE = [
     "\ud800 half a pair",
     "{{constructor.constructor('x')()}} ${x} %s",
     "#1 #2 #999999 @ show cup",
-    "a" * 9_000,
+    "a" * 3_000,
 ]
 
 
@@ -249,6 +249,18 @@ def test_a_turn_does_not_wait_for_ever() -> None:
     assert [it["type"] for it in told] == ["stepping", "step", "stepping"]
     assert told[-1]["on"] is False
     assert stepper.waited > 0  # which is no time that the robot took
+
+
+def test_what_is_not_understood_leaves_the_state_as_it_was(page: Page) -> None:
+    with page.connect() as browser:
+        browser.say("Hello.")
+        turn = browser.say("<b>bold</b> x")
+    first, last = turn["turns"]
+    inside = json.loads(fetch_text(page, f"/inside/{first}/{last}"))
+    assert inside["lines"] == inside["steps"] == []
+    fields = [it for part in inside["state"] for it in part["fields"]]
+    assert fields
+    assert not any(it["changed"] for it in fields)
 
 
 def test_only_the_latest_pictures_are_kept() -> None:
