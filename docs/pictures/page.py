@@ -47,6 +47,7 @@ def hold_lesson(tab: Any, lesson: list[tuple[int, str]] = LESSON) -> None:
         answers.nth(before).wait_for()
     tab.mouse.move(2, 2)
     tab.wait_for_timeout(3_000)
+    tab.evaluate("Promise.all(document.getAnimations().map(it => it.finished))")
 
 
 @contextmanager

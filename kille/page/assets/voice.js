@@ -8,6 +8,8 @@ const BEFORE = 8; // pieces of sound from before the key was pressed
 const AFTER = 250; // milliseconds of sound from after it was let go
 const FULL = 64_000; // bytes that wait to be sent; what comes then is dropped
 
+const TROUBLES = new Set(["micInsecure", "micOld", "micDenied", "micNone", "micBusy", "micFailed", "micLost"]);
+
 export class Voice {
   constructor(connection) {
     this.connection = connection;
@@ -236,7 +238,9 @@ export class Voice {
     this.status = text;
     this.slots = slots;
     const idle = this.deaf ? `deaf_${this.deaf}` : "micReady";
-    byId("voice-status").textContent = t(text || idle, slots);
+    const told = byId("voice-status");
+    told.textContent = t(text || idle, slots);
+    told.classList.toggle("voice__status--trouble", TROUBLES.has(text));
   }
 
   show() {
