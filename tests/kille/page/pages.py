@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from itertools import count
 from pathlib import Path
 from threading import Thread
@@ -41,6 +42,8 @@ from kille.speech.hearing import HearingProcess
 
 SERVE = [sys.executable, "-m", "kille.interfaces.cli", "serve", "--port", "0"]
 _NUMBERS = count(1)
+QUICK = partial(Agent, scans=1)
+"""A robot whose looks take a moment: it is the page that is tried."""
 PATIENCE = 60
 """Seconds after which a test gives a server up."""
 
@@ -59,11 +62,15 @@ class Page(NamedTuple):
     robot: RobotThread
     troubles: list[str]
 
+    @property
+    def address(self) -> str:
+        return f"http://{self.host}/"
+
     def connect(self, **settings: Any) -> Browser:
         """A client that is told what happens from now on: nothing is under way."""
         self.robot.read(lambda _: None).result(PATIENCE)
         now = {"run": self.feed.run, "after": self.feed.last}
-        return Browser.connect(f"http://{self.host}", **(now | settings))
+        return Browser.connect(self.address, **(now | settings))
 
 
 class Browser:
@@ -137,7 +144,7 @@ def page_of(
     memory: Path | None = None,
     access: Access | None = None,
     hearing: Callable[..., Any] = HearingProcess,
-    make: Callable[..., Agent] = Agent,
+    make: Callable[..., Agent] = QUICK,
     second: Second | None = None,
 ) -> Iterator[Page]:
     """A page of a robot that looks through this sensor, and hears by that, with a

@@ -14,8 +14,9 @@ from urllib.parse import urlsplit
 import pytest
 
 from browsers import IN_BROWSER, PATIENCE, Tab
+from kille.sensors.sources import open_sensor
 
-from .pages import Browser, Program, Start, page_starter
+from .pages import Browser, Page, Program, Start, page_of
 
 playwright = pytest.importorskip(
     "playwright.sync_api", reason="Playwright is not installed: kille[browser]"
@@ -28,21 +29,22 @@ EMPTY = "--sensor", "synthetic:empty?seed=7"
 
 
 @pytest.fixture(scope="module")
-def desk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Program]:
-    """A robot before a desk on which a cup, a car and a book lie."""
-    with page_starter(tmp_path_factory.mktemp("desk")) as begin:
-        yield begin(*DESK)
+def desk() -> Iterator[Page]:
+    """The page of a robot before a desk on which a cup, a car and a book lie."""
+    with page_of(open_sensor(DESK[1])) as page, page.connect() as browser:
+        browser.ask_for("view", do="look")
+        yield page
 
 
-def open_page(tab: Tab, program: Program) -> None:
+def open_page(tab: Tab, page: Page | Program) -> None:
     """Open the page, and wait until it shows all that has happened."""
-    tab.goto(program.address)
+    tab.goto(page.address)
     playwright.expect(tab.locator("html[data-ready]")).to_have_count(1)
 
 
-def visit(tab: Tab, program: Program, things: int = 3) -> None:
+def visit(tab: Tab, page: Page | Program, things: int = 3) -> None:
     """Open the page, and wait until it shows so many things."""
-    open_page(tab, program)
+    open_page(tab, page)
     expect_things(tab, things)
 
 
@@ -77,7 +79,7 @@ def press(tab: Tab, name: str, answer: str) -> None:
         tab.get_by_role("button", name=name, exact=True).click()
 
 
-def test_a_lesson_by_clicks(desk: Program, tab: Tab) -> None:
+def test_a_lesson_by_clicks(desk: Page, tab: Tab) -> None:
     visit(tab, desk)
     thing(tab, 2).click()
     playwright.expect(thing(tab, 2)).to_have_attribute("aria-pressed", "true")
@@ -99,7 +101,7 @@ def test_a_lesson_by_clicks(desk: Program, tab: Tab) -> None:
     playwright.expect(tab.locator("#answers")).to_be_hidden()
 
 
-def test_a_second_click_is_that(desk: Program, tab: Tab) -> None:
+def test_a_second_click_is_that(desk: Page, tab: Tab) -> None:
     visit(tab, desk)
     thing(tab, 3).click()
     playwright.expect(thing(tab, 3)).to_have_accessible_name(re.compile(r"\(this\)"))
@@ -114,8 +116,13 @@ def test_a_second_click_is_that(desk: Program, tab: Tab) -> None:
     playwright.expect(thing(tab, 1)).to_have_attribute("aria-pressed", "false")
 
 
-def test_things_are_placed_turned_and_removed_by_hand(start: Start, tab: Tab) -> None:
-    visit(tab, start(*EMPTY), things=0)
+def test_things_are_placed_turned_and_removed_by_hand(tab: Tab) -> None:
+    with page_of(open_sensor(EMPTY[1])) as page:
+        visit(tab, page, things=0)
+        _arrange_a_cup(tab)
+
+
+def _arrange_a_cup(tab: Tab) -> None:
     tab.get_by_text("Change what is on the table").click()
     tab.get_by_role("button", name="Put the cup on the table").click()
     expect_things(tab, 1)
@@ -144,7 +151,7 @@ def test_things_are_placed_turned_and_removed_by_hand(start: Start, tab: Tab) ->
 
 
 def test_a_region_of_ones_own_is_drawn_over_nothing_in_particular(
-    desk: Program, tab: Tab
+    desk: Page, tab: Tab
 ) -> None:
     visit(tab, desk)
     thing(tab, 3).click()
@@ -165,7 +172,7 @@ def test_a_region_of_ones_own_is_drawn_over_nothing_in_particular(
     expect_things(tab, 4)
 
 
-def test_hostile_words_stay_words(desk: Program, tab: Tab) -> None:
+def test_hostile_words_stay_words(desk: Page, tab: Tab) -> None:
     open_page(tab, desk)
     words = "<img src=x onerror=alert(1)></p><script>alert(2)</script>"
     say(tab, words, "I did not understand")
@@ -173,7 +180,7 @@ def test_hostile_words_stay_words(desk: Program, tab: Tab) -> None:
     assert tab.locator("#turns img, #turns script").count() == 0
 
 
-def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
+def test_the_lab_shows_what_each_turn_changed(desk: Page, tab: Tab) -> None:
     open_page(tab, desk)
     say(tab, "Hello.", "Hello")
     tab.get_by_role("button", name="Look inside", exact=True).click()
@@ -215,7 +222,7 @@ def test_the_lab_shows_what_each_turn_changed(desk: Program, tab: Tab) -> None:
     assert "U> Thank you." in saved.value.path().read_text()
 
 
-def test_a_turn_is_stepped_through(desk: Program, tab: Tab) -> None:
+def test_a_turn_is_stepped_through(desk: Page, tab: Tab) -> None:
     open_page(tab, desk)
     playwright.expect(thing(tab, 1)).to_be_visible()  # it has looked
     tab.get_by_role("button", name="Look inside", exact=True).click()
@@ -357,6 +364,13 @@ def test_every_thing_and_control_has_a_name_and_a_phone_has_room(
             assert box["y"] + box["height"] <= 844
         thing(tab, 2).tap()
         playwright.expect(thing(tab, 2)).to_have_attribute("aria-pressed", "true")
+        # As much is left while the phone's keyboard is up.
+        tab.set_viewport_size({"width": 390, "height": 400})
+        tab.locator("#text").focus()
+        for it in ("#stage", "#turns", "#say"):
+            box = tab.locator(it).bounding_box()
+            assert box["y"] >= 0
+            assert box["y"] + box["height"] <= 400
 
 
 @pytest.mark.deep
