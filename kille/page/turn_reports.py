@@ -155,13 +155,13 @@ def answers_to(robot: Agent) -> list[Json]:
 
 def _answers_to_question(robot: Agent, text: Phrases) -> Iterator[Json]:
     """The answers to what it asks about something that the tutor said."""
-    s, names = robot.state, robot.names_in_view()
+    s, names = robot.state, dict(enumerate(robot.names_in_view()))
     issue = s.shared.qud[0]
     if issue.ask in REFERENTS:
         for x in differing_things(issue.options)[1]:
             if x in s.view.things:
                 n = s.view.things.index(x)
-                yield {"says": f"#{n + 1}", "thing": n + 1, "name": names[n]}
+                yield {"says": f"#{n + 1}", "thing": n + 1, "name": names.get(n, "")}
     elif issue.ask in YES_OR_NO:
         yield {"says": text.yes}
         yield {"says": text.no}

@@ -34,10 +34,10 @@ export function renewChildren(parent, ...children) {
 
 /** Do what takes an element away, or disables it. If that has the focus of the keyboard,
  *  it goes to the field; on a phone no keyboard comes up for it. */
-export function leave(element, change) {
+export function keepFocus(element, change) {
   const held = element.contains(document.activeElement) && document.activeElement.matches(":focus-visible");
   change();
-  if (held && (!element.isConnected || element.disabled || !element.contains(document.activeElement))) byId("text").focus();
+  if (held && (element.disabled || !element.contains(document.activeElement))) byId("text").focus();
 }
 
 /** A bar as long as a degree. */

@@ -1,7 +1,7 @@
 // The lesson view: what comes from the robot goes to its part of the page, and back.
 
 import { Connection } from "./connection.js";
-import { byId, el, leave } from "./dom.js";
+import { byId, el, keepFocus } from "./dom.js";
 import { Lab } from "./lab.js";
 import { LivePicture } from "./picture.js";
 import { Replay } from "./replay.js";
@@ -195,7 +195,7 @@ function choose(number) {
 function offerUndo(says) {
   undo = offered = says;
   const button = byId("undo");
-  leave(button, () => { button.disabled = !says; });
+  keepFocus(button, () => { button.disabled = !says; });
 }
 
 byId("undo").addEventListener("click", () => undo && say(undo));

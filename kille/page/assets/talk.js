@@ -1,6 +1,6 @@
 // The lesson as it was held: what was said, what came of it, and what can be answered.
 
-import { byId, el, leave } from "./dom.js";
+import { byId, el, keepFocus } from "./dom.js";
 import { percent, t } from "./texts.js";
 
 const KEPT = 300; // turns on the page
@@ -184,14 +184,14 @@ export class Talk {
 
   /** "Undo" and "Why?" are about the latest turn: earlier ones lose theirs. */
   endLatest() {
-    for (const it of this.list.querySelectorAll(".chip--do")) leave(it, () => it.remove());
+    for (const it of this.list.querySelectorAll(".chip--do")) keepFocus(it, () => it.remove());
   }
 
   /** Offer answers to what the robot has asked. */
   offer(answers) {
     this.answers = answers;
     const bar = byId("answers");
-    leave(bar, () => bar.replaceChildren(...answers.map((it) => this.answer(it))));
+    keepFocus(bar, () => bar.replaceChildren(...answers.map((it) => this.answer(it))));
     bar.hidden = answers.length === 0;
   }
 
