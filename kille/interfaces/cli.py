@@ -13,6 +13,7 @@ from pathlib import Path
 from shlex import join
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from kille.extras import MissingExtraError, check_extra
 from kille.interfaces.number_arguments import (
     parse_count,
     parse_port,
@@ -72,6 +73,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         drop_output()
         return PIPE_CLOSED
+    except MissingExtraError as error:
+        write_error(f"kille: {error}")
+        return WRONG_USE
     except Exception as error:
         if not isinstance(error, OSError) or error.errno != ENOSPC:
             from ttr.safety.unforeseen_errors import report_unforeseen
@@ -787,6 +791,7 @@ def _memory_check(options: argparse.Namespace) -> int:
 
 
 def _evaluate(options: argparse.Namespace) -> int:
+    check_extra("experiments", "kille evaluate")
     from kille.interfaces.evaluate import (
         EvaluationRequest,
         as_json,
@@ -815,12 +820,14 @@ def _experiment_check(options: argparse.Namespace) -> int:
 
 
 def _experiment_run(options: argparse.Namespace) -> int:
+    check_extra("experiments", "kille experiment run")
     from kille.interfaces.experiment.running import run_study
 
     return run_study(options.file, options.out, _request(options))
 
 
 def _experiment_resume(options: argparse.Namespace) -> int:
+    check_extra("experiments", "kille experiment resume")
     from kille.interfaces.experiment.running import keep_as_is, resume_study
     from kille.lab.running_studies.runner import forget_broken
 
@@ -850,12 +857,14 @@ def _experiment_show(options: argparse.Namespace) -> int:
 
 
 def _experiment_replay(options: argparse.Namespace) -> int:
+    check_extra("experiments", "kille experiment replay")
     from kille.interfaces.experiment.replaying import replay_all
 
     return replay_all(options.folder, options.names, _request(options))
 
 
 def _experiment_report(options: argparse.Namespace) -> int:
+    check_extra("experiments", "kille experiment report")
     from kille.interfaces.experiment.logs import consent_to
     from kille.interfaces.experiment.reporting import report
 
@@ -864,6 +873,7 @@ def _experiment_report(options: argparse.Namespace) -> int:
 
 
 def _experiment_compare(options: argparse.Namespace) -> int:
+    check_extra("experiments", "kille experiment compare")
     from kille.interfaces.experiment.logs import consent_to
     from kille.interfaces.experiment.reporting import compare
 

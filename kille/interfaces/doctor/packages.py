@@ -20,7 +20,7 @@ _USES = {
     "ros2": "nodes that speak to ROS 2",
     "faiss": "a faster search in a large memory",
     "embedding": "another way to tell things apart",
-    "experiments": "many experiments on all cores",
+    "experiments": "measuring and comparing, as studies and kille evaluate do",
     "page": "the robot in a browser",
     "browser": "the page's tests in a real browser",
     "test": "property tests of types and rules",

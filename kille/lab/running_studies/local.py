@@ -22,8 +22,6 @@ from multiprocessing.connection import Connection, wait
 from subprocess import DEVNULL, Popen
 from typing import Self
 
-from joblib import wrap_non_picklable_objects
-
 from kille.lab.log.outcomes import DEADLY, Broken, Outcome, Play, PlayAll, RunError
 from kille.lab.running_studies.threads import READ_WHEN_LOADED
 from kille.lab.running_studies.workers import READY
@@ -40,6 +38,8 @@ _NONE_BEGIN = "no workers can be begun on this machine: try --workers 1"
 @contextmanager
 def local_crew(workers: int, study: Study, play: Play) -> Iterator[PlayAll]:
     """A crew of so many processes on this machine."""
+    from joblib import wrap_non_picklable_objects  # of the extra `experiments`
+
     # What a script defines itself can only be sent by value.
     by_value = wrap_non_picklable_objects(play, keep_wrapper=False)
     with Workers(workers, pickle.dumps((study, by_value))) as begun:

@@ -14,6 +14,7 @@ from pathlib import Path
 from reprlib import repr as brief
 from typing import Any, TypeAlias
 
+from kille.extras import MissingExtraError
 from kille.lab.results import ExperimentError
 from kille.lab.settings import suggest_name
 from kille.lab.user_code import (
@@ -191,6 +192,8 @@ def _failing_as(name: str, doing: str) -> Iterator[None]:
         yield
     except MethodFailedError:
         raise
+    except MissingExtraError as error:
+        raise MethodFailedError(name, str(error)) from error
     except (Exception, SystemExit) as error:
         raise MethodFailedError(
             name, f"{doing}: {describe_exception(error)}"

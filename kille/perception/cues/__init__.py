@@ -14,6 +14,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from kille.extras import MissingExtraError
 from kille.perception.cues import (
     colour,
     embedding,
@@ -23,7 +24,6 @@ from kille.perception.cues import (
     size,
     texture,
 )
-from kille.perception.cues.embedding import MissingExtraError
 from kille.perception.cues.patch import Patch
 from kille.scene import Frame, Region, Traits, Vector
 from ttr.aliases import former_names

