@@ -50,6 +50,8 @@ class NamedRule(Rule):
     condition: When
     event: str
     takes_types: bool
+    says: tuple[str, ...] = ()
+    """Moves that it is known to plan: the theory must have their types."""
 
     @cached_property
     def span(self) -> Span | None:
@@ -57,7 +59,12 @@ class NamedRule(Rule):
         return span_of_function(self.of)
 
     def bind(self, types: DialogueTypes) -> Rule:
-        """The rule on the types that a theory gives these names."""
+        """The rule on the types that a theory gives these names.
+
+        `KeyError` for one that the theory does not have.
+        """
+        for move in self.says:
+            types.record_type(move)
         condition = self.condition
         return Rule(
             self.name,
@@ -134,7 +141,7 @@ def reply(move: str, act: str, doc: str) -> NamedRule:
 
     answer.__name__ = f"{act} to {move}"
     answer.__doc__ = doc
-    return rule(answers=move)(answer)
+    return replace(rule(answers=move)(answer), says=(act,))
 
 
 def bind(algorithm: Algorithm, types: DialogueTypes) -> Algorithm:

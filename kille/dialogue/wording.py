@@ -14,6 +14,7 @@ from string import Formatter
 from zlib import crc32
 
 from kille.dialogue.answer_details import details
+from kille.dialogue.language_files import FILES, plain
 from kille.dialogue.lexicon import Lexicon, Wordings
 from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.phrases import (
@@ -26,7 +27,7 @@ from kille.dialogue.phrases import (
 from kille.dialogue.sentence_suggestions import suggest_sentence
 from kille.dialogue.view_lists import either, list_slots
 from kille.dialogue.word_lists import plain_text
-from ttr import Rec, Record, RecordType
+from ttr import Rec, Record, RecordType, TTRError
 from ttr.escapes import terminal_text
 from ttr.types import Join, Negation, Singleton
 
@@ -95,6 +96,8 @@ def did_not_understand(
 
 
 def _fill_wording(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) -> str:
+    if act not in wordings:
+        raise _no_wording(lexicon, wordings, act)
     words = {word_of(sign): sign for sign in move.signs}
     wanted = _slots_in_any(wordings[act])
     slots = dict(_slots(lexicon, move.content, words, wanted))
@@ -107,6 +110,15 @@ def _fill_wording(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) 
     if lexicon.varied and wordings is lexicon.says:
         wording = _draw_wording(wording, lexicon.varied.get(act, ()), str(move.e))
     return _capital(lexicon.with_examples(wording).format_map(slots))
+
+
+def _no_wording(lexicon: Lexicon, wordings: Wordings, act: str) -> TTRError:
+    """The mistake of whoever made a move, and has not said how it is worded."""
+    table = "says" if wordings is lexicon.says else "tutor"
+    file = FILES[1].format(plain(lexicon.language))
+    return TTRError(
+        f"there is no wording of {act}: write one under [{table}] in {file}"
+    )
 
 
 def _choose_wording(wordings: Iterable[str], slots: Mapping[str, str]) -> str:

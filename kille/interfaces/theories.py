@@ -9,14 +9,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from kille.agent.agent import Agent
-from kille.dialogue.language_files import FILES, STRATEGIES
+from kille.dialogue.language import LANGUAGES
+from kille.dialogue.language_files import FILES, ISLANDS, STRATEGIES, WORDS
 from kille.dialogue.theory_files import SOURCE
 from kille.lab.errors import StudyError
 from kille.lab.settings import suggest_name
@@ -27,6 +28,7 @@ from kille.lab.study_files.theory_trials import theory_problems
 from kille.lab.theories import agent_of
 from kille.memory import Memory
 from kille.sensors.sensor import Sensor
+from ttr.errors import suggestion
 from ttr.safety.consent import Consent
 
 RULES = "rules.py"
@@ -96,6 +98,8 @@ def _of_files(place: Path, theory: Theory, consent: Consent) -> Theory:
             raise StudyError([f"{place} is no theory: expected {expected}"])
         return replace(theory, meanings=str(place), consent=consent)
     place = place.resolve()
+    if strays := [*_misnamed_files(place)]:
+        raise StudyError(strays)
     own = [it.format(theory.language) for it in FILES]
     has_words = any((place / it).is_file() for it in (*own, STRATEGIES))
     has_types = (place / SOURCE).is_file()
@@ -110,3 +114,14 @@ def _of_files(place: Path, theory: Theory, consent: Consent) -> Theory:
         rules=f"{place / RULES}:RULES" if has_rules else "",
         consent=consent.with_folders(place),
     )
+
+
+def _misnamed_files(folder: Path) -> Iterator[str]:
+    """Files that look as if they were of a theory, under a name that nothing reads."""
+    named = [it.format(one) for it in (*FILES, WORDS, ISLANDS) for one in LANGUAGES]
+    known = {*named, STRATEGIES, SOURCE, RULES}
+    missing = [it for it in known if not (folder / it).exists()]
+    for file in sorted(folder.iterdir()):
+        alike = [it for it in missing if Path(it).suffix == file.suffix]
+        if file.name not in known and (hint := suggestion(file.name, alike)):
+            yield f"nothing reads {file}: {hint}"

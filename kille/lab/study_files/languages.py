@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from string import Formatter
 from typing import Any
@@ -14,14 +14,14 @@ from kille.dialogue.language import LANGUAGES, grammar_text, understand
 from kille.dialogue.language_files import FILES, STRATEGIES
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.parsing import Grammar
-from kille.dialogue.strategies import strategy
 from kille.lab.settings import Key, Problem, suggest_name, why_no_folder
 from kille.lab.study import Theory
+from kille.lab.study_files.grammar_mistakes import explain_grammar_error
 from kille.lab.study_files.problems import line_of, lines_of
 from kille.lab.theories.games import language_of
 from kille.lab.theories.meanings import meanings_of
-from kille.lab.user_code import describe_exception
 from ttr import TTRError
+from ttr.errors import suggestion
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import SETTINGS
@@ -74,17 +74,6 @@ def language_problems(theory: Theory) -> Iterator[Problem]:
         yield from _grammar_problems(theory, grammar, texts)
 
 
-def strategy_file_problems(theory: Theory) -> Iterator[Problem]:
-    """What is wrong with a file of strategies in a theory's own folder."""
-    if theory.grammar is None or not (theory.grammar / STRATEGIES).is_file():
-        return
-    try:
-        strategy(theory.mode, theory.wording, language_of(theory))
-    except (OSError, *_ODD) as error:
-        told = f"these strategies cannot be used: {describe_exception(error)}"
-        yield Problem(_KEY, told, f"{theory.grammar / STRATEGIES}:1")
-
-
 def _other_language(theory: Theory) -> str:
     """A hint that the folder has files of another language; empty if not."""
     assert theory.grammar is not None
@@ -106,9 +95,9 @@ def _grammar_problems(
         yield Problem(_KEY, why_unread(file.name, error), f"{file}:1")
         return
     except GrammarError as error:
-        what = str(error).partition("\n")[0]
-        at = f"{file}:{_line_in(error)}"
-        yield Problem(_KEY, f"this grammar does not read: {what}", at)
+        line, what = explain_grammar_error(error, read_text(file, SETTINGS))
+        told = f"this grammar does not read: {what}"
+        yield Problem(_KEY, told, f"{file}:{line}")
         return
     for text in texts:
         try:
@@ -139,23 +128,37 @@ def _lexicon_problems(theory: Theory, file: Path) -> Iterator[Problem]:
         yield Problem(_KEY, f"this lexicon does not read: {error}", at)
     else:
         lines = lines_of(read_text(file, SETTINGS))
-        for key, what in _wording_problems(own, packaged):
+        moves = meanings_of(theory).theory.predicates
+        for key, what in _wording_problems(own, packaged, moves):
             yield Problem(_KEY, what, f"{file}:{line_of(lines, key)}")
 
 
-def _wording_problems(own: Lexicon, packaged: Lexicon) -> Iterator[tuple[Key, str]]:
+def _wording_problems(
+    own: Lexicon, packaged: Lexicon, moves: Collection[str]
+) -> Iterator[tuple[Key, str]]:
+    """What is wrong with wordings, which are of moves or replace packaged ones."""
+    tables = {
+        section: acts
+        for section, acts in own.sections.items()
+        if section.startswith("says") and isinstance(acts, Mapping)
+    }
+    worded = {act for acts in tables.values() for act in acts}
+    unknown = worded - {*moves, *packaged.wordings}
+    meant = {it: suggestion(it, {*moves} - worded) for it in unknown}
     for table in ("says", "tells"):
         mine, theirs = getattr(own, table), getattr(packaged, table)
         lacking = sorted(theirs.keys() - mine.keys())
-        if lacking:
+        if lacking and not any(meant.values()):
             yield (_FILED[table],), f"there is no wording for {', '.join(lacking)}"
     known = sorted({slot for it in packaged.wordings.values() for slot in _slots(it)})
-    for section, acts in own.sections.items():
-        if not section.startswith("says") or not isinstance(acts, Mapping):
-            continue
-        for act, wordings in acts.items():
-            several = wordings if isinstance(wordings, list) else [wordings]
-            yield from ((((section, act)), it) for it in _slot_problems(several, known))
+    for section, acts in tables.items():
+        for act, of_act in acts.items():
+            several = of_act if isinstance(of_act, list) else [of_act]
+            wrong = [*_slot_problems(several, known)]
+            if not wrong and act in meant:
+                told = f"there is no move {act}, which this is a wording of"
+                wrong = [f"{told}: {meant[act]}" if meant[act] else told]
+            yield from (((section, act), it) for it in wrong)
 
 
 _FILED = {"says": "says", "tells": "tutor"}

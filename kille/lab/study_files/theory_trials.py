@@ -12,13 +12,17 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from kille.dialogue.language_files import FILES
+from kille.dialogue.lexicon import lexicon
 from kille.dialogue.tutoring import hear, tutoring
 from kille.lab.errors import TheoryError
 from kille.lab.results import ExperimentError
 from kille.lab.settings import Key, Problem, why_no_file
 from kille.lab.study import PERSON, Theory
-from kille.lab.study_files.languages import language_problems, strategy_file_problems
+from kille.lab.study_files.languages import language_problems
 from kille.lab.study_files.learners import learner_problems
+from kille.lab.study_files.problems import line_of, lines_of
+from kille.lab.study_files.strategy_files import strategy_file_problems
 from kille.lab.theories.games import (
     change_game,
     game_of,
@@ -26,15 +30,18 @@ from kille.lab.theories.games import (
     strategy_problems,
 )
 from kille.lab.theories.meanings import meanings_of
-from kille.lab.theories.rules import missing_rules, packaged_rules
+from kille.lab.theories.rules import missing_rules, moves_said, packaged_rules
 from kille.lab.user_code import describe_exception, failing_line
 from kille.lab.worlds.perception import glance_event
 from kille.lab.worlds.worlds import Thing, World
 from ttr import TTRError
 from ttr.errors import MistakesError, Span
 from ttr.safety.consent import OWN_FOLDER
+from ttr.safety.inputs import read_text
+from ttr.safety.limits import SETTINGS
 from ttr.theories.checking import check
 from ttr.theories.theory import load
+from ttr.types import PType
 from ttr.updates import Rule
 from ttr.updates.checks import NEVER, Fault, faults_of
 
@@ -61,6 +68,7 @@ def _other_problems(theory: Theory, eyes: Collection[str]) -> Iterator[Problem]:
     found += learner_problems(theory, eyes)
     found += language_problems(theory)
     found += _rule_problems(replace(theory, strategy={}, grammar=None))
+    found = found or [*_unworded_problems(theory)]
     yield from found
     if not found and any(getattr(theory, it) for it in _OWN):
         simulated = "simulated" in eyes
@@ -147,6 +155,26 @@ def _rule_problems(theory: Theory) -> Iterator[Problem]:
         yield Problem(key, error.message, error.at)
     except TTRError as error:
         yield from _problems_of_error(key, error)
+
+
+def _unworded_problems(theory: Theory) -> Iterator[Problem]:
+    """Moves that the user's rules plan, and the user's own lexicon has no wording of.
+
+    Where there is no lexicon of one's own, the language may have no word that leads to
+    such a move.
+    """
+    if theory.grammar is None:
+        return
+    file = theory.grammar / FILES[1].format(theory.language)
+    if not file.is_file():
+        return
+    says, types = lexicon(language_of(theory)).says, meanings_of(theory)
+    line = line_of(lines_of(read_text(file, SETTINGS)), ("says",))
+    for move in moves_said(theory):
+        event = types.record_type(move)["e"]
+        if isinstance(event, PType) and event.pred.name not in says:
+            told = f"there is no wording of {event.pred.name}, by which {move} is said"
+            yield Problem(("grammar",), told, f"{file}:{line}")
 
 
 def _problems_of_error(key: Key, error: TTRError) -> Iterator[Problem]:

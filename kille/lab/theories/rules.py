@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 
 from kille.dialogue.games import TUTORING
 from kille.dialogue.meanings import DialogueTypes
-from kille.dialogue.rules import bind
+from kille.dialogue.rules import NamedRule, bind
 from kille.lab.errors import TheoryError
 from kille.lab.settings import suggest_name, why_no_file
 from kille.lab.study import Theory
@@ -76,7 +77,40 @@ def _all_rules(theory: Theory) -> Algorithm:
     """The algorithm with the user's rules, on the types of the theory."""
     types = meanings_of(theory)
     usual = bind(TUTORING, types)
-    return bind(_add_own_rules(usual, theory), types) if theory.rules else usual
+    if not theory.rules:
+        return usual
+    own = _add_own_rules(usual, theory)
+    try:
+        return bind(own, types)
+    except (KeyError, TypeError) as error:
+        told = str(error.args[0])
+        raise TheoryError(
+            f"{told}, which a rule names", _where(theory, told)
+        ) from error
+
+
+def _where(theory: Theory, told: str) -> str:
+    """The line of the user's file on which a name stands that is told of."""
+    path = Path(theory.rules.rpartition(":")[0])
+    try:
+        lines = path.read_text("utf-8").splitlines()
+    except (OSError, UnicodeDecodeError):
+        return ""
+    names = re.findall(r"\w+", told)
+    found = (
+        number
+        for number, line in enumerate(lines, 1)
+        if any(f'"{it}"' in line or f"'{it}'" in line for it in names)
+    )
+    return f"{path}:{next(found, 1)}"
+
+
+def moves_said(theory: Theory) -> tuple[str, ...]:
+    """The moves that the user's rules are known to plan; errors as `algorithm_of`."""
+    if not theory.rules:
+        return ()
+    own = rules_of(_add_own_rules(bind(TUTORING, meanings_of(theory)), theory))
+    return tuple(it for one in own if isinstance(one, NamedRule) for it in one.says)
 
 
 def without_rules(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:

@@ -140,13 +140,13 @@ def test_what_is_deleted_is_that_of_the_package(kille: Run, mine: Path) -> None:
 def test_the_strategies_of_the_folder_decide(
     kille: Run, mine: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    change(mine / "strategies.toml", "[default]", "[default]\nmood = 3")
+    change(mine / "strategies.toml", 'wording = "paper"', 'wording = "four"')
     monkeypatch.chdir(mine)
     assert answers(kille, ".", "Hello.") == ["Hello."]
     (mine / "strategies.toml").write_text("[wordings]\n")
     done = kille("talk", "--sensor", EMPTY, "--theory", ".", typed="Hello.\n")
     assert (done.code, done.out, done.err.count("\n")) == (2, "", 1)
-    assert "strategies.toml:1: these strategies cannot be used" in done.err
+    assert "strategies.toml:1: these strategies lack default, which" in done.err
 
 
 RULES = """\
@@ -296,3 +296,165 @@ def test_a_move_that_leaves_open_what_is_done_can_be_asked_about(kille: Run) -> 
     found = answers(kille, f"{study}:nods", *said)
     assert len(found) == 4
     assert found[1:3] == ["I have not claimed anything."] * 2
+
+
+# --- a move of one's own --------------------------------------------------------------
+
+OWN_RULES = """\
+from kille.dialogue.games import games_with
+from kille.dialogue.rules import reply
+
+RULES = games_with(reply("Dismiss", "Drop", "The claim is dropped."))
+"""
+
+
+@pytest.fixture
+def skipping(mine: Path) -> Path:
+    """The folder with the new move of `docs/how-to/change-what-it-says.md`."""
+    change(
+        mine / "tutor.ttr",
+        "\nLeave ",
+        "\npred dismiss(Ind, Ind), drop(Ind, Ind)\n"
+        "Dismiss    := [spkr : Ind, addr : Ind, e : dismiss(spkr, addr)]\n"
+        "Drop       := [spkr : Ind, addr : Ind, e : drop(spkr, addr)]\n"
+        "Leave ",
+    )
+    grammar = mine / "tutor.en.lark"
+    change(grammar, "| leave | okay\n", "| leave | okay | dismiss\n")
+    change(grammar, "\nleave: _BYE\n", "\nleave: _BYE\ndismiss: _SKIP _IT\n")
+    change(grammar, "\n_ME: ", "\n_SKIP: /skip\\b/i\n_ME: ")
+    change(mine / "lexicon.en.toml", "\npart = ", '\ndrop = "All right."\npart = ')
+    (mine / "rules.py").write_text(OWN_RULES)
+    return mine
+
+
+def test_a_move_of_ones_own_is_understood_and_answered(
+    kille: Run, skipping: Path
+) -> None:
+    assert answers(kille, skipping, "Skip it.") == ["All right."]
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "told"),
+    [
+        (
+            "tutor.en.lark",
+            "okay | dismiss\n",
+            "okay | dismis\n",
+            "does not read: there is no rule dismis, which _request uses: did you mean "
+            "dismiss?",
+        ),
+        (
+            "tutor.en.lark",
+            "\n_SKIP:",
+            "\n_SKP:",
+            "does not read: there is no token _SKIP, which dismiss uses",
+        ),
+        (
+            "tutor.en.lark",
+            "dismiss: _SKIP",
+            "dismiss _SKIP",
+            "does not read: expected a colon, found _SKIP",
+        ),
+        (
+            "tutor.en.lark",
+            "dismiss: _SKIP",
+            "dismiss: (_SKIP",
+            "does not read: expected ), found the end of the line",
+        ),
+        (
+            "tutor.en.lark",
+            "/skip\\b/i",
+            "skip\\b/i",
+            "does not read: \\b/i cannot stand there",
+        ),
+        (
+            "tutor.en.lark",
+            "dismiss: _SKIP _IT\n",
+            "dismiss: _SKIP _IT\nleave: _BYE\n",
+            "does not read: the rule leave is defined on line ",
+        ),
+        (
+            "lexicon.en.toml",
+            "\ndrop =",
+            "\ndrp =",
+            "there is no move drp, which this is a wording of: did you mean drop?",
+        ),
+        (
+            "lexicon.en.toml",
+            '\ndrop = "All right."',
+            "",
+            "there is no wording of drop, by which Drop is said",
+        ),
+        (
+            "strategies.toml",
+            "assert = {",
+            "assrt = {",
+            "wordings.paper.stakes has no assrt: did you mean assert?",
+        ),
+        (
+            "strategies.toml",
+            "right = 1.0",
+            'right = "one"',
+            'wordings.paper.stakes.assert.right: expected a number, found "one"',
+        ),
+        ("strategies.toml", "right = 1.0", "right = one", "no TOML: Invalid value"),
+        (
+            "rules.py",
+            '"Dismiss"',
+            '"Dismis"',
+            "has no Dismis: did you mean Dismiss?, which a rule names",
+        ),
+        ("rules.py", '"Drop"', '"Dropp"', "has no Dropp: did you mean Drop?"),
+    ],
+)
+def test_a_mistake_in_it_is_told_on_its_line(
+    kille: Run, skipping: Path, file: str, old: str, new: str, told: str
+) -> None:
+    change(skipping / file, old, new)
+    done = kille("talk", "--sensor", EMPTY, "--theory", str(skipping), typed="")
+    assert done.code == 2
+    place = f"kille: {skipping / file}:"
+    [line] = [it for it in done.err.splitlines() if told in it]
+    assert line.startswith(place)
+    number = int(line.removeprefix(place).partition(":")[0])
+    text = (skipping / file).read_text("utf-8").splitlines()[number - 1 : number + 1]
+    shown = (new.strip() or "[says]").splitlines()[-1]
+    assert shown in "\n".join(text) or "token _SKIP" in told
+
+
+def test_rules_about_types_that_are_not_there_are_told(
+    kille: Run, skipping: Path
+) -> None:
+    (skipping / "tutor.ttr").unlink()
+    done = kille("talk", "--sensor", EMPTY, "--theory", str(skipping), typed="")
+    assert (done.code, done.err.splitlines()[-1]) == (
+        2,
+        f"kille: {skipping}/rules.py:4: the theory has no Drop, which a rule names",
+    )
+
+
+def test_a_file_that_nothing_reads_is_told(kille: Run, mine: Path) -> None:
+    (mine / "tutor.en.lark").rename(mine / "tutor.eng.lark")
+    done = kille("talk", "--sensor", EMPTY, "--theory", str(mine), typed="")
+    assert (done.code, done.err) == (
+        2,
+        f"kille: nothing reads {mine}/tutor.eng.lark: did you mean tutor.en.lark?\n",
+    )
+
+
+def test_a_move_without_a_wording_is_told_and_the_talk_goes_on(
+    kille: Run, skipping: Path
+) -> None:
+    """Whose language has no lexicon of one's own is not refused: few moves are said."""
+    (skipping / "lexicon.en.toml").unlink()
+    done = kille(
+        "talk",
+        *("--sensor", EMPTY, "--theory", str(skipping)),
+        typed="Skip it.\nHello.\n",
+    )
+    [told] = done.err.splitlines()
+    assert told == (
+        "kille: there is no wording of drop: write one under [says] in lexicon.en.toml"
+    )
+    assert done.out.splitlines()[-1].startswith("S> Hello")
