@@ -110,7 +110,8 @@ def moves_said(theory: Theory) -> tuple[str, ...]:
     if not theory.rules:
         return ()
     own = rules_of(_add_own_rules(bind(TUTORING, meanings_of(theory)), theory))
-    return tuple(it for one in own if isinstance(one, NamedRule) for it in one.says)
+    said = (it for one in own if isinstance(one, NamedRule) for it in one.says)
+    return tuple(dict.fromkeys(said))
 
 
 def without_rules(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
