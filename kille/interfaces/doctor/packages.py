@@ -8,6 +8,7 @@ import shutil
 import sys
 from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, metadata, requires, version
+from operator import eq, ge, gt, le, lt, ne
 from pathlib import Path
 
 from kille.interfaces.doctor.findings import DoctorFinding
@@ -76,15 +77,28 @@ def _describe_use(use: str, packages: str) -> str:
 
 def _requirements(extra: str) -> list[str]:
     """The requirements of this distribution, or of one of its extras, as pip writes
-    them.
+    them, without those for other versions of Python.
     """
     parted = [line.partition(";") for line in requires("kille") or ()]
     return [
         unfolded
         for requirement, _, marker in parted
         if re.findall(r"extra == ['\"](\w+)['\"]", marker) == ([extra] if extra else [])
+        if _is_for_this_python(marker)
         for unfolded in _unfold(requirement.strip())
     ]
+
+
+_COMPARED = {"<": lt, "<=": le, "==": eq, "!=": ne, ">=": ge, ">": gt}
+
+
+def _is_for_this_python(marker: str) -> bool:
+    """Whether all that a marker says of the version of Python holds."""
+    said = re.findall(r"python_version\s*([<>=!]+)\s*['\"](\d+)\.(\d+)['\"]", marker)
+    return all(
+        _COMPARED[sign](sys.version_info[:2], (int(major), int(minor)))
+        for sign, major, minor in said
+    )
 
 
 def _unfold(requirement: str) -> list[str]:

@@ -11,7 +11,7 @@ import pytest
 
 from kille.interfaces.doctor import as_text
 from kille.interfaces.doctor.findings import DoctorFinding
-from kille.interfaces.doctor.packages import pip
+from kille.interfaces.doctor.packages import packages, pip
 from kille.memory import Memory
 
 Run = Callable
@@ -104,6 +104,21 @@ def test_pip_is_that_of_this_python(
     assert pip("kille[usb]") == "pip install 'kille[usb]'"
     monkeypatch.setenv("PATH", str(tmp_path))
     assert pip("kille[usb]") == f"{sys.executable} -m pip install 'kille[usb]'"
+
+
+def test_what_another_python_needs_is_not_missed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """`immutables` is installed with Python 3.13 and below only."""
+    wanted = [
+        "numpy>=1.26",
+        "not-there>=1; python_version < '3.0'",
+        'not-there-either; python_version > "9.9" and extra == "plots"',
+    ]
+    module = sys.modules[packages.__module__]
+    monkeypatch.setattr(module, "requires", lambda name: wanted)
+    [finding] = packages()
+    assert (finding.part, finding.works) == ("packages", True)
 
 
 # --- memory --------------------------------------------------------------------------
