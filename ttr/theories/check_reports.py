@@ -88,7 +88,9 @@ class Report(NotebookValue):
     @property
     def summary(self) -> str:
         """The number of checks that hold or fail, and of faults, on one line."""
-        parts = [_count_of(self.asked, "check holds", "checks hold")]
+        parts = ["no mistakes and no checks"]
+        if self.asked:
+            parts = [_count_of(self.asked, "check holds", "checks hold")]
         if self.failures:
             parts = [f"{len(self.failures)} of {self.asked} checks failed"]
         if self.rules:
