@@ -28,7 +28,7 @@ from _simulated_things import simulated_things, traits_of
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from kille.grounding.knowledge import Knowledge
+from kille.grounding.lessons_and_learners import Knowledge
 from kille.lab.protocols.memory_use import resident_memory
 from kille.memory import Memory, Scan, Sighting, Turn
 from kille.perception.descriptor_index import Background, View

@@ -20,6 +20,8 @@ FORMER_MODULES = {
     "kille.experiments.metrics": "kille.lab.measures.statistics",
     "kille.experiments.report": "kille.lab.reports.result_pages",
     "kille.experiments.results": "kille.lab.results",
+    "kille.dialogue.games.classifying": "kille.dialogue.games.kinds_of_kinds",
+    "kille.grounding.knowledge": "kille.grounding.lessons_and_learners",
     "kille.lab.playing": "kille.lab.playing_dialogues",
     "kille.lab.protocols.parted": "kille.lab.protocols.picture_splits",
     "kille.lab.running": "kille.lab.running_studies",

@@ -19,7 +19,7 @@ from kille.dialogue.criteria import (
 from kille.dialogue.meanings import DialogueTypes, claims, is_denial, value_at, word_of
 from kille.dialogue.reference import PARTS, phrase_at
 from kille.dialogue.taxonomy import nouns_in
-from kille.grounding.knowledge import Knowledge, LessonSource, Named
+from kille.grounding.lessons_and_learners import Knowledge, LessonSource, Named
 from kille.grounding.witness_functions import WitnessFunctions, number_of
 from kille.memory import Kind, Word
 from kille.memory.lessons import By

@@ -59,7 +59,7 @@ from kille.dialogue.robust_reading.whole_sentences import needs_parts
 from kille.dialogue.state import blank_model, words
 from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.dialogue.wording import did_not_understand
-from kille.grounding.knowledge import Knowledge, Learners
+from kille.grounding.lessons_and_learners import Knowledge, Learners
 from kille.grounding.witness_functions import WitnessFunctions, thing_name
 from kille.grounding.word_meanings import WordMeanings
 from kille.memory import Memory, MemoryFileError

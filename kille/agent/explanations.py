@@ -14,7 +14,7 @@ from kille.dialogue.criteria import criterion, nearest_often
 from kille.dialogue.meanings import DialogueTypes, claims, value_at, word_of
 from kille.dialogue.reference import thing_at
 from kille.dialogue.taxonomy import subsumption
-from kille.grounding.knowledge import Knowledge
+from kille.grounding.lessons_and_learners import Knowledge
 from kille.grounding.reasons import Reasons
 from kille.grounding.witness_functions import WitnessFunctions
 from kille.memory import CriterionLesson, Kind, KindLesson, Lesson, Memory, Word

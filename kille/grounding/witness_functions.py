@@ -25,7 +25,7 @@ from kille.grounding.comparisons import (
     superlative_degree,
 )
 from kille.grounding.generics import CUE, Generics
-from kille.grounding.knowledge import Knowledge, colour_named
+from kille.grounding.lessons_and_learners import Knowledge, colour_named
 from kille.grounding.measurements import Measurements
 from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, xkcd

@@ -15,7 +15,6 @@ from kille.dialogue.games.abstaining import ACKNOWLEDGING, EXEMPLIFYING
 from kille.dialogue.games.breaking_silence import BREAKING_SILENCE
 from kille.dialogue.games.checking import CHECKING
 from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
-from kille.dialogue.games.classifying import CLASSIFYING, STILL_ANSWERED
 from kille.dialogue.games.colouring import COLOURING
 from kille.dialogue.games.comparing import COMPARING, MEASURING
 from kille.dialogue.games.confirming import CONFIRMING
@@ -39,6 +38,7 @@ from kille.dialogue.games.generalising import GENERALISING
 from kille.dialogue.games.holding_floor import HOLDING_FLOOR
 from kille.dialogue.games.instructing import INSTRUCTING
 from kille.dialogue.games.interrupting import REPEATING, drop_unsaid
+from kille.dialogue.games.kinds_of_kinds import KINDS_OF_KINDS, STILL_ANSWERED
 from kille.dialogue.games.knowing import KNOWING
 from kille.dialogue.games.listening import GLANCED, LISTENING, SAID, SEEN
 from kille.dialogue.games.mishearing import MISHEARD
@@ -60,7 +60,7 @@ ANSWERING = first(
     CONTRADICTING,
     MEASURING,
     CRITICISING,
-    CLASSIFYING,
+    KINDS_OF_KINDS,
     ACKNOWLEDGING,
     CONFIRMING,
     CORRECTING,

@@ -17,8 +17,8 @@ from kille.dialogue.commitments import (
     opposite_lesson_keys,
     signs_for,
 )
-from kille.dialogue.games.classifying import plan_objection
 from kille.dialogue.games.distinguishing import say_where
+from kille.dialogue.games.kinds_of_kinds import plan_objection
 from kille.dialogue.meanings import DialogueTypes, denial, is_denial, set_to
 from kille.dialogue.moves import issue, plan, said_of
 from kille.dialogue.reference import thing_at

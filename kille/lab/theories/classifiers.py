@@ -14,7 +14,7 @@ from functools import partial
 from typing import Any
 
 from kille.dialogue.meanings import KINDS
-from kille.grounding.knowledge import Learners
+from kille.grounding.lessons_and_learners import Learners
 from kille.lab.study import Theory
 from kille.lab.theories.candidates import Make, candidates
 from kille.lab.theories.guest_learners import GuestObjects, GuestRelations

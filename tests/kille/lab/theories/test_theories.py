@@ -20,7 +20,7 @@ from kille.dialogue.games import TUTORING
 from kille.dialogue.meanings import noun, packaged_types, record_type, relation, theory
 from kille.dialogue.rules import bind
 from kille.dialogue.theory_files import redefine
-from kille.grounding.knowledge import Knowledge
+from kille.grounding.lessons_and_learners import Knowledge
 from kille.lab.errors import TheoryError
 from kille.lab.playing_dialogues import play
 from kille.lab.robots.simulated import SimulatedRobot

@@ -344,7 +344,7 @@ def _holds(lesson: Record) -> bool:
     return not is_denial(lesson.content)
 
 
-CLASSIFYING = first(
+KINDS_OF_KINDS = first(
     know_kind,
     refuse_same,
     need_kind,

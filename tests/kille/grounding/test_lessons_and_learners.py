@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.agent.attention import AttentiveSensor
-from kille.grounding.knowledge import Knowledge, LessonSource
+from kille.grounding.lessons_and_learners import Knowledge, LessonSource
 from kille.grounding.witness_functions import WitnessFunctions, thing_name
 from kille.memory import Memory, NoSuchLessonError, Turn, Word
 from kille.memory.lessons import By, Kind
