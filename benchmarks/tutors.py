@@ -39,6 +39,7 @@ from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import is_denial, noun
 from kille.dialogue.phrases import noun_phrase
 from kille.dialogue.reference import thing_at
+from kille.dialogue.word_lists import word_lists
 from kille.scene import Look
 from kille.sensors.sensor import SensorError
 from ttr import Record
@@ -89,6 +90,11 @@ ASKED_WHICH = re.compile(
 )
 ASKED_COLOUR = re.compile(rf"{ROBOT}(?:What colour is|Vilken färg har) ", re.I)
 ASKED_PLACE = re.compile(rf"{ROBOT}(Where is the \w+|Var är \w+)", re.I)
+SAID_OF_SIDE = re.compile(
+    r"(?:robot|roboten) (?:asked|said|frågade|sade): (?:Is |Är )?(?:the |den |det )?"
+    r"(left|right|vänstra|högra)(?: one| thing)? (?:is |är )?(?:an?|en|ett) (\w+)",
+    re.I,
+)
 SAID_KIND = re.compile(rf"{ROBOT}A (\w+) is a (\w+)", re.I)
 SAID_PLACE = re.compile(
     rf"{ROBOT}(?:The (?P<of>\w+) is )?(?P<place>behind|left of|till höger|vänster)\b"
@@ -99,6 +105,16 @@ SAID_QUALITY = re.compile(
     rf"{ROBOT}(?:the |är )?\w+ (?:is |är )?(?P<how>blå|röd|tjock|red)\??$",
     re.I,
 )
+KNOWN = re.compile(r"([^;]+?) (?:known|kända|känt|känd)\b")
+KNOWN_ALL = re.compile(r"^(?:all|both|alla|båda|everything|allt)\b")
+KNOWN_NONE = re.compile(r"^(?:nothing|inget|ingenting)\b")
+TAUGHT_NAMES = re.compile(r"(?:tutor (?:just )?taught|läraren lärde(?: just)?) ([^;]+)")
+TAUGHT_NAME = re.compile(
+    r"([\w -]+?) (?:for|för) (?:(it|den|det|saken)|(?:the |den |det )?([\w-]+))"
+    r"(?: one| thing| saken)?$"
+)
+LISTED = re.compile(r", | and | och ")
+LEFT, RIGHT = ("left", "vänstra"), ("right", "högra")
 SAID_BEFORE = re.compile(r"(?:läraren|tutor) (?:sade nyss|said): Det är \w+ (\w+)")
 TAUGHT_PLACE = re.compile(r"drop (\w+)\((\w+), (\w+)\)")
 ANYTHING = {"en": "cup", "sv": "kopp"}
@@ -106,6 +122,10 @@ WHERE = ("left", "right", "vänster", "höger")
 SINGULARS = {
     "en": {it + "s": it for it in ("cup", "mug", "spoon", "plate", "stone", "coin")},
     "sv": {"koppar": "kopp", "muggar": "mugg", "bollar": "boll", "böcker": "bok"},
+}
+SINGULAR_ENDINGS = {
+    "en": {"xes": "x", "ss": "ss", "s": ""},
+    "sv": {"or": "a", "ar": "", "er": ""},
 }
 PLURAL = {"en": re.compile(r"(?<!s)s$"), "sv": re.compile(r"[oa]r$")}
 TELLS = {
@@ -195,8 +215,42 @@ def things_in(scene: str, language: str) -> list[str]:
         known = names and names[-1] in ("scissors", "glasses", "glasögon")
         several = is_plural and not known
         name = singulars.get(names[-1], names[-1]) if names else ""
+        if times > 1:
+            name = singular(name, language)
         found += [name] * (3 if several else times) if names else []
     return found[:5] or [some]
+
+
+def singular(name: str, language: str) -> str:
+    """The word for one of the things that a plural in a scene names."""
+    for ending, one in SINGULAR_ENDINGS[language].items():
+        if name.endswith(ending):
+            return name.removesuffix(ending) + one
+    return name
+
+
+def known_words(scene: str, things: Sequence[str]) -> list[str] | None:
+    """The words that a scene says are known; None where it names none."""
+    found: list[str] = []
+    listed = KNOWN.findall(scene.partition(";")[2])
+    for words in listed:
+        if KNOWN_ALL.search(words.strip()):
+            found += things
+        elif not KNOWN_NONE.search(words.strip()):
+            found += [it.strip() for it in LISTED.split(words)]
+    return found if listed else None
+
+
+def taught_names(scene: str, things: Sequence[str]) -> Iterator[tuple[str, int]]:
+    """The words that a tutor taught in a scene, each with the place of its thing."""
+    for words in TAUGHT_NAMES.findall(scene):
+        for one in LISTED.split(words):
+            if not (told := TAUGHT_NAME.match(one.strip())):
+                continue
+            word, it, which = told.groups()
+            like = [n for n, thing in enumerate(things) if which and which in thing]
+            place = len(things) - 1 if which in RIGHT else (like or [0])[0]
+            yield word, 0 if it or which in LEFT else place
 
 
 def toy_names(things: Sequence[str]) -> list[str]:
@@ -233,13 +287,27 @@ def set_up(robot: Agent, line: Line, language: str) -> None:
 
     toys = toy_names(things)
     gap = 0.26 if "shoe-box" in toys else 0.18
-    claim = CLAIMED.search(line.scene)
+    claim, side = CLAIMED.search(line.scene), SAID_OF_SIDE.search(line.scene)
+    known_now = known_words(line.scene, things)
+    for word in known_now or ():
+        if word not in things and not is_quality(word, language):
+            robot.do(f"show {toys[0] if toys else TOYS[0]}")
+            tell("name", words.with_article(word))
+            robot.do(f"remove {toys[0] if toys else TOYS[0]}")
     for place, toy in enumerate(toys):
         across = gap * (place - (len(toys) - 1) / 2)
         with suppress(SensorError):
             robot.do(f"place {toy} at {across:.2f} 0.0")
+    pointed = POINTED.search(line.scene)
+    at = place_pointed(pointed[1], things) if pointed and pointed[1] else 0
     if claim:
-        tell("name", words.with_article(claim[1]))
+        name = tells["name"].format(words.with_article(claim[1]))
+        robot.hear(f"#{number_at(robot, at)} {name}" if len(things) > 1 else name)
+        robot.do("restart")
+    if side:
+        at = len(things) - 1 if side[1].lower() in RIGHT else 0
+        name = tells["name"].format(words.with_article(side[2]))
+        robot.hear(f"#{number_at(robot, at)} {name}")
         robot.do("restart")
     asked = ASKED_PLACE.search(line.scene)
     known = re.search(
@@ -258,12 +326,13 @@ def set_up(robot: Agent, line: Line, language: str) -> None:
     ):
         for place, thing in enumerate(things):
             name = tells["name"].format(words.with_article(thing))
-            robot.hear(f"#{number_at(robot, place)} {name}")
-    pointed = POINTED.search(line.scene)
+            if known_now is None or thing in known_now:
+                robot.hear(f"#{number_at(robot, place)} {name}")
+    for word, place in taught_names(line.scene, things):
+        name = tells["name"].format(words.with_article(word))
+        robot.hear(f"#{number_at(robot, place)} {name}")
     if pointed and pointed[1]:
-        stem = pointed[1][:4]
-        places = [i for i, it in enumerate(things) if it.startswith(stem)]
-        robot.do(f"point {number_at(robot, places[0] if places else 0)}")
+        robot.do(f"point {number_at(robot, at)}")
     if before := SAID_BEFORE.search(line.scene):
         tell("name", words.with_article(before[1]))
     if which := ASKED_WHICH.search(line.scene):
@@ -289,8 +358,22 @@ def set_up(robot: Agent, line: Line, language: str) -> None:
         tell("ask colour")
     if "pointed out" in line.scene:
         tell("ask find", the(things[0]))
-    if claim or ASKED.search(line.scene):
+    if side:
+        robot.hear(f"#{number_at(robot, at)} {tells['ask name']}")
+    elif claim or ASKED.search(line.scene):
         tell("ask name")
+
+
+def is_quality(word: str, language: str) -> bool:
+    """Whether a word says how things are, and is known from the beginning."""
+    return word in word_lists(language).qualities
+
+
+def place_pointed(word: str, things: Sequence[str]) -> int:
+    """The place of the thing to which a tutor points in a scene, by its word."""
+    if word in (*LEFT, *RIGHT):
+        return len(things) - 1 if word in RIGHT else 0
+    return next((i for i, it in enumerate(things) if it.startswith(word[:4])), 0)
 
 
 def number_at(robot: Agent, place: int) -> int:
