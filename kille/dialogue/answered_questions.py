@@ -36,6 +36,19 @@ ANSWERING_ACTS: Mapping[str, frozenset[str]] = {
 """The questions, and what the robot says to them; else it was asked what a thing is."""
 
 
+NAMING_ACTS = frozenset(
+    {"assert_name", "hedge_name", "guess_name", "doubt_name", "admit_name", "ask_which"}
+)
+"""What the robot says where it was asked what a thing is."""
+
+
+def last_act(s: Record) -> str:
+    """The name of what the robot has said last; nothing at first."""
+    for it in s.private.last[-1:]:
+        return str(predicate_at(it, "e").name)
+    return ""
+
+
 def last_question(s: Record) -> str:
     """The name of the type of the question that the robot has answered last.
 
@@ -43,9 +56,7 @@ def last_question(s: Record) -> str:
     >>> last_question(initial())
     'AskName'
     """
-    for it in s.private.last[-1:]:
-        act = predicate_at(it, "e").name
-        return next(
-            (asked for asked, them in ANSWERING_ACTS.items() if act in them), "AskName"
-        )
-    return "AskName"
+    act = last_act(s)
+    return next(
+        (asked for asked, them in ANSWERING_ACTS.items() if act in them), "AskName"
+    )

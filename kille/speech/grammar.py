@@ -52,6 +52,7 @@ UNHEARD = frozenset(
         "ask_all",
         "ask_also",
         "ask_between",
+        "ask_side",
         "ask_taught",
         "placed_between",
         "between",

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from kille.dialogue.games.continuing import NAMED_ALSO
 from kille.dialogue.games.referring import about, differing_things, plan_question
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan
@@ -131,6 +132,7 @@ CLARIFYING = first(
     ask_once_more,
     ask_yes_to_which,
     seq(drop_question, maybe(wonder_at_mention)),
+    NAMED_ALSO,
     wonder_at_mention,
 )
 MENTIONED = wonder_at_mention

@@ -8,7 +8,7 @@ does not decide.
 from __future__ import annotations
 
 from kille.dialogue.commitments import kind_of
-from kille.dialogue.games.placing import AMID, name_thing
+from kille.dialogue.games.placing import AMID, SIDE, name_thing
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -82,9 +82,9 @@ def explain_measure(s: Record, *, types: DialogueTypes) -> Record | None:
     if not all(isinstance(said[it], Singleton) for it in ("content", "signs")):
         return None  # a rule of one's own has left open what it says
     told = value_at(said, "content")
-    if not isinstance(told, RecordType) or not {SCALE, AMID} & {*told.labels}:
+    if not isinstance(told, RecordType) or not {SCALE, AMID, SIDE} & {*told.labels}:
         return None
-    compared = () if AMID in told else ("target", "landmark")
+    compared = ("target", "landmark") if SCALE in told else ()
     things = [x for it in compared if (x := thing_at(told, it)) in s.view.things]
     here = told.get("look") == types["Look"] @ s.view.look
     return plan(

@@ -1,19 +1,22 @@
 """And this one? The tutor asks of another thing what was asked last.
 
 Which question that is, the robot's last answer shows. The tutor's move becomes that
-question, about the thing that they name now, and the games answer it.
+question, about the thing that they name now, and the games answer it. So it is where
+they only name a thing: "The other one." And where the robot has just learned something
+of a thing, that may be meant of the other one, too: "This one, too." It asks.
 
 Source: Ginzburg 2012 (fragments are resolved on the question under discussion).
 """
 
 from __future__ import annotations
 
-from kille.dialogue.answered_questions import last_question
+from kille.dialogue.answered_questions import NAMING_ACTS, last_act, last_question
 from kille.dialogue.commitments import affirmation, kind_of
 from kille.dialogue.meanings import DialogueTypes, predicate_at, set_to, value_at
 from kille.dialogue.moves import content_of, words_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
+from kille.dialogue.word_lists import PARTIAL
 from ttr import Model, Record, RecordType, RecType, rectype, replace
 from ttr.updates import first
 
@@ -26,6 +29,49 @@ CLAIM = ("look", "frame", "scale", "landmark", "c", "a", "rel")
 @rule(answers="AskAlso")
 def ask_same(s: Record, *, model: Model, types: DialogueTypes) -> Update:
     """The tutor asks the same of another thing: it is heard as that question."""
+    return _as_question(s, model, types=types)
+
+
+@rule(answers="Mention")
+def ask_same_of_named(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> Update | None:
+    """After an answer the tutor names another thing: the same is asked of that one."""
+    act = last_act(s)
+    if act not in NAMING_ACTS and last_question(s) == "AskName":
+        return None
+    return _as_question(s, model, types=types)
+
+
+@rule(answers="Mention")
+def teach_same(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
+    """After a lesson the tutor names another thing: it asks if it is the same."""
+    if last_act(s) not in _LEARNING:
+        return None
+    learned = value_at(s.private.last[-1], "content")
+    label = kind_of(learned) if isinstance(learned, RecordType) else None
+    if label is None:
+        return None
+    said, content = s.shared.latest, content_of(s)
+    claim = _claim_of(s, content, types=types)
+    lesson = set_to(
+        types.move_type("Heard", _LEARNING[last_act(s)]),
+        text=types["Text"] @ said.text,
+        signs=types.record_type("Heard")["signs"]
+        @ tuple(dict.fromkeys((*said.signs, *words_in(_words_at_hand(s), claim)))),
+        content=RecType @ claim,
+        doubt=types["Text"] @ PARTIAL,
+    )
+    move, model = model.create(lesson)
+    return replace(s, {"shared.latest": move}), model
+
+
+_LEARNING = {"learned": "Instruct", "learned_quality": "Describe"}
+"""What the robot says of a lesson that may be given again, and that lesson."""
+
+
+def _as_question(s: Record, model: Model, *, types: DialogueTypes) -> Update:
+    """The tutor's move as the question that the robot answered last."""
     said = s.shared.latest
     asked, content = last_question(s), content_of(s)
     if asked == "AskWhether":
@@ -62,3 +108,5 @@ def _words_at_hand(s: Record) -> list[Record]:
 
 
 CONTINUING = first(ask_same)
+NAMED_ALSO = first(teach_same, ask_same_of_named)
+"""What takes a thing that is only named as the next one of which the same is so."""

@@ -10,9 +10,16 @@ from kille.dialogue.beliefs import (
     relations_of,
     thinks,
 )
-from kille.dialogue.meanings import DialogueTypes, mentions, merge_of, set_to
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    mentions,
+    merge_of,
+    set_to,
+    value_at,
+)
 from kille.dialogue.moves import content_of, nouns_said, placement, plan
 from kille.dialogue.reference import PhraseJudge, phrase_at, thing_at
+from kille.dialogue.reference.salience import choose
 from kille.dialogue.rules import rule
 from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Record, RecordType, record, rectype, replace
@@ -191,9 +198,43 @@ def _degree_between(
     return judge.degree(types["between"], *found[x].things, s.view.look)
 
 
+@rule(answers="AskSide")
+def tell_side(s: Record, *, model: Model, types: DialogueTypes) -> Record:
+    """The tutor asks if a thing is on the left, say: it tells if it sees it so.
+
+    On the left is the first thing of the row, on the right the last, as the viewer sees
+    them. Of a single thing it does not know.
+    """
+    content, signs = content_of(s), s.shared.latest.signs
+    x = str(thing_at(content, "target"))
+    if len(s.view.things) == 1:
+        return plan(s, "AdmitWhether", types=types)
+    target, called = name_thing(s, model, phrase_at(content, "target"), x)
+    asked, told = value_at(content, SIDE), set_to(content, target=target)
+    sides = {
+        side: x in choose(s, model, types[pred], s.view.things, types=types)
+        for side, pred in _CHOOSES.items()
+        if side != "at_middle" or len(s.view.things) > _PAIR
+    }
+    other = next((side for side, is_there in sides.items() if is_there), None)
+    act = "SaySide" if sides.get(asked) else "SayOtherSide" if other else "DenySide"
+    if act == "SayOtherSide":
+        told = set_to(told, side=types["Text"] @ other)
+    return plan(s, act, told, signs=[*signs, *called], types=types)
+
+
 AMID = "amid"
 """The label of the phrase that says between which things a thing is."""
 
-PLACING = first(say_place, need_place)
+SIDE = "side"
+"""The label of the value that says on which side a thing is."""
+
+_PAIR = 2
+"""So many things in a row have none in the middle."""
+
+_CHOOSES = {"at_left": "leftmost", "at_right": "rightmost", "at_middle": "middle"}
+"""Which of the things in a row is on a side, by the name of that side."""
+
+PLACING = first(say_place, need_place, tell_side)
 BETWEEN = first(miss_between, tell_between)
 """What answers whether a thing is between two others."""

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from kille.dialogue.parsing import Grammar
 from kille.dialogue.robust_reading.clause_words import Word
+from kille.dialogue.robust_reading.island_kinds import FALLBACK
 from kille.dialogue.robust_reading.islands import Island, Weigh, find_islands
 from kille.dialogue.word_lists import WordLists
 
@@ -102,8 +103,7 @@ def _covers_from(
                 APART * island.weight * it.weight,
             )
             for it in rest[island.after]
-            if not it.islands
-            or island.rule in follows.get(it.islands[0].rule, (island.rule,))
+            if not it.islands or _may_precede(island, it.islands[0], follows)
         ]
     best: dict[object, Cover] = {}
     for it in found:
@@ -116,3 +116,10 @@ def _covers_from(
         *nlargest(COVERS, free, key=lambda it: it.weight),
         *nlargest(BOUND, bound, key=lambda it: it.weight),
     ]
+
+
+def _may_precede(island: Island, other: Island, follows: Follows) -> bool:
+    """Whether an island may stand before another: a remark is all that is said."""
+    if {island.rule, other.rule} & FALLBACK:
+        return False
+    return island.rule in follows.get(other.rule, (island.rule,))

@@ -18,6 +18,7 @@ INDIRECT = frozenset(
         "placed",
         "identity",
         "quality_alone",
+        "side_named",
     }
 )
 """The claims that are always asked about."""

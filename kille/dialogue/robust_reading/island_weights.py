@@ -56,6 +56,12 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "about_where":
             known = all(it in situation.known for it in _new_words(move))
             return 0.9 if known or len(parts(move)) > 1 else 0.0
+        case "side_told":
+            known = all(_is_known(it, situation) for it in _new_words(move))
+            return 2.0 if known else 0.0
+        case "side_named":
+            known = all(_is_known(it, situation) for it in _new_words(move))
+            return 0.0 if known else 0.9
         case "instruct_some" | "ask_deed" | "count_sort":
             return 0.5
         case "okay":
@@ -74,6 +80,11 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "instruct" if len(parts(move)) == 1:
             return 0.6
     return 1.0
+
+
+def _is_known(word: str, situation: Situation) -> bool:
+    """Whether a word is known, or is one with an ending: "koppen"."""
+    return any(word.startswith(it) for it in situation.known if it[:2] == word[:2])
 
 
 def _new_words(tree: Tree) -> Iterable[str]:

@@ -16,8 +16,17 @@ def are_rivals(cover: Cover, best: Cover) -> bool:
     """Whether a cover is another way to take a sentence as a move of the same sort."""
     if len(cover.islands) > 1 or cover.weight < RIVAL * best.weight:
         return False
+    if _is_part(cover, best):
+        return False
     one, other = cover.islands[0].rule, best.islands[0].rule
     return not {one, other} & FALLBACK and (one in CLAIMS) == (other in CLAIMS)
+
+
+def _is_part(cover: Cover, whole: Cover) -> bool:
+    """Whether a cover says less in the same way: "Here comes a teddy", of a bear."""
+    one, other = cover.islands[0], whole.islands[0]
+    within = other.first <= one.first and one.after <= other.after
+    return one.rule == other.rule and one != other and within
 
 
 def with_rivals(

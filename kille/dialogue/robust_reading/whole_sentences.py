@@ -35,6 +35,7 @@ def is_weak(it: Sentence, situation: Situation, lists: WordLists) -> bool:
     return all(
         "doubt" in one.type
         or _breaks_off(one)
+        or _spans_break(one)
         or _says_kind(one, situation, lists)
         or any(_is_odd(sign, situation.qualities, lists) for sign in one.signs)
         for one in it.readings

@@ -92,6 +92,7 @@ CRITERION_SLOTS = {
 SAID_BY_TYPE = {
     "cue": ("ByColour", "ByShape", "BySize", "ByTexture", "ByPattern", "ByDetails"),
     "matters": ("Matters", "MattersNot"),
+    "side": ("AtLeft", "AtRight", "AtMiddle"),
     "often": ("Always", "Generally", "Usually", "Often", "Sometimes", "Never"),
 }
 """Slots that a type of the theory fills: one of these."""
