@@ -50,8 +50,14 @@ def unhurried(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sensor, "_SILENCE", 60.0)
 
 
-@pytest.fixture(params=["inside", "libusb"])
+@pytest.fixture(params=["inside", pytest.param("libusb", marks=pytest.mark.deep)])
 def wired(request: pytest.FixtureRequest) -> Wiring:
+    """Plugs Kinects into a bus whose clock runs; through libusb in deep runs."""
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(params=["inside", "libusb"])
+def wired_both(request: pytest.FixtureRequest) -> Wiring:
     """Plugs Kinects into a bus whose clock runs; once for each transport."""
     return request.getfixturevalue(request.param)
 

@@ -50,8 +50,8 @@ def one_line(error: pytest.ExceptionInfo) -> str:
     return text
 
 
-def test_frames_are_what_is_shown(wired: Callable) -> None:
-    with opened(wired, Kinect(SHOW)) as sensor:
+def test_frames_are_what_is_shown(wired_both: Callable) -> None:
+    with opened(wired_both, Kinect(SHOW)) as sensor:
         captures = [sensor.capture() for _ in range(6)]
     assert all(map(shown, captures))
     steps = np.diff([it.ticks_depth for it in captures]) % 2**32
@@ -83,10 +83,10 @@ def test_wrong_replies_are_refused(wired: Callable, reply: Reply) -> None:
     one_line(error)
 
 
-def test_late_replies_are_waited_for(wired: Callable) -> None:
+def test_late_replies_are_waited_for(wired_both: Callable) -> None:
     kinect = Kinect(SHOW)
     kinect.faults = Faults(reply=Reply.LATE)
-    with opened(wired, kinect) as sensor:
+    with opened(wired_both, kinect) as sensor:
         assert shown(sensor.capture())
 
 
@@ -134,9 +134,9 @@ def test_newer_models_see_but_do_not_tilt(wired: Callable, model: Model) -> None
     one_line(error)
 
 
-def test_the_head_turns(wired: Callable) -> None:
+def test_the_head_turns(wired_both: Callable) -> None:
     kinect = Kinect(SHOW)
-    with opened(wired, kinect) as sensor:
+    with opened(wired_both, kinect) as sensor:
         sensor.tilt(-10)
         deadline = time.monotonic() + 60
         while sensor.posture().degrees != -10 and time.monotonic() < deadline:
@@ -207,9 +207,9 @@ class Watched:
         return self._bus.open(device, alternate)
 
 
-def test_frames_go_on_when_it_is_plugged_in_again(wired: Callable) -> None:
+def test_frames_go_on_when_it_is_plugged_in_again(wired_both: Callable) -> None:
     kinect = Kinect(SHOW)
-    wire = wired(kinect)
+    wire = wired_both(kinect)
     bus = Watched(wire.bus)
     with closing(KinectSensor("kinect", bus)) as sensor:
         assert shown(sensor.capture())

@@ -84,9 +84,9 @@ def start_depth(connection: Connection) -> None:
         order(connection, 0x03, register, value)
 
 
-def test_devices_tell_who_and_where_they_are(wired: Callable) -> None:
+def test_devices_tell_who_and_where_they_are(wired_both: Callable) -> None:
     first, second = Kinect(serial="B0001"), Kinect(serial="B0002")
-    found = wired(first, second).bus.devices()
+    found = wired_both(first, second).bus.devices()
     assert [it.serial for it in found if it.product == 0x02AE] == ["B0001", "B0002"]
     assert [it.product for it in found] == 2 * [0x02B0, 0x02AD, 0x02AE]
     assert len({it.place for it in found}) == 6
@@ -115,8 +115,8 @@ def test_what_has_no_camera_shows_none(wired: Callable, model: Model) -> None:
     assert not any(it.product in CAMERAS for it in found)
 
 
-def test_a_command_is_answered(wired: Callable) -> None:
-    wire = wired(Kinect())
+def test_a_command_is_answered(wired_both: Callable) -> None:
+    wire = wired_both(Kinect())
     connection = wire.bus.open(camera(wire.bus.devices()), 0)
     assert order(connection, 0x03, 0x14, 0x1E) == bytes.fromhex("52420100030007000000")
     read = order(connection, 0x02, 0x14)
@@ -126,9 +126,9 @@ def test_a_command_is_answered(wired: Callable) -> None:
     connection.close()
 
 
-def test_packets_come_whole_and_in_order(wired: Callable) -> None:
+def test_packets_come_whole_and_in_order(wired_both: Callable) -> None:
     kinect = Kinect()
-    wire = wired(kinect)
+    wire = wired_both(kinect)
     connection = wire.bus.open(camera(wire.bus.devices()), 0)
     packets = Packets()
     stream = connection.stream(DEPTH, PACKET_SIZE, packets)
@@ -242,8 +242,8 @@ def test_what_cannot_be_had_says_why(
     wire.bus.open(camera(wire.bus.devices()), 0).close()
 
 
-def test_one_camera_is_had_by_one_at_a_time(wired: Callable) -> None:
-    wire = wired(Kinect())
+def test_one_camera_is_had_by_one_at_a_time(wired_both: Callable) -> None:
+    wire = wired_both(Kinect())
     device = camera(wire.bus.devices())
     connection = wire.bus.open(device, 0)
     with pytest.raises(DeviceBusyError):
@@ -252,9 +252,9 @@ def test_one_camera_is_had_by_one_at_a_time(wired: Callable) -> None:
     wire.bus.open(device, 0).close()
 
 
-def test_a_refused_request_is_stalled(wired: Callable) -> None:
+def test_a_refused_request_is_stalled(wired_both: Callable) -> None:
     kinect = Kinect()
-    wire = wired(kinect)
+    wire = wired_both(kinect)
     connection = wire.bus.open(camera(wire.bus.devices()), 0)
     kinect.faults = Faults(stalled=True)
     with pytest.raises(StalledError):
@@ -264,9 +264,9 @@ def test_a_refused_request_is_stalled(wired: Callable) -> None:
     connection.close()
 
 
-def test_failed_packets_have_no_length(wired: Callable) -> None:
+def test_failed_packets_have_no_length(wired_both: Callable) -> None:
     kinect = Kinect()
-    wire = wired(kinect)
+    wire = wired_both(kinect)
     connection = wire.bus.open(camera(wire.bus.devices()), 0)
     kinect.faults = Faults(broken=True)
     packets = Packets()

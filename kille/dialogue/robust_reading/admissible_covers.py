@@ -222,6 +222,8 @@ def _are_as_many(place: _Place, situation: Situation) -> bool:
 def _may_answer_stand(place: _Place, situation: Situation) -> bool | None:
     """Whether a yes or no may be one; None where its clause decides."""
     is_no, is_question = place.island.rule == "deny", place.sentence.is_question
+    if is_no and _runs_on(place):
+        return False  # "No, it is not a can."
     if is_no and is_taken_up(place.island, place.cover) and not is_question:
         return place.begins
     if place.other_claims or is_question:
@@ -233,6 +235,13 @@ def _may_answer_stand(place: _Place, situation: Situation) -> bool | None:
     if place.cover.missed:
         return situation.asks_whether and place.begins
     return None
+
+
+def _runs_on(place: _Place) -> bool:
+    """Whether the next island goes on in the same clause, without any word between."""
+    words, after = place.sentence.words, place.island.after
+    following = any(it.first == after for it in place.cover.islands)
+    return following and words[after].clause == place.inside[-1].clause
 
 
 def _may_name_stand(place: _Place, situation: Situation) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.strategies import TURNS, strategy
@@ -165,7 +165,8 @@ def test_while_the_floor_is_kept_no_turn_is_taken(scene: Any, happened: Any) -> 
         assert len(done) <= 1
 
 
-@given(st.lists(events, max_size=12))
+@settings(max_examples=max(10, settings().max_examples // 3))
+@given(st.lists(events, max_size=8))
 def test_without_a_change_nothing_is_said_twice(scene: Any, happened: Any) -> None:
     robot = Watcher(scene)
     for event in happened:
@@ -175,7 +176,7 @@ def test_without_a_change_nothing_is_said_twice(scene: Any, happened: Any) -> No
             came, went, seconds = event
             robot.watch(came=came, went=went, silence=seconds, still=seconds)
     said: list[str] = []
-    for _ in range(12):
+    for _ in range(8):
         robot.hear("Thank you.")
         done = robot.watch(silence=99.0, still=99.0)
         said += [robot.scene.game.say(it) for it in robot.scene.turns[-1].said if done]

@@ -80,7 +80,7 @@ def test_what_was_taught_on_another_day_is_unlearned_by_name_only():
         properties=PROPERTIES,
         roles=roles_in("en"),
         turns=12,
-        examples=40,
+        examples=max(20, EXAMPLES // 3),
         seed=18 + ROBOTS.index(robot),
     )
     assert suite.played().explain_failure() == ""
