@@ -15,6 +15,7 @@ INDIRECT = frozenset(
         "alone",
         "presumed",
         "meant",
+        "meant_so",
         "placed",
         "identity",
         "quality_alone",

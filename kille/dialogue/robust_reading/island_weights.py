@@ -72,6 +72,9 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "generalise":
             hows = _words_of(move, "property")
             return 1.0 if all(_says_how(it, situation, lists) for it in hows) else 0.5
+        case "meant" | "meant_so":
+            how = all(_says_how(it, situation, lists) for it in _new_words(move))
+            return 1.0 if how == (rule == "meant_so") else 0.2
         case "choice":
             return 2.0
         case "choice_colour":

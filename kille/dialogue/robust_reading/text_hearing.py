@@ -53,6 +53,9 @@ TEACHING = NAMING | {"describe", "instruct_several", "relate"}
 """Those by which a tutor says what a thing is, or how, or where."""
 
 
+_TAKING_BACK = frozenset({"correct", "reject"})
+"""The lessons that take back what was said before in the same text."""
+
 _SEVERAL = 2
 """Things in view of which it may not be clear which one is meant."""
 
@@ -165,6 +168,10 @@ def hear_in_parts(
             continue
         if not found.moves:
             missed.append((said, found))
+        if (not moves or found.is_remark) and _says_no(said, lists):
+            lessons = [it for it in done if _teaches(it)]
+            asked += [doubt_lesson(it, PARTIAL, types=types) for it in lessons]
+            done = [it for it in done if not _teaches(it)]
         if any(map(_says_name, moves)):
             if situation.asks_whether and any(act_of(it) in DOUBTING for it in done):
                 moves = [correct_lesson(it, types=types) for it in moves]
@@ -195,6 +202,13 @@ def _turns_away(
         forms = plain_text(lists.write_out(said.text)).split()
         return not lists.negations.isdisjoint(forms)
     return not situation.asks_which and any(act_of(it) == "mention" for it in moves)
+
+
+def _says_no(said: Sentence, lists: WordLists) -> bool:
+    """Whether a sentence begins with a no: "Hm, no, they would say bench."."""
+    forms = plain_text(lists.write_out(said.text)).split()
+    meant = [it for it in forms if it not in lists.fillers]
+    return bool(meant) and meant[0] in lists.negations
 
 
 def _is_about_unclear_thing(
@@ -232,8 +246,10 @@ def _settle_lessons(
     """What is done, and what is asked about.
 
     A second word for a thing is asked about together with the first; beside a lesson
-    that is learned, no other is asked about.
+    that is learned, no other is asked about, unless it takes that lesson back.
     """
+    if any(act_of(it) in _TAKING_BACK for it in asked):
+        done = [it for it in done if not _teaches(it)]
     if any(it.adds for it in asked):
         lessons = [
             doubt_lesson(it, PARTIAL, types=types) for it in done if _teaches(it)
