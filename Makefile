@@ -13,7 +13,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo talk serve test deep docs docs-serve playground bench mutants oracles clean
+.PHONY: help demo talk serve page test deep docs docs-serve playground bench mutants oracles clean
 
 help: ## show these lines
 	@sed -n 's/^\([a-z-]*\):[^#]*## /\1\t/p' Makefile | expand -t 12
@@ -26,6 +26,7 @@ talk: $(INSTALLED) ## teach the robot yourself
 
 serve: $(INSTALLED) ## teach the robot in a browser
 	@$(BIN)/kille serve --open
+page: serve
 
 # Programs that tests start by the hundred need not compile what they import.
 test deep: export PYTHONDONTWRITEBYTECODE :=
