@@ -126,14 +126,11 @@ def sayable(source: str, unsaid: Iterable[str] = ()) -> State:
     from lark import Lark
 
     read = Lark(source, parser=None, lexer="basic")
-    terminals = {
-        it.name: _terminal_network(it.pattern.to_regexp(), frozenset(unsaid))
-        for it in read.terminals
-    }
+    patterns = {it.name: it.pattern.to_regexp() for it in read.terminals}
     rules: dict[str, list[Sequence[Symbol]]] = {}
     for rule in read.rules:
         rules.setdefault(str(rule.origin.name), []).append(rule.expansion)
-    return _Unfolding(rules, terminals).start()
+    return _Unfolding(rules, patterns, frozenset(unsaid)).start()
 
 
 def _terminal_network(pattern: str, unsaid: frozenset[str]) -> State:
@@ -160,9 +157,11 @@ class _Unfolding:
     def __init__(
         self,
         rules: Mapping[str, list[Sequence[Symbol]]],
-        terminals: Mapping[str, State],
+        patterns: Mapping[str, str],
+        unsaid: frozenset[str],
     ) -> None:
-        self._rules, self._terminals = rules, terminals
+        self._rules, self._patterns, self._unsaid = rules, patterns, unsaid
+        self._terminals: dict[str, State] = {}
         self._known: dict[tuple[str, tuple[str, ...], str], State] = {}
         self._endless = {name for name in rules if name in self._within(name)}
 
@@ -201,8 +200,15 @@ class _Unfolding:
 
     def _symbol(self, symbol: Symbol, around: tuple[str, ...], teaching: str) -> State:
         if symbol.is_term:
-            return self._terminals[symbol.name]
+            return self._terminal(symbol.name)
         return self._rule(str(symbol.name), around, teaching)
+
+    def _terminal(self, name: str) -> State:
+        """What a terminal finds; worked out only where it stands in a rule heard."""
+        if name not in self._terminals:
+            pattern = self._patterns[name]
+            self._terminals[name] = _terminal_network(pattern, self._unsaid)
+        return self._terminals[name]
 
 
 def _teaching_rule(name: str, around: str) -> str:

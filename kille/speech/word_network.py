@@ -160,11 +160,15 @@ def fuse_words(state: State, words: Mapping[tuple[str, str], str]) -> State:
     ["it isn't"]
     """
     known: dict[State, State] = {}
+    firsts = {first for first, _ in words}
 
     def at(here: State) -> State:
         if here not in known:
-            ways = [_state(here.ends, {})]
+            apart = {word: at(it) for word, it in here.after if word not in firsts}
+            ways = [_state(here.ends, apart)]
             for word, it in here.after:
+                if word not in firsts:
+                    continue
                 one = {w: at(end) for w, end in _fusions(word, it, words)}
                 rest = at(_state(it.ends, _unfused_words(word, it, words)))
                 ways.append(_state(False, {**one, word: rest}))

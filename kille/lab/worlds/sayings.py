@@ -261,6 +261,8 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
             return _comparisons(talk)
         case ["amid", "the_target"]:
             return _things_between(talk)
+        case ["side", "the_target"]:
+            return _things_at_sides(talk)
         case ["word"]:
             return map(word_matter, talk.words.all)
         case ["counted"] | ["a_counted"]:
@@ -336,6 +338,13 @@ def _things_between(talk: WorldTalk) -> Iterator[Matter]:
         signs = tuple(sign for it in flanks for sign in it.signs)
         amid = BetweenPhrase("", signs, flanks)
         yield Matter("", (("target", talk.colour_phrase(x)), ("amid", amid)))
+
+
+def _things_at_sides(talk: WorldTalk) -> Iterator[Matter]:
+    """That a thing is on the left, on the right or in the middle."""
+    for x in talk.world.in_view:
+        for side in ("AtLeft", "AtRight", "AtMiddle"):
+            yield Matter(side, (("target", talk.colour_phrase(x)),))
 
 
 def _all_facing(talk: WorldTalk) -> Iterator[Matter]:
