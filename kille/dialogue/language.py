@@ -312,7 +312,8 @@ class Reader:
                 judged = self._doubt(signs, content, text)
                 doubt = judged if judged != PARTIAL else ""
             if any(it.rule == "material" for it in parts(move)):
-                doubt = partly = PARTIAL if doubt == DOUBTFUL else doubt
+                doubt = PARTIAL if doubt == DOUBTFUL else doubt
+                doubt, partly = ("", partly) if partly == SAYING else (doubt, doubt)
             doubt = SAYING if is_saying else doubt
             doubt = REMARK if doubt == DOUBTFUL and partly else doubt or partly
             if doubt == QUALIFIED:

@@ -169,6 +169,8 @@ def _leaves_enough(place: _Place) -> bool:
         return False  # "Not all mugs are cups."
     if (rule in STRICT and cover.missed) or (rule in WHOLE and place.near):
         return False
+    if rule.startswith("forget_") and _runs_on(place):
+        return False  # "Forget that it is made of wood."
     if place.inside[-1].joins:
         return False
     if rule in STRICT and any(it.rule == rule for it in place.earlier):

@@ -87,7 +87,7 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
 
 def _is_known(word: str, situation: Situation) -> bool:
     """Whether a word is known, or is one with an ending: "koppen"."""
-    return any(word.startswith(it) for it in situation.known if it[:2] == word[:2])
+    return word.startswith(tuple(situation.known))
 
 
 def _new_words(tree: Tree) -> Iterable[str]:

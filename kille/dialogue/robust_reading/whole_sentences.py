@@ -88,10 +88,18 @@ def are_parts_better(
         return False
     if is_all and any(_spans_break(it) for it in whole.readings):
         return True
+    if whole.readings and all(_has_closed_word(it, lists) for it in whole.readings):
+        return True
     fills = not lists.fillers.isdisjoint(plain_text(whole.text).split())
     fills = fills or lists.write_out(whole.text) != whole.text
     doubted = any("doubt" in it.readings[0].type for it in moves)
     return _is_mention(whole) or fills or (is_all and not doubted)
+
+
+def _has_closed_word(reading: Utterance, lists: WordLists) -> bool:
+    """Whether a noun has a part that is none of a noun's: "a ladle then"."""
+    nouns = (it.form.split() for it in reading.signs if it.kind == "noun")
+    return any(lists.is_closed(part) for parts in nouns for part in parts)
 
 
 def _spans_break(reading: Utterance) -> bool:
