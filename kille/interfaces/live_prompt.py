@@ -55,13 +55,16 @@ def can_watch() -> bool:
 
 
 @contextmanager
-def keys_at_once() -> Iterator[None]:
-    """Have keys given one by one, without an echo; Ctrl-C interrupts as ever."""
+def keys_at_once(*, echo: bool = False) -> Iterator[None]:
+    """Have keys given one by one, with an echo or without; Ctrl-C interrupts as ever.
+
+    readline echoes what it reads only where the terminal does so before it.
+    """
     import termios
 
     before = termios.tcgetattr(sys.stdin)
     now = list(before)
-    now[3] &= ~(termios.ICANON | termios.ECHO)
+    now[3] &= ~(termios.ICANON if echo else termios.ICANON | termios.ECHO)
     termios.tcsetattr(sys.stdin, termios.TCSADRAIN, now)
     try:
         yield

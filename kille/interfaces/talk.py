@@ -6,7 +6,7 @@ import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from functools import partial
 from pathlib import Path
 from threading import Thread
@@ -347,8 +347,11 @@ def _line_editing() -> Iterator[None]:
         readline.read_history_file(history)
     except OSError:
         readline.clear_history()
+    # What is typed while the robot works waits for the next line as it is: a terminal
+    # that reads whole lines by then would turn Ctrl-D into a key that does nothing.
     try:
-        yield
+        with keys_at_once(echo=True) if can_watch() else nullcontext():
+            yield
     finally:
         readline.set_history_length(1000)
         try:

@@ -423,9 +423,22 @@ def test_enter_while_it_speaks_only_stops_it_and_go_on_has_it_say_the_rest(
         screen.type("\r")
         screen.wait_for("(cut off after '")
         screen.wait_for("U> ")
-        time.sleep(1.0)  # the end of speaking draws the prompt anew, and drops a key
         screen.type("\x04")
         assert screen.code() == 0
+
+
+@pytest.mark.slow
+def test_ctrl_d_while_it_works_ends_the_talk_when_it_has_answered() -> None:
+    with at_terminal("talk", "--sensor", EMPTY) as screen:
+        before = screen.settings()
+        screen.wait_for("U> ")
+        screen.type("@ show cup\r")
+        screen.wait_for("show cup\r\n")
+        time.sleep(0.02)  # the line has been taken, and the robot looks
+        screen.type("\x04")
+        screen.wait_for("One thing is in view")
+        assert screen.code() == 0
+        assert screen.settings() == before
 
 
 def test_ctrl_c_at_a_terminal_loses_nothing(memory: Path) -> None:
