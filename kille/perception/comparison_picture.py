@@ -59,10 +59,10 @@ def comparison_picture(
     There are one or two sides: what is seen now, and what the lesson showed.
     """
     on_black, on_white = (_draw(it, sentence, shares, sides) for it in (0, 255))
-    return _seen_through(on_black, on_white)
+    return _colour_through_alpha(on_black, on_white)
 
 
-def _seen_through(on_black: Colour, on_white: Colour) -> Colour:
+def _colour_through_alpha(on_black: Colour, on_white: Colour) -> Colour:
     """The picture (H, W, 4) that is these two where it lies on black and on white.
 
     On a ground b a pixel is c α + b (1 - α): so the two differ by 1 - α.

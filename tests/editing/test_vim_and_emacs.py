@@ -71,7 +71,7 @@ def test_vim_tells_keywords_strings_numbers_and_comments(tmp_path: Path) -> None
         timeout=60,
         check=False,
     )
-    assert colours_found(tmp_path / "found", LIKE) == expected_kinds(*LIKE.values())
+    assert read_colours(tmp_path / "found", LIKE) == expected_kinds(*LIKE.values())
 
 
 def expected_kinds(*kinds: Kind) -> Kinds:
@@ -84,7 +84,7 @@ def expected_kinds(*kinds: Kind) -> Kinds:
     }
 
 
-def colours_found(file: Path, names: Mapping[str, Kind]) -> Kinds:
+def read_colours(file: Path, names: Mapping[str, Kind]) -> Kinds:
     """What an editor wrote: line, column and its name of the kind, for each letter."""
     lines = THEORY.split("\n")
     found = {}
@@ -150,7 +150,7 @@ def in_emacs(folder: Path, theory: Path) -> Path:
 def test_emacs_tells_keywords_strings_numbers_and_comments(tmp_path: Path) -> None:
     theory = tmp_path / "a.ttr"
     theory.write_text(THEORY)
-    found = colours_found(in_emacs(tmp_path, theory), FACES)
+    found = read_colours(in_emacs(tmp_path, theory), FACES)
     assert found == expected_kinds(*FACES.values())
 
 

@@ -73,7 +73,7 @@ def test_an_extra_brings_what_is_needed_of_it() -> None:
             assert not any(it in always for it in brings[module])
 
 
-def imported_on_loading(tree: ast.Module) -> Iterator[str]:
+def imports_on_loading(tree: ast.Module) -> Iterator[str]:
     """The packages that a module imports when it is loaded, but for types alone."""
     for node in tree.body:
         match node:
@@ -87,7 +87,7 @@ def test_no_module_needs_it_to_be_loaded() -> None:
     files = [it for room in ("ttr", "kille") for it in (ROOT / room).rglob("*.py")]
     loading = {
         str(file.relative_to(ROOT)): MODULES
-        & {*imported_on_loading(ast.parse(file.read_text("utf-8")))}
+        & {*imports_on_loading(ast.parse(file.read_text("utf-8")))}
         for file in files
     }
     assert not {file: found for file, found in loading.items() if found}

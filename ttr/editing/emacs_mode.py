@@ -6,6 +6,7 @@ names only by how they are written. Texts and comments are left to Emacs' own ta
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 
 from ttr.dialogues.stories.story_reader import MARKS
@@ -59,15 +60,9 @@ def emacs_mode() -> str:
 def _keywords(patterns: Iterable[tuple[str, str]]) -> str:
     """Patterns and faces as font-lock takes them."""
     return "\n    ".join(
-        f"({_string(it)} 1 font-lock-{face}-face)" for it, face in patterns
+        f"({json.dumps(it, ensure_ascii=False)} 1 font-lock-{face}-face)"
+        for it, face in patterns
     )
-
-
-def _string(text: str) -> str:
-    """A string of Emacs Lisp."""
-    for sign, written in (("\\", "\\\\"), ('"', '\\"'), ("\t", "\\t"), ("\n", "\\n")):
-        text = text.replace(sign, written)
-    return f'"{text}"'
 
 
 def _escape(word: str) -> str:

@@ -28,7 +28,7 @@ def shorten_notation(text: str, room: int) -> str:
     """
     if len(text) <= room:
         return text
-    parts = _read(_TOKEN.findall(text))
+    parts = _group_brackets(_TOKEN.findall(text))
     for depth in range(_depth(parts) - 1, 0, -1):
         if len(shown := _write(parts, depth)) <= room:
             return shown
@@ -53,7 +53,7 @@ class _Group:
 _Parts = Sequence[str | _Group]
 
 
-def _read(tokens: Sequence[str]) -> _Parts:
+def _group_brackets(tokens: Sequence[str]) -> _Parts:
     """The tokens, with a group for each pair of brackets."""
     around: list[list[str | _Group]] = [[]]
     openings: list[str] = []

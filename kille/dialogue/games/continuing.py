@@ -18,6 +18,7 @@ from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from kille.dialogue.word_lists import PARTIAL
 from ttr import Model, Record, RecordType, RecType, rectype, replace
+from ttr.types import TypeNode
 from ttr.updates import first
 
 Update = tuple[Record, Model]
@@ -52,18 +53,9 @@ def teach_same(s: Record, *, model: Model, types: DialogueTypes) -> Update | Non
     label = kind_of(learned) if isinstance(learned, RecordType) else None
     if label is None:
         return None
-    said, content = s.shared.latest, content_of(s)
-    claim = _claim_of(s, content, types=types)
-    lesson = set_to(
-        types.move_type("Heard", _LEARNING[last_act(s)]),
-        text=types["Text"] @ said.text,
-        signs=types.record_type("Heard")["signs"]
-        @ tuple(dict.fromkeys((*said.signs, *words_in(_words_at_hand(s), claim)))),
-        content=RecType @ claim,
-        doubt=types["Text"] @ PARTIAL,
-    )
-    move, model = model.create(lesson)
-    return replace(s, {"shared.latest": move}), model
+    claim = _claim_of(s, content_of(s), types=types)
+    act = _LEARNING[last_act(s)]
+    return _take_as(s, model, act, claim, types=types, doubt=types["Text"] @ PARTIAL)
 
 
 _LEARNING = {"learned": "Instruct", "learned_quality": "Describe"}
@@ -72,19 +64,33 @@ _LEARNING = {"learned": "Instruct", "learned_quality": "Describe"}
 
 def _as_question(s: Record, model: Model, *, types: DialogueTypes) -> Update:
     """The tutor's move as the question that the robot answered last."""
-    said = s.shared.latest
     asked, content = last_question(s), content_of(s)
     if asked == "AskWhether":
         content = _claim_of(s, content, types=types)
         asked = asked if kind_of(content) else "AskName"
+    return _take_as(s, model, asked, content, types=types)
+
+
+def _take_as(
+    s: Record,
+    model: Model,
+    act: str,
+    content: RecordType,
+    *,
+    types: DialogueTypes,
+    **more: TypeNode,
+) -> Update:
+    """The state in which what the tutor said is this act, with this content."""
+    said = s.shared.latest
     signs = tuple(dict.fromkeys((*said.signs, *words_in(_words_at_hand(s), content))))
-    question = set_to(
-        types.move_type("Heard", asked),
+    meant = set_to(
+        types.move_type("Heard", act),
         text=types["Text"] @ said.text,
         signs=types.record_type("Heard")["signs"] @ signs,
         content=RecType @ content,
+        **more,
     )
-    move, model = model.create(question)
+    move, model = model.create(meant)
     return replace(s, {"shared.latest": move}), model
 
 

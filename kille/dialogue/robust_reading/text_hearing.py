@@ -180,8 +180,8 @@ def hear_in_parts(
             aside = found.is_remark or _is_name(move)
             kind = remarks if aside else asked if is_doubted(move) else done
             kind.append(move)
-    if len(done) + len(asked) > 1:
-        done = [it for it in done if act_of(it) not in HESITATING]
+    meant = [it for it in done if act_of(it) not in HESITATING]
+    done = meant if meant or asked else done
     done = [*without_early_answers(done)]
     settled, open_ = _settle_lessons(done, asked, types)
     told = join_lessons(open_, lists.qualities, types=types)

@@ -309,7 +309,7 @@ RULES = games_with(reply("Dismiss", "Drop", "The claim is dropped."))
 
 
 @pytest.fixture
-def skipping(mine: Path) -> Path:
+def skip_theory(mine: Path) -> Path:
     """The folder with the new move of `docs/how-to/change-what-it-says.md`."""
     change(
         mine / "tutor.ttr",
@@ -329,9 +329,9 @@ def skipping(mine: Path) -> Path:
 
 
 def test_a_move_of_ones_own_is_understood_and_answered(
-    kille: Run, skipping: Path
+    kille: Run, skip_theory: Path
 ) -> None:
-    assert answers(kille, skipping, "Skip it.") == ["All right."]
+    assert answers(kille, skip_theory, "Skip it.") == ["All right."]
 
 
 @pytest.mark.parametrize(
@@ -409,28 +409,28 @@ def test_a_move_of_ones_own_is_understood_and_answered(
     ],
 )
 def test_a_mistake_in_it_is_told_on_its_line(
-    kille: Run, skipping: Path, file: str, old: str, new: str, told: str
+    kille: Run, skip_theory: Path, file: str, old: str, new: str, told: str
 ) -> None:
-    change(skipping / file, old, new)
-    done = kille("talk", "--sensor", EMPTY, "--theory", str(skipping), typed="")
+    change(skip_theory / file, old, new)
+    done = kille("talk", "--sensor", EMPTY, "--theory", str(skip_theory), typed="")
     assert done.code == 2
-    place = f"kille: {skipping / file}:"
+    place = f"kille: {skip_theory / file}:"
     [line] = [it for it in done.err.splitlines() if told in it]
     assert line.startswith(place)
     number = int(line.removeprefix(place).partition(":")[0])
-    text = (skipping / file).read_text("utf-8").splitlines()[number - 1 : number + 1]
+    text = (skip_theory / file).read_text("utf-8").splitlines()[number - 1 : number + 1]
     shown = (new.strip() or "[says]").splitlines()[-1]
     assert shown in "\n".join(text) or "token _SKIP" in told
 
 
 def test_rules_about_types_that_are_not_there_are_told(
-    kille: Run, skipping: Path
+    kille: Run, skip_theory: Path
 ) -> None:
-    (skipping / "tutor.ttr").unlink()
-    done = kille("talk", "--sensor", EMPTY, "--theory", str(skipping), typed="")
+    (skip_theory / "tutor.ttr").unlink()
+    done = kille("talk", "--sensor", EMPTY, "--theory", str(skip_theory), typed="")
     assert (done.code, done.err.splitlines()[-1]) == (
         2,
-        f"kille: {skipping}/rules.py:4: the theory has no Drop, which a rule names",
+        f"kille: {skip_theory}/rules.py:4: the theory has no Drop, which a rule names",
     )
 
 
@@ -444,13 +444,13 @@ def test_a_file_that_nothing_reads_is_told(kille: Run, mine: Path) -> None:
 
 
 def test_a_move_without_a_wording_is_told_and_the_talk_goes_on(
-    kille: Run, skipping: Path
+    kille: Run, skip_theory: Path
 ) -> None:
     """Whose language has no lexicon of one's own is not refused: few moves are said."""
-    (skipping / "lexicon.en.toml").unlink()
+    (skip_theory / "lexicon.en.toml").unlink()
     done = kille(
         "talk",
-        *("--sensor", EMPTY, "--theory", str(skipping)),
+        *("--sensor", EMPTY, "--theory", str(skip_theory)),
         typed="Skip it.\nHello.\n",
     )
     [told] = done.err.splitlines()

@@ -27,10 +27,10 @@ def script_warnings(study: Study) -> Iterator[Problem]:
     theories = [it for it in study.theories.values() if it.mode != PERSON]
     for name, lines in scripts.items():
         for told, line in (
-            *_unmeasured(lines),
-            *_lost(lines, theories),
+            *_measure_warnings(lines),
+            *_reading_warnings(lines, theories),
             *(
-                _untaught(lines, scripts, theories[0])
+                _word_warnings(lines, scripts, theories[0])
                 if _only_scripts_teach(study, theories)
                 else ()
             ),
@@ -38,14 +38,14 @@ def script_warnings(study: Study) -> Iterator[Problem]:
             yield Problem(("tutors", name, "file"), told, line.place)
 
 
-def _unmeasured(lines: Iterable[Line]) -> Iterator[tuple[str, Line]]:
+def _measure_warnings(lines: Iterable[Line]) -> Iterator[tuple[str, Line]]:
     for line in lines:
         if line.mark in ("S~", "="):
             told = f"what {line.mark} expects is not measured: write S> and all of it"
             yield told, line
 
 
-def _lost(
+def _reading_warnings(
     lines: Sequence[Line], theories: Iterable[Theory]
 ) -> Iterator[tuple[str, Line]]:
     """Lines that a theory does not understand, where the script expects no reply."""
@@ -64,7 +64,7 @@ def _only_scripts_teach(study: Study, theories: Sequence[Theory]) -> bool:
     return bool(theories) and not (kinds and (change or "several" in kinds))
 
 
-def _untaught(
+def _word_warnings(
     lines: Sequence[Line], scripts: Mapping[str, Sequence[Line]], theory: Theory
 ) -> Iterator[tuple[str, Line]]:
     """Words that are asked for, and that no line of any script teaches.
