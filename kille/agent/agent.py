@@ -52,6 +52,7 @@ from kille.dialogue.robust_reading.speech_hearing import (
 )
 from kille.dialogue.robust_reading.text_hearing import (
     complete_answer,
+    fill_noun,
     hear_in_parts,
     without_early_answers,
 )
@@ -545,8 +546,9 @@ class Agent(Closing, NotebookValue):
     def _hear_text(self, text: str) -> TurnResult:
         """Take in all that a text says, move by move."""
         numbers = _POINTING.findall(text)
-        words = _POINTING.sub(" ", text)
-        sentences = self._sentences_with_numbers(text, words) if numbers else ()
+        meant = fill_noun(text, self.state, self.language)
+        words = _POINTING.sub(" ", meant)
+        sentences = self._sentences_with_numbers(meant, words) if numbers else ()
         if not sentences:
             for number in numbers:
                 self.gaze.point(number)

@@ -325,7 +325,8 @@ class Reader:
         if "component" in content:
             said = (it for it in signs if it.meaning == content["component"])
         elif "counted" in content:
-            said = (it for it in signs if it.kind == "noun")
+            nouns = tuple(it for it in signs if it.kind == "noun")
+            said = (it for it in nouns or signs)  # "These are cups."  "These are red."
         else:
             said = (it for it in signs if claims(content, it))
         for sign in said:

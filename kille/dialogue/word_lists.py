@@ -66,6 +66,8 @@ class WordLists:
     """The words for one, two, three and so on, in order."""
     spoken: Mapping[str, str] = field(default_factory=dict)
     """Forms that are written as they are spoken, and those of the grammar for them."""
+    elliptic: Mapping[str, str] = field(default_factory=dict)
+    """Forms that leave out a noun, and those with the noun in its place: {a_noun}."""
 
     def harmless_runs(self, forms: Sequence[str]) -> Iterator[range]:
         """Where harmless words and phrases stand among these words."""
@@ -90,11 +92,19 @@ class WordLists:
         >>> word_lists("sv").write_out("va e dettahär?")
         'vad är det här?'
         """
-        if not _any_spoken(tuple(self.spoken)).search(text):
-            return text
-        for said, written in self.spoken.items():
-            text = re.sub(_spoken(said), written, text)
-        return text
+        return _replace_forms(text, self.spoken)
+
+    def fill_noun(self, text: str, noun: str, a_noun: str) -> str:
+        """The text with a noun where it is left out: the one that was just learned.
+
+        >>> word_lists("en").fill_noun("That's another one.", "key", "a key")
+        "That's another key."
+        """
+        forms = {
+            said: written.format(noun=noun, a_noun=a_noun)
+            for said, written in self.elliptic.items()
+        }
+        return _replace_forms(text, forms)
 
     def judge_noun(self, form: str, complements: Iterable[str] = ()) -> str:
         """`REMARK` or `DOUBTFUL` for a noun that may be no word for a thing, or "".
@@ -201,6 +211,15 @@ def is_noise(form: str) -> bool:
     return False
 
 
+def _replace_forms(text: str, forms: Mapping[str, str]) -> str:
+    """The text with each of the forms in it replaced, in order."""
+    if not _any_spoken(tuple(forms)).search(text):
+        return text
+    for said, written in forms.items():
+        text = re.sub(_spoken(said), written, text)
+    return text
+
+
 def _spoken(pattern: str) -> str:
     """The expression of a form as it is spoken, as whole words in any letters."""
     return rf"(?i:(?<![\w'’])(?:{pattern})(?![\w'’]))"
@@ -265,6 +284,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         negations=frozenset(data.get("negations", "").split()),
         numbers=tuple(data.get("numbers", "").split()),
         spoken=data.get("spoken", {}),
+        elliptic=data.get("elliptic", {}),
     )
 
 

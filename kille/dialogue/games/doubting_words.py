@@ -85,7 +85,9 @@ def take_as_remark(s: Record, *, types: DialogueTypes) -> Record | None:
     if doubt in ("", PARTIAL) or (doubt != SAYING and sign is None):
         return None
     content = content_of(s)
-    if doubt == DOUBTFUL and ("look" not in content or not is_denial(content)):
+    how_all_are = "counted" in content and sign is not None and sign.kind == "adjective"
+    is_settled = how_all_are or ("look" in content and is_denial(content))
+    if doubt == DOUBTFUL and not is_settled:
         return None
     return plan(s, "TakeAsRemark", types=types)
 
@@ -178,7 +180,7 @@ def _doubted_sign(s: Record) -> Record | None:
     said = s.shared.latest
     content = said.content
     if "counted" in content:
-        named = [it for it in said.signs if it.kind == "noun"]
+        named = [it for it in said.signs if it.kind == "noun"] or said.signs
     elif COMPONENT in content:
         named = [it for it in said.signs if it.meaning == content[COMPONENT]]
     else:

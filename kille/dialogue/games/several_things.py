@@ -46,14 +46,14 @@ def need_two(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """Of both is spoken where more than two things may be meant."""
     if EXACTLY not in content_of(s):
         return None
-    things = _unlike(s, model, _fitting_things(s, model, types=types), _noun(s))
+    things = _unlike(s, model, _fitting_things(s, model, types=types), _claimed_word(s))
     return None if len(things) == 2 else plan(s, "NeedSingle", types=types)
 
 
 @rule(answers="InstructSeveral")
 def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says what the things in view are: it is a lesson about each of them."""
-    sign = _noun(s)
+    sign = _claimed_word(s)
     things = _unlike(s, model, _fitting_things(s, model, types=types), sign)
     return None if len(things) < 2 else _plan_several(s, things, sign, types=types)
 
@@ -69,10 +69,11 @@ def _plan_several(
     """The plan to learn that each of these things is so."""
     teaches = [said_of(s, sign, x, types=types) for x in things]
     seen = [record(sit=record(x=x), sign=sign) for x in things]
+    is_noun = sign.kind == "noun"
     return plan(
         s,
         "LearnedSeveral",
-        in_view(s, seen, (), (), types=types),
+        in_view(s, seen, (), (), types=types) if is_noun else sign.meaning,
         signs=[sign],
         teaches=teaches,
         forgets=[
@@ -87,7 +88,7 @@ def reject_several(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what nothing in view is: it is a lesson about each thing."""
     if not s.view.things:
         return None
-    sign = _noun(s)
+    sign = _claimed_word(s)
     teaches = [denial(said_of(s, sign, x, types=types)) for x in s.view.things]
     forgets = [
         key for it in teaches for key in opposite_lesson_keys(s, it, types=types)
@@ -109,7 +110,7 @@ def reject_several(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="InstructEvery")
 def ask_every(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """Everything is said to be so, and something here is known to be something else."""
-    noun = _noun(s)
+    noun = _claimed_word(s)
     other = next((x for x in s.view.things if _is_other(s, model, x, noun)), None)
     if other is None:
         return None
@@ -121,13 +122,13 @@ def learn_every(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what everything here is: it is a lesson about each thing."""
     if not s.view.things:
         return None
-    return _plan_several(s, s.view.things, _noun(s), types=types)
+    return _plan_several(s, s.view.things, _claimed_word(s), types=types)
 
 
 @rule(answers="InstructOnly")
 def ask_only(s: Record, *, types: DialogueTypes) -> Record | None:
     """Only this is said to be so, and another thing here was said to be so, too."""
-    noun, this = _noun(s), thing_at(content_of(s), "target")
+    noun, this = _claimed_word(s), thing_at(content_of(s), "target")
     for x in s.view.things:
         if x != this and any(claims(it, noun) for it in _names_told(s, x)):
             return _plan_question(s, ONLY, noun, x, types=types)
@@ -151,7 +152,7 @@ def learn_anyway(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     if s.shared.qud[0].ask == ONLY:
         return _plan_only(said, types=types)
-    return _plan_several(said, s.view.things, _noun(said), types=types)
+    return _plan_several(said, s.view.things, _claimed_word(said), types=types)
 
 
 @rule(answers="Deny")
@@ -160,7 +161,7 @@ def learn_others(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
     said = _said_in_question(s)
     if said is None or s.shared.qud[0].ask != EVERY:
         return None
-    noun = _noun(said)
+    noun = _claimed_word(said)
     things = _unlike(said, model, s.view.things, noun)
     return _plan_several(said, things, noun, types=types) if things else None
 
@@ -192,7 +193,7 @@ def _said_in_question(s: Record) -> Record | None:
 
 def _plan_only(s: Record, *, types: DialogueTypes) -> Record:
     """The plan to learn that one thing is so, and all others are not."""
-    noun, this = _noun(s), thing_at(content_of(s), "target") or ""
+    noun, this = _claimed_word(s), thing_at(content_of(s), "target") or ""
     own = said_of(s, noun, this, types=types)
     others = (said_of(s, noun, x, types=types) for x in s.view.things if x != this)
     teaches = [own, *map(denial, others)]
@@ -241,7 +242,7 @@ def ask_single(
     s: Record, *, model: Model, types: DialogueTypes
 ) -> tuple[Record, Model] | None:
     """One thing is called by a noun without a singular: "These are scissors."."""
-    sign = _noun(s)
+    sign = _claimed_word(s)
     if len(s.view.things) != 1 or " " not in sign.article:
         return None
     content = said_of(s, sign, s.view.things[0], types=types)
@@ -299,14 +300,17 @@ def _one_of(
     )
 
 
-def _noun(s: Record) -> Record:
-    """The noun that the tutor says of the things."""
-    noun: Record = next(it for it in s.shared.latest.signs if it.kind == "noun")
-    return noun
+def _claimed_word(s: Record) -> Record:
+    """The word that the tutor says of the things: a noun, or else how they are."""
+    signs = s.shared.latest.signs
+    word: Record = next((it for it in signs if it.kind == "noun"), signs[0])
+    return word
 
 
 def _fitting_things(s: Record, model: Model, *, types: DialogueTypes) -> list[str]:
     """The things in view of which the adjectives are true: "These are red cups."."""
+    if _claimed_word(s).kind != "noun":
+        return [*s.view.things]
     said = phrase_at(content_of(s), "counted")
     rest = rectype({label: T for label, T in said.fields if label != "c"})
     fits = fits_well(s, PhraseJudge(s, model, types=types).fits(rest))
@@ -314,7 +318,12 @@ def _fitting_things(s: Record, model: Model, *, types: DialogueTypes) -> list[st
 
 
 def _is_other(s: Record, model: Model, x: str, noun: Record) -> bool:
-    """Whether a thing is known not to be what a noun says: it is something else."""
+    """Whether a thing is known not to be what a noun says: it is something else.
+
+    Of how it is, the tutor now says what counts.
+    """
+    if noun.kind != "noun":
+        return False
     if any(is_denial(it) == claims(it, noun) for it in _lessons_about(s, x)):
         return True
     beliefs = names_of(s, model, x)

@@ -62,6 +62,8 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "side_named":
             known = all(_is_known(it, situation) for it in _new_words(move))
             return 0.0 if known else 0.9
+        case "instruct_several" | "instruct_every" | "reject_several":
+            return _fit_of_several(move, situation, lists)
         case "instruct_some" | "ask_deed" | "count_sort":
             return 0.5
         case "okay":
@@ -83,6 +85,16 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "instruct" if len(parts(move)) == 1:
             return 0.6
     return 1.0
+
+
+def _fit_of_several(move: Tree, situation: Situation, lists: WordLists) -> float:
+    """How well it fits to say of several things what they are, or how they are."""
+    kinds = [*_words_of(move, "noun")]
+    hows = kinds or _words_of(move, "adjective")
+    says_how = all(_says_how_of_all(it, situation, lists) for it in hows)
+    if kinds:
+        return 0.1 if says_how else 1.0
+    return 0.5 if says_how else 0.0
 
 
 def _is_known(word: str, situation: Situation) -> bool:
@@ -111,6 +123,11 @@ def _words_of(tree: Tree, rule: str) -> Iterable[str]:
 def _says_how(form: str, situation: Situation, lists: WordLists) -> bool:
     """Whether a word says how a thing is, rather than what: "Forks are sharp."."""
     return form in situation.qualities or not lists.judge_quality(form)
+
+
+def _says_how_of_all(form: str, situation: Situation, lists: WordLists) -> bool:
+    """Whether a word says how things are, in the form for several: Swedish "röda"."""
+    return any(_says_how(it, situation, lists) for it in (form, form.removesuffix("a")))
 
 
 def _has_part(tree: Tree, rule: str) -> bool:

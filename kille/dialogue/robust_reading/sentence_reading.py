@@ -188,13 +188,14 @@ def _is_fallback(cover: Cover) -> bool:
 
 
 def _phrases(sentence: RepairedSentence, found: Sequence[Cover]) -> Understanding:
-    """No move, but perhaps phrases that are understood."""
-    phrases = [
+    """No move, but perhaps phrases that are understood, in the speaker's own words."""
+    stretches = (
         sentence.text_of(it.first, it.after)
         for cover in found[:1]
         for it in cover.islands
         if it.after - it.first > 1 and it.rule not in VAGUE
-    ]
+    )
+    phrases = [it for it in stretches if it in sentence.said]
     missed = tuple(
         sentence.plain[it.begin : it.end] for it in sentence.words if not it.is_harmless
     )

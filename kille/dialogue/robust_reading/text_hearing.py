@@ -94,6 +94,7 @@ def hear_text(
     (['ask_name'], ())
     """
     types = types or packaged_types()
+    text = fill_noun(text, s, language)
     sentences = [
         complete_answer(it, s, language, types=types)
         for it in understand(text, language, types=types)
@@ -119,6 +120,18 @@ def without_early_answers(said: Iterable[Sentence]) -> tuple[Sentence, ...]:
         if not (asks and it.readings and act_of(it) in ANSWERS):
             kept.append(it)
     return tuple(kept)
+
+
+def fill_noun(text: str, s: Record, language: str = "en") -> str:
+    """The text with the noun that was learned last, where it says so little.
+
+    "That's another one." is "That's another cup." after "This is a cup.".
+    """
+    if not s.private.lessons or s.private.lessons[-1].sign.kind != "noun":
+        return text
+    sign = s.private.lessons[-1].sign
+    a_noun = lexicon(language).with_article(sign.form, sign.article)
+    return word_lists(language).fill_noun(text, sign.form, a_noun)
 
 
 def complete_answer(
@@ -180,8 +193,9 @@ def hear_in_parts(
             aside = found.is_remark or _is_name(move)
             kind = remarks if aside else asked if is_doubted(move) else done
             kind.append(move)
-    meant = [it for it in done if act_of(it) not in HESITATING]
-    done = meant if meant or asked else done
+    idle = HESITATING | {"okay"} if asked or remarks else HESITATING
+    meant = [it for it in done if act_of(it) not in idle]
+    done = meant if meant or asked or remarks else done
     done = [*without_early_answers(done)]
     settled, open_ = _settle_lessons(done, asked, types)
     told = join_lessons(open_, lists.qualities, types=types)
