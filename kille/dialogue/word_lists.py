@@ -60,6 +60,8 @@ class WordLists:
     """Those of them that may begin a sentence of their own: "I mean red!"."""
     names: frozenset[str] = frozenset()
     """Names of persons, which are no words for kinds of things."""
+    contents: frozenset[str] = frozenset()
+    """Words before what something holds or is made of: "of", "with"."""
     articles: frozenset[str] = frozenset()
     negations: frozenset[str] = frozenset()
     numbers: tuple[str, ...] = ()
@@ -107,7 +109,7 @@ class WordLists:
         return _replace_forms(text, forms)
 
     def judge_noun(self, form: str, complements: Iterable[str] = ()) -> str:
-        """`REMARK` or `DOUBTFUL` for a noun that may be no word for a thing, or "".
+        """`REMARK`, `DOUBTFUL` or `PARTIAL` for a noun that may name no thing, or "".
 
         >>> english = word_lists("en")
         >>> [english.judge_noun(it) for it in ("cup", "idea", "wug", "king")]
@@ -128,6 +130,8 @@ class WordLists:
             return DOUBTFUL
         if head != words[-1] and head in self.parts:
             return DOUBTFUL  # "a crack in the cup"
+        if head != words[-1] and self.contents.isdisjoint(words):
+            return PARTIAL  # "a recipe for disaster"
         if words[0] in self.doubtful and len(words) > 1:
             return DOUBTFUL
         return DOUBTFUL if form in self.doubtful or head in self.doubtful else ""
@@ -280,6 +284,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         repair=next(iter(data.get("renewals", "").split()), "").replace("_", " "),
         renewals=_phrases(data.get("renewals", "")),
         names=frozenset(data.get("names", "").split()),
+        contents=frozenset(data.get("contents", "").split()),
         articles=frozenset(data.get("articles", "").split()),
         negations=frozenset(data.get("negations", "").split()),
         numbers=tuple(data.get("numbers", "").split()),

@@ -193,6 +193,10 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
             return False
         case "instruct_several" if not _are_as_many(place, situation):
             return False
+        case "instruct_several" | "instruct_every" | "reject_several" if not (
+            _begins_clause(place)
+        ):
+            return False  # "How many of them are blue"
         case "affirm" | "deny":
             return _may_answer_stand(place, situation)
         case rule if rule in ELLIPTIC:
@@ -212,6 +216,12 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
         case rule if rule.startswith("ask_") and len(place.near) > len(place.inside):
             return False
     return None
+
+
+def _begins_clause(place: _Place) -> bool:
+    """Whether nothing but what is harmless, or joins, stands before it in its clause."""
+    clause, before = place.inside[0].clause, place.sentence.words[: place.island.first]
+    return all(it.is_harmless or it.joins or it.clause < clause for it in before)
 
 
 def _are_as_many(place: _Place, situation: Situation) -> bool:

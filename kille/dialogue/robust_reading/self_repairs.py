@@ -53,9 +53,9 @@ def repair_sentence(text: str, lists: WordLists) -> RepairedSentence:
 def repair(text: str, lists: WordLists) -> tuple[str, bool]:
     """The text with what its speaker has set right in place of what they said first.
 
-    What follows "sorry" or "I mean" between commas takes the place of what was said
-    from where it begins alike, or else of the last word: then that is not certain,
-    unless both say how things are.
+    What follows "sorry" or "I mean" between commas, or as the last word, takes the
+    place of what was said from where it begins alike, or else of the last word: then
+    that is not certain, unless both say how things are.
 
     >>> from kille.dialogue.word_lists import word_lists
     >>> english = word_lists("en")
@@ -63,6 +63,8 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
     ('the blue one is a cup', True)
     >>> repair("This is a bottel, sorry, bottle.", english)
     ('This is a bottle.', False)
+    >>> repair("this is a bottel sorry bottle", english)
+    ('this is a bottle', False)
     >>> repair("Sorry, this is a cup.", english)
     ('Sorry, this is a cup.', True)
     """
@@ -74,7 +76,12 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
         if not before or not after:
             continue
         between = min(words[run.start].begin, after[0].begin)
-        if not BREAK.search(text, before[-1].end, between):
+        is_apart = BREAK.search(text, before[-1].end, between)
+        sets_right = tuple(it.form for it in words[run.start : run.stop])
+        if not is_apart and not (
+            (sets_right in lists.renewals or lists.fillers.issuperset(sets_right))
+            and _is_last_word_anew(before, after, lists)
+        ):
             continue
         same = {after[0].form}
         if same <= lists.articles:
@@ -85,6 +92,14 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
         is_certain = bool(alike) or (are_qualities and len(after) == 1)
         return kept + text[after[0].begin :], is_certain
     return text, True
+
+
+def _is_last_word_anew(
+    before: Sequence[Word], after: Sequence[Word], lists: WordLists
+) -> bool:
+    """Whether the last word is said again, without commas: "a cub sorry a cup"."""
+    anew = after[1:] if after[0].form in lists.articles else after
+    return len(anew) == 1 and before[-1].form not in lists.articles
 
 
 def _last_clause_apart(words: Sequence[Word]) -> tuple[tuple[Word, ...], ...]:

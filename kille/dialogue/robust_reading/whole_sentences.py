@@ -32,6 +32,8 @@ def is_weak(it: Sentence, situation: Situation, lists: WordLists) -> bool:
         return True
     if not situation.asks_which and _is_mention(it):
         return True
+    if it.readings and _spans_break(it.readings[0]):
+        return True  # "A cup, silly."
     return all(
         "doubt" in one.type
         or _breaks_off(one)
@@ -88,6 +90,8 @@ def are_parts_better(
         return False
     if is_all and any(_spans_break(it) for it in whole.readings):
         return True
+    if whole.readings and _spans_break(whole.readings[0], ("noun",)):
+        return True  # "A cup, dimwit."
     if whole.readings and all(_has_closed_word(it, lists) for it in whole.readings):
         return True
     fills = not lists.fillers.isdisjoint(plain_text(whole.text).split())
@@ -102,9 +106,13 @@ def _has_closed_word(reading: Utterance, lists: WordLists) -> bool:
     return any(lists.is_closed(part) for parts in nouns for part in parts)
 
 
-def _spans_break(reading: Utterance) -> bool:
-    """Whether some word of a reading goes on after a comma: "lamp, also called …"."""
+def _spans_break(reading: Utterance, kinds: Iterable[str] = ()) -> bool:
+    """Whether some word of a reading goes on after a comma: "lamp, also called …".
+
+    If kinds of words are given, only those count.
+    """
     text = " ".join(reading.text.lower().split())
     unbroken = " ".join(_COMMA.sub(" ", text).split())
-    several = (it.form for it in reading.signs if " " in it.form)
+    words = (it for it in reading.signs if not kinds or it.kind in kinds)
+    several = (it.form for it in words if " " in it.form)
     return any(it not in text and it in unbroken for it in several)
