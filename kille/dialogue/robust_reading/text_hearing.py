@@ -196,7 +196,7 @@ def hear_in_parts(
     idle = HESITATING | {"okay"} if asked or remarks else HESITATING
     meant = [it for it in done if act_of(it) not in idle]
     done = meant if meant or asked or remarks else done
-    done = _keep_last_answer([*without_early_answers(done)])
+    done = _keep_last_answer(without_early_answers(done))
     settled, open_ = _settle_lessons(done, asked, types)
     told = join_lessons(open_, lists.qualities, types=types)
     heard = (*_without_repetitions(settled), *told) or tuple(remarks[:1])
@@ -205,7 +205,7 @@ def hear_in_parts(
     return Hearing(heard, tuple(missed))
 
 
-def _keep_last_answer(said: Sequence[Sentence]) -> Sequence[Sentence]:
+def _keep_last_answer(said: Sequence[Sentence]) -> list[Sentence]:
     """The moves with the last yes or no only: "No ... hang on, yes, quite right."."""
     answers = [it for it in said if act_of(it) in ANSWERS]
     return [it for it in said if it not in answers[:-1]]
