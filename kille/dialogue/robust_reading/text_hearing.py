@@ -207,8 +207,8 @@ def hear_in_parts(
 
 def _keep_last_answer(said: Sequence[Sentence]) -> list[Sentence]:
     """The moves with the last yes or no only: "No ... hang on, yes, quite right."."""
-    answers = [it for it in said if act_of(it) in ANSWERS]
-    return [it for it in said if it not in answers[:-1]]
+    answers = [n for n, it in enumerate(said) if act_of(it) in ANSWERS]
+    return [it for n, it in enumerate(said) if n not in answers[:-1]]
 
 
 def _turns_away(
