@@ -8,7 +8,7 @@ itself, compared by identity; a type is an object as well.
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from itertools import chain, groupby
 from types import NoneType
@@ -336,8 +336,16 @@ class Record(NotebookValue):
     ('fido', 3, True)
     """
 
-    __slots__ = ("__weakref__", "_fields", "_hash", "_is_immutable", "_noted")
+    __slots__ = (
+        "__dict__",
+        "__weakref__",
+        "_fields",
+        "_hash",
+        "_is_immutable",
+        "_noted",
+    )
 
+    # Labels are asked for often: the fields are the dictionary of attributes itself.
     # `ttr.judging.certainty` notes what a record was found to be of.
     _fields: dict[str, Object]
     _hash: int | None
@@ -348,16 +356,15 @@ class Record(NotebookValue):
         spend(1 + len(fields))
         for label in fields:
             _check_label_once(label)
-        object.__setattr__(self, "_fields", {k: freeze(v) for k, v in fields.items()})
+        own = {k: freeze(v) for k, v in fields.items()}
+        object.__setattr__(self, "_fields", own)
+        object.__setattr__(self, "__dict__", own)
         object.__setattr__(self, "_hash", None)
         object.__setattr__(self, "_is_immutable", None)
         object.__setattr__(self, "_noted", None)
 
     def __getattr__(self, label: str) -> Object:
-        try:
-            return _fields_of(self)[label]
-        except KeyError:
-            raise AttributeError(f"no label {label} in {self}") from None
+        raise AttributeError(f"no label {label} in {self}")
 
     def __getitem__(self, path: str) -> Object:
         value: Object = self
@@ -424,10 +431,6 @@ class Record(NotebookValue):
 
     def __deepcopy__(self, memo: object) -> Record:
         return self
-
-
-_fields_of: Callable[[Record], dict[str, Object]] = Record._fields.__get__  # type: ignore[misc, attr-defined]
-"""The fields of a record, however it is asked for them: labels are asked for often."""
 
 
 def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> Record:

@@ -93,7 +93,9 @@ class _RecordEditor:
         if id(r) in self._copies or not isinstance(r, Record):
             return r  # type: ignore[no-any-return]
         copy = object.__new__(Record)
-        _write(copy, "_fields", {**r._fields})
+        fields = {**r._fields}
+        _write(copy, "_fields", fields)
+        _write(copy, "__dict__", fields)
         _write(copy, "_hash", None)
         _write(copy, "_is_immutable", r._is_immutable or None)
         _write(copy, "_noted", None)
