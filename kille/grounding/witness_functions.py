@@ -30,6 +30,7 @@ from kille.grounding.measurements import Measurements
 from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, xkcd
 from kille.perception.evidence import Evidence
+from kille.perception.look import Scans
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
 from kille.perception.relations.perspectives import AWAY, FRONTS
@@ -167,9 +168,20 @@ class WitnessFunctions:
         if percept is None:
             return None
         if (x, handle) not in self._evident:
+            if any(look == handle for _, look in self._evident):
+                self._begin_after(x, handle)
             seen = self._objects.evidence(percept)
             self._evident[x, handle] = self._with_generics(seen, x, handle)
         return self._evident[x, handle]
+
+    def _begin_after(self, x: str, handle: str) -> None:
+        """Have the scans extracted of the thing that is likely to be asked about next.
+
+        Whoever asks about a second thing in a look mostly goes through them all.
+        """
+        following = self.percept(thing_name(number_of(x) + 1), handle)
+        if following is not None and isinstance(following.scans, Scans):
+            following.scans.begin()
 
     def _with_generics(self, seen: Evidence, x: str, handle: str) -> Evidence:
         """The evidence for each noun with what was said of all things of its kind."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
 
 import cv2
@@ -53,6 +54,11 @@ def features_of(frame: Frame, region: Region, sift: cv2.SIFT | None = None) -> F
     found = np.array([point.pt for point in keypoints])
     pixels = np.asarray(found * stretch + corner, np.float32)
     return Features(descriptors.astype(np.uint8), pixels, points_at(frame, pixels))
+
+
+def descriptors_of(scans: Iterable[Features]) -> NDArray[np.uint8]:
+    """The descriptors (n, 128) of all scans together."""
+    return np.concatenate([NONE.descriptors, *(it.descriptors for it in scans)])
 
 
 def _smaller(grey: Grey, mask: Grey) -> tuple[Grey, Grey]:

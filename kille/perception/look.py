@@ -1,14 +1,15 @@
 """A look: some consecutive frames, and the things that stay in view throughout.
 
 Features are extracted when they are first asked for, so that a look takes no longer
-than its segmentation. While a camera's frames come there is nothing else to do: a
+than its segmentation; a thread goes on to the later frames while those of the first are
+compared. While a camera's frames come there is nothing else to do: a
 thread then segments the first of them, and measures the traits of the things in them,
 the nearest first. In a still picture traits, too, are measured when they are asked for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache, partial
 from typing import NamedTuple, overload
@@ -38,15 +39,32 @@ _STRAY = 16  # pixels a thing may move in the picture between two frames
 
 
 class Scans(Sequence[Features]):
-    """The features of one thing in each frame, extracted when first asked for."""
+    """The features of one thing in each frame, extracted when first asked for.
+
+    In order they are extracted by a thread, the next while one is made use of.
+    """
 
     def __init__(self, sightings: Sequence[Sighting]) -> None:
         self.sightings = tuple(sightings)
+        self._begun: tuple[Future[Features], ...] = ()
         # No cycle of references, so that a look is freed as soon as it is dropped.
         self._extract_features = cache(partial(_extract_features, self.sightings))
 
+    def begin(self) -> None:
+        """Have a thread extract all scans, in order, if that has not begun."""
+        if self._begun:
+            return
+        worker = ThreadPoolExecutor(1, "kille-scans")
+        numbers = range(len(self))
+        self._begun = tuple(worker.submit(self._extract_features, i) for i in numbers)
+        worker.shutdown(wait=False)
+
     def __len__(self) -> int:
         return len(self.sightings)
+
+    def __iter__(self) -> Iterator[Features]:
+        self.begin()
+        return (scan.result() for scan in self._begun)
 
     @overload
     def __getitem__(self, index: int) -> Features: ...
@@ -57,6 +75,8 @@ class Scans(Sequence[Features]):
     def __getitem__(self, index: int | slice) -> Features | tuple[Features, ...]:
         if isinstance(index, slice):
             return tuple(self[i] for i in range(*index.indices(len(self))))
+        if self._begun:
+            return self._begun[index].result()
         return self._extract_features(range(len(self))[index])
 
 

@@ -30,12 +30,11 @@ from kille.perception.descriptor_index import (
     Index,
     View,
     distances,
-    find_repeats,
     rooted,
 )
 from kille.perception.descriptor_index.builders import Builder
 from kille.perception.evidence import Evidence, Weighing, weighing
-from kille.perception.features import NONE
+from kille.perception.features import NONE, descriptors_of
 from kille.perception.learners import Key, own_key
 from kille.perception.likeness import SIZE, Examples, Kernel, Likeness
 from kille.perception.nearest_words import MANY, NearestWords
@@ -188,17 +187,18 @@ class ObjectMemory:
 
     def evidence(self, x: Percept) -> Evidence:
         """What each cue adds for each word; no words if nothing is seen."""
-        query, traits = rooted(descriptors_of(x.scans)), self.traits_of(x)
         labels = self.labels
-        if not labels or not (traits or len(query)):
+        if not labels:
+            return Evidence((), self._weighing.base, {})
+        found = self._index.neighbours_in(x.scans, UNTAUGHT)
+        features, traits = len(found.words), self.traits_of(x)
+        if not (traits or features):
             return Evidence((), self._weighing.base, {})
         cast = np.zeros(len(labels))
-        if len(query):
-            repeats = find_repeats(query, x.scans) if len(x.scans) > 1 else None
-            found = self._index.neighbours(query, repeats, UNTAUGHT)
-            rivalling = rivals(found, query, labels, self.denied)
+        if features:
+            rivalling = rivals(found, x.scans, labels, self.denied)
             cast = votes(found, len(labels), len(x.scans), rivalling)
-            cast = beyond_chance(cast, self._index.sizes, len(query) / len(x.scans))
+            cast = beyond_chance(cast, self._index.sizes, features / len(x.scans))
         likeness = self._likeness(traits)
         for label, relevance in self._relevance.items():
             if label in labels:
@@ -359,8 +359,3 @@ def _is_new(more: NDArray[np.uint8], kept: NDArray[np.uint8]) -> NDArray[np.bool
     apart = distances(rooted(more), rooted(kept)).min(axis=1, initial=np.inf)
     new: NDArray[np.bool_] = apart > AGAIN
     return new
-
-
-def descriptors_of(scans: Sequence[Features]) -> NDArray[np.uint8]:
-    """The descriptors (n, 128) of all scans together."""
-    return np.concatenate([NONE.descriptors, *(it.descriptors for it in scans)])

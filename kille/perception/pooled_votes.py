@@ -13,8 +13,9 @@ from __future__ import annotations
 import numpy as np
 
 from kille.perception.descriptor_index import Index, View, rooted
+from kille.perception.features import descriptors_of
 from kille.perception.learners import Key, own_key
-from kille.perception.objects import descriptors_of, kept_features
+from kille.perception.objects import kept_features
 from kille.perception.votes import count_votes
 from kille.scene import Percept
 

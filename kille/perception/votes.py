@@ -25,6 +25,8 @@ from kille.perception.descriptor_index import (
     rooted,
 )
 from kille.perception.descriptor_index.views import thin_views
+from kille.perception.features import descriptors_of
+from kille.scene import Features
 
 UNTAUGHT = 0.45
 """The RootSIFT distance to expect to the descriptor of an untaught thing."""
@@ -44,8 +46,9 @@ def votes(
     """
     if not found.words.shape[1]:
         return np.zeros(words)
-    winner, first = _nearest(found)
-    second = np.minimum(_nearest_other(found, winner[:, None]), UNTAUGHT)
+    winner, first = found.nearest()
+    _, other = found.without(winner).nearest()
+    second = np.minimum(other, UNTAUGHT)
     if rivalling is not None:
         second = np.minimum(second, rivalling)
     weights = np.where(first < second, 1 - first / np.maximum(second, 1e-9), 0)
@@ -55,23 +58,28 @@ def votes(
 
 
 def rivals(
-    found: Neighbours, query: Rows, labels: Sequence[str], denied: Sequence[View]
+    found: Neighbours,
+    scans: Sequence[Features],
+    labels: Sequence[str],
+    denied: Sequence[View],
 ) -> Rows | None:
-    """The distance (n,) from each feature to the nearest denied view of its word.
+    """The distance (n,) from each feature of some scans to the nearest denied view of
+    its word.
 
     It is infinite where nothing was; None if nothing was denied of any of the words.
     """
     opposed = sorted({it.label for it in denied} & set(labels))
     if not opposed or not found.words.shape[1]:
         return None
-    winner, _ = _nearest(found)
+    winner, _ = found.nearest()
+    query = descriptors_of(scans)
     apart = np.full(len(query), np.inf, np.float32)
     for label in opposed:
         voting = np.flatnonzero(winner == labels.index(label))
         against = thin_views([it for it in denied if it.label == label], _DENIED)
         others = rooted(np.concatenate([it.descriptors for it in against]))
         if len(voting) and len(others):
-            apart[voting] = distances(query[voting], others).min(axis=1)
+            apart[voting] = distances(rooted(query[voting]), others).min(axis=1)
     return apart
 
 
@@ -79,7 +87,7 @@ def count_votes(found: Neighbours, words: int) -> NDArray[np.intp]:
     """How many features have their nearest neighbour in each of `words` words."""
     if not found.words.shape[1]:
         return np.zeros(words, np.intp)
-    winner, _ = _nearest(found)
+    winner, _ = found.nearest()
     return np.bincount(winner[winner != NOBODY], minlength=words)
 
 
@@ -98,18 +106,3 @@ def beyond_chance(
     shares = (counts / counts.mean()) ** _SIZE_POWER
     chance = _CHANCE * max(features, 1) ** _CHANCE_POWER
     return np.asarray(cast / shares / chance, np.float64)
-
-
-def _nearest(found: Neighbours) -> tuple[NDArray[np.intp], Rows]:
-    """The word (n,) of each feature's nearest neighbour, and its distance (n,)."""
-    rows = np.arange(len(found.words))
-    nearest = found.distances.argmin(axis=1)
-    return found.words[rows, nearest], found.distances[rows, nearest]
-
-
-def _nearest_other(found: Neighbours, words: NDArray[np.intp]) -> Rows:
-    """Each feature's distance to the nearest descriptor of a word other than these (n,
-    1).
-    """
-    others = np.where(found.words == words, np.inf, found.distances)
-    return np.asarray(others.min(axis=1, initial=np.inf), np.float32)

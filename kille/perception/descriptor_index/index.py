@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from itertools import compress, islice
@@ -20,10 +20,18 @@ from kille.perception.descriptor_index.index_parts import (
     Part,
 )
 from kille.perception.descriptor_index.partition import Partition, partition_views
-from kille.perception.descriptor_index.repeats import Repeats
+from kille.perception.descriptor_index.repeats import Numbers, find_repeats
 from kille.perception.descriptor_index.searches import search_called
-from kille.perception.descriptor_index.views import Rows, View, count, thin_views
+from kille.perception.descriptor_index.views import (
+    Rows,
+    View,
+    count,
+    rooted,
+    thin_views,
+)
+from kille.perception.features import descriptors_of
 from kille.perception.learners import Key
+from kille.scene import Features
 
 _SKETCH = 200_000  # descriptors of a sketch: it is ready in a third of a second
 _SKETCHED = 3 * _SKETCH  # from here on a part is worth one
@@ -144,69 +152,94 @@ class Index:
         self._catch_up()
         return self
 
-    def neighbours(
-        self,
-        query: Rows,
-        repeats: Repeats | None = None,
-        within: float | None = None,
-    ) -> Neighbours:
+    def neighbours(self, query: Rows) -> Neighbours:
         """The nearest descriptors to RootSIFT descriptors (n, 128), of all words.
 
         The ten nearest of each part, and the nearest of each word among the newest.
-        Of repeated features only the first is searched for in the parts: the others are
-        compared with what it found. What is not within a distance of repeated features
-        may be left out, if one is given.
         """
         self._catch_up()
-        order: NDArray[np.intp] | slice = slice(None)
-        if repeats is not None:
-            order, repeats = repeats.in_order()
-            query = query.take(order, axis=0)
-        found = self._search(query, repeats, within)
-        ordered = Neighbours(
-            np.concatenate([words for words, _ in found], axis=1),
-            np.concatenate([apart for _, apart in found], axis=1),
-        )
-        words, apart = map(np.empty_like, ordered)
-        words[order], apart[order] = ordered
+        exact, parts = self._exact_and_parts()
+
+        def search_parts() -> Sequence[Neighbours]:
+            return [
+                part.neighbours(query, own, part.find_rows(query, own))
+                for part, own in parts
+            ]
+
+        compare = partial(exact.neighbours, query)
+        return self._search(len(query), compare, search_parts)
+
+    def neighbours_in(self, scans: Sequence[Features], within: float) -> Neighbours:
+        """The nearest descriptors to all features of some scans, of all words.
+
+        The ten nearest of each part, and the nearest of each word among the newest. Of
+        features that repeat each other only the first is searched for in the parts: the
+        others are compared with what it found. What is not within the distance may be
+        left out. All features of the first scan are new: they are searched for at once,
+        while the other scans may still be extracted. A single scan is searched for as
+        `neighbours` does.
+        """
+        if len(scans) < 2:
+            return self.neighbours(rooted(descriptors_of(scans)))
+        self._catch_up()
+        exact, parts = self._exact_and_parts()
+        coming = iter(scans)
+        seen = [next(coming)]
+        rows = [rooted(seen[0].descriptors)]
+        begun = [part.find_rows(rows[0], own) for part, own in parts]
+        for scan in coming:
+            seen.append(scan)
+            rows.append(rooted(scan.descriptors))
+        query = np.concatenate(rows)
+        order, repeats = find_repeats(query, seen).in_order()
+        ordered = query.take(order, axis=0)
+
+        def search_parts() -> Sequence[Neighbours]:
+            firsts = order[repeats.firsts]
+            later = firsts >= len(rows[0])
+            places = np.where(later, len(rows[0]) + np.cumsum(later) - 1, firsts)
+            found = []
+            for (part, own), some in zip(parts, begun, strict=True):
+                others = part.find_rows(query[firsts[later]], own)
+                nearest = np.concatenate([some, others])[places]
+                found.append(part.neighbours(ordered, own, nearest, repeats.same))
+            return found
+
+        compare = partial(exact.neighbours_within, ordered, repeats, within)
+        found = self._search(len(query), compare, search_parts)
+        words, apart = map(np.empty_like, found)
+        words[order], apart[order] = found
         return Neighbours(words, apart)
 
     def _search(
-        self, query: Rows, repeats: Repeats | None, within: float | None
-    ) -> Sequence[Neighbours]:
+        self,
+        queries: int,
+        compare: Callable[[], Neighbours],
+        search_parts: Callable[[], Sequence[Neighbours]],
+    ) -> Neighbours:
         """The nearest of the newest descriptors, and those in each of the parts.
 
         The newest are compared in a thread if there is much to compare, since NumPy and
         FLANN release the interpreter's lock.
         """
-        exact, owners = self._exact_and_owners()
-        if repeats is None or within is None:
-            compare = partial(exact.neighbours, query)
-        else:
-            compare = partial(exact.neighbours_within, query, repeats, within)
-
-        def search_parts() -> Sequence[Neighbours]:
-            parts = [part for part, _ in self._serving]
-            return [
-                part.neighbours(query, own, repeats)
-                for part, own in zip(parts, owners, strict=True)
-            ]
-
-        if not owners or len(query) * exact.size < _WORTH_A_THREAD:
-            return [compare(), *search_parts()]
+        exact, parts = self._exact_and_parts()
+        if not parts or queries * exact.size < _WORTH_A_THREAD:
+            return _join([compare(), *search_parts()])
         with ThreadPoolExecutor(1, "kille-index") as worker:
             comparison = worker.submit(compare)
             in_parts = search_parts()
-            return [comparison.result(), *in_parts]
+            return _join([comparison.result(), *in_parts])
 
-    def _exact_and_owners(self) -> tuple[Exact, Sequence[NDArray[np.intp]]]:
-        """The newest views, and the columns of the words of each part that answers."""
+    def _exact_and_parts(self) -> tuple[Exact, Sequence[tuple[Part, Numbers]]]:
+        """The newest views, and the parts that answer, with the columns of their
+        words."""
         if self._exact is None:
             columns = self._word_columns()
             self._exact = Exact(thin_views(self._tail, _EXACT), columns)
         if self._owners is None:
             self._owners = [self._words_of(*serving) for serving in self._serving]
-        return self._exact, self._owners
+        parts = (part for part, _ in self._serving)
+        return self._exact, list(zip(parts, self._owners, strict=True))
 
     def nearest(self, query: Rows) -> Rows:
         """The distance (n, labels) from each query to each word's nearest descriptor.
@@ -309,3 +342,9 @@ class Index:
         columns = self._word_columns()
         words = [columns.get(view.label, NOBODY) for view in part.views]
         return np.where(served, np.array(words, np.intp), NOBODY)
+
+
+def _join(found: Sequence[Neighbours]) -> Neighbours:
+    """What was found in several places for the same queries."""
+    words, apart = zip(*found, strict=True)
+    return Neighbours(np.concatenate(words, axis=1), np.concatenate(apart, axis=1))

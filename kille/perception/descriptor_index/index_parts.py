@@ -60,6 +60,17 @@ class Neighbours(NamedTuple):
     words: NDArray[np.intp]
     distances: Rows
 
+    def nearest(self) -> tuple[NDArray[np.intp], Rows]:
+        """The word (n,) of each query's nearest neighbour, and its distance (n,)."""
+        rows = np.arange(len(self.words))
+        column = self.distances.argmin(axis=1)
+        return self.words[rows, column], self.distances[rows, column]
+
+    def without(self, words: NDArray[np.intp]) -> Neighbours:
+        """The neighbours of other words: infinitely far is what is of these (n,)."""
+        far = np.where(self.words == words[:, None], np.inf, self.distances)
+        return Neighbours(self.words, far)
+
 
 class Exact:
     """A few views, all descriptors of which are compared with a query."""
@@ -97,32 +108,34 @@ class Exact:
     def neighbours_within(
         self, query: Rows, repeats: Repeats, distance: float
     ) -> Neighbours:
-        """The nearest descriptor of each word that is nearer than this distance.
+        """The nearest descriptor to each query, and the nearest of another word, in two
+        columns.
 
-        What is farther may be left out: its word is -1, its distance infinite. Where q
-        repeats f, and x is a descriptor, d(f, x) ≤ d(f, q) + d(q, x): so only what is
-        near the first of some features is compared with those that repeat it.
+        What is farther than the distance may be left out: its word is -1, its distance
+        infinite. Where q repeats f, and x is a descriptor, d(f, x) ≤ d(f, q) + d(q, x):
+        so only what is near the first of some features is compared with those that
+        repeat it.
         """
+        words = np.full((len(query), 2), NOBODY)
+        far = np.full((len(query), 2), np.inf, np.float32)
+        if not self.size:
+            return Neighbours(words, far)
         firsts, same, _ = repeats
         reach = distance + repeats.reach() + _ROUNDING
         least = np.asarray(1 - reach**2 / 2, np.float32)
         near, often = self._near(query.take(firsts, axis=0), least)
-        width = max(_CLOSE, len(self._words))
-        words = np.full((len(query), width), NOBODY)
-        far = np.full((len(query), width), np.inf, np.float32)
         many = np.flatnonzero((often > _CLOSE)[same])
-        words[many, : len(self._words)], far[many, : len(self._words)] = (
-            self.neighbours(query.take(many, axis=0))
-        )
+        found = self.neighbours(query.take(many, axis=0))
+        words[many], far[many] = _nearest_two(found)
         some = (often > 0) & (often <= _CLOSE)
         few = np.flatnonzero(some[same])
         which = (np.cumsum(some) - 1)[same[few]]
-        found = near[some]
-        there = found >= 0
-        rows, repeated = self._rows.take(found, axis=0), query.take(few, axis=0)
-        alike = apart(products_with_found(rows, repeated, which))
-        words[few, :_CLOSE] = np.where(there, self._owners[found], NOBODY)[which]
-        far[few, :_CLOSE] = np.where(there[which], alike, np.inf)
+        rows = near[some]
+        there, repeated = rows >= 0, query.take(few, axis=0)
+        alike = products_with_found(self._rows.take(rows, axis=0), repeated, which)
+        owners = np.where(there, self._owners[rows], NOBODY)[which]
+        near_some = np.where(there[which], apart(alike), np.inf)
+        words[few], far[few] = _nearest_two(Neighbours(owners, near_some))
         return Neighbours(words, far)
 
     def _near(
@@ -149,6 +162,14 @@ class Exact:
         for start in range(0, len(query), _AT_ONCE):
             some = slice(start, start + _AT_ONCE)
             yield some, query[some] @ self._rows.T
+
+
+def _nearest_two(found: Neighbours) -> Neighbours:
+    """The nearest neighbour of each query, and the nearest of another word."""
+    word, far = found.nearest()
+    other, farther = found.without(word).nearest()
+    other[np.isinf(farther)] = NOBODY
+    return Neighbours(np.stack([word, other], axis=1), np.stack([far, farther], axis=1))
 
 
 class Part:
@@ -192,29 +213,38 @@ class Part:
         """Wait until another thread has built it, or failed to; tell whether it has."""
         return self._done.wait(seconds)
 
+    def find_rows(self, query: Rows, owners: NDArray[np.intp]) -> NDArray[np.int32]:
+        """The rows (n, k) of descriptors near each query; -1 where there are fewer.
+
+        `owners` has the column of each view's word, or -1 if it was forgotten.
+        """
+        if self._search is None:
+            raise RuntimeError("a part was searched before it was built")
+        some_gone = bool((owners == NOBODY).any())
+        wanted = min(NEIGHBOURS + some_gone * _SPARE, self.size)
+        if not len(query):
+            return np.empty((0, wanted), np.int32)
+        return self._search.find_rows(query, wanted)
+
     def neighbours(
         self,
         query: Rows,
         owners: NDArray[np.intp],
-        repeats: Repeats | None = None,
+        rows: NDArray[np.int32],
+        same: NDArray[np.intp] | None = None,
     ) -> Neighbours:
-        """The nearest descriptors; `owners` has the column of each view's word, or -1.
+        """The nearest descriptors among the rows (n, k) that were found for each query.
 
         Forgotten views are left out at once, although the trees still hold them. Where
-        features are repeated, only the first of each is searched for.
+        features are repeated, the rows (m, k) are those of the first of each, and
+        `same` (n,) says which of the m each is, in order.
         """
-        if self._search is None:
-            raise RuntimeError("a part was searched before it was built")
+        same = np.arange(len(query)) if same is None else same
         if not len(query):
             return Neighbours(np.empty((0, 0), np.intp), np.empty((0, 0), np.float32))
-        some_gone = bool((owners == NOBODY).any())
-        wanted = NEIGHBOURS + some_gone * _SPARE
-        firsts, same, _ = repeats or (slice(None), np.arange(len(query)), None)
-        rows = self._search.find_rows(query[firsts], min(wanted, self.size))
         some = np.maximum(rows, 0)
         views = np.searchsorted(self._starts, some, side="right") - 1
-        words = np.where(rows < 0, NOBODY, owners[views])
-        words = words[same]
+        words = np.where(rows < 0, NOBODY, owners[views])[same]
         far = apart(products_with_found(self._rooted(some), query, same))
         far[words == NOBODY] = np.inf
         return Neighbours(words, far)

@@ -13,6 +13,7 @@ from kille.dialogue.meanings import noun, relation, theory
 from kille.dialogue.state import blank_model
 from kille.grounding.witness_functions import UNKNOWN, WitnessFunctions, thing_name
 from kille.perception.attributes import AttributeMemory
+from kille.perception.look import Scans
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
 from kille.scene import Configuration, Look, Percept
@@ -53,6 +54,32 @@ def test_a_degree_is_what_the_learner_says(
         for word, p in objects.predict_proba_one(percept).items():
             assert witnesses.noun(word, thing_name(number), "look1") == pytest.approx(p)
     assert witnesses.noun("unicorn", "o1", "look1") == 0.0
+
+
+def test_who_asks_about_a_second_thing_has_the_scans_of_the_third_begun(
+    objects: ObjectMemory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gaze = AttentiveSensor("synthetic:empty?seed=5", scans=2)
+    for act in ("show car", "place book at -0.28 0.1", "place banana at 0.28 0.1"):
+        gaze.change(act)
+    look = gaze.look().look
+    begun: list[Scans] = []
+    begin = Scans.begin
+
+    def begin_scans(scans: Scans) -> None:
+        begun.append(scans)
+        begin(scans)
+
+    monkeypatch.setattr(Scans, "begin", begin_scans)
+    made = WitnessFunctions(objects, RelationMemory())
+    made.remember("look1", look)
+    first, _, third = (percept.scans for percept in look.percepts)
+    made.noun("car", "o1", "look1")
+    assert set(begun) <= {first}
+    made.noun("car", "o2", "look1")
+    assert third in begun
+    degrees = [objects.predict_proba_one(it)["car"] for it in look.percepts]
+    assert [made.noun("car", x, "look1") for x in ("o1", "o2", "o3")] == degrees
 
 
 @pytest.mark.parametrize(("x", "look"), [("o3", "look1"), ("o1", "look9")])

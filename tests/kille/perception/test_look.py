@@ -17,10 +17,10 @@ from tabletop import UP, Camera, Card, frame_of, share
 from kille.lab.scenes.shown_things import OnTable
 from kille.perception.cues import measure_cues
 from kille.perception.features import features_of
-from kille.perception.look import look
+from kille.perception.look import Scans, look
 from kille.perception.pointing import region_at
 from kille.perception.segment import SegmentedFrame, region_of, segment
-from kille.scene import Frame
+from kille.scene import Features, Frame, Region
 from kille.sensors.recordings import open_recording
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.catalogue import TOY_NAMES
@@ -54,6 +54,53 @@ def test_a_still_is_scanned_once() -> None:
     (percept,) = look(Camera(picture)).percepts
     assert len(percept.scans) == 1
     assert percept.region.place is None
+
+
+def test_scans_are_the_same_in_order_and_by_number() -> None:
+    shown = frames(3, LEFT, RIGHT)
+    one, other = look(Camera(*shown), 3), look(Camera(*shown), 3)
+    for seen, again in zip(one.percepts, other.percepts, strict=True):
+        scans = list(seen.scans)
+        assert len(scans) == 3
+        for number, scan in enumerate(scans):
+            assert seen.scans[number] is scan
+            assert np.array_equal(again.scans[number].descriptors, scan.descriptors)
+            assert np.array_equal(again.scans[number].pixels, scan.pixels)
+        assert seen.scans[-1] is scans[-1]
+        assert seen.scans[1:] == (scans[1], scans[2])
+
+
+def test_scans_are_extracted_in_a_thread_before_they_are_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    (percept,) = look(Camera(*frames(3, LEFT)), 3).percepts
+    assert isinstance(percept.scans, Scans)
+    extracting, number_of = [], threading.Semaphore(0)
+
+    def extract(frame: Frame, region: Region) -> Features:
+        extracting.append(threading.current_thread())
+        number_of.release()
+        return features_of(frame, region)
+
+    monkeypatch.setattr("kille.perception.look.features_of", extract)
+    percept.scans.begin()
+    percept.scans.begin()
+    assert all(number_of.acquire(timeout=60) for _ in range(3))
+    assert threading.main_thread() not in extracting
+    assert len([*percept.scans]) == len(extracting) == 3
+
+
+def test_a_scan_that_fails_does_so_where_it_is_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    (percept,) = look(Camera(*frames(2, LEFT)), 2).percepts
+
+    def fail(frame: Frame, region: Region) -> Features:
+        raise MemoryError("no more memory")
+
+    monkeypatch.setattr("kille.perception.look.features_of", fail)
+    with pytest.raises(MemoryError, match="no more memory"):
+        list(percept.scans)
 
 
 class Quick(ThreadPoolExecutor):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from threading import current_thread, main_thread
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from tabletop import prototypes
 
 from kille.perception.descriptor_index import (
@@ -102,17 +104,62 @@ def test_scans_without_features_repeat_nothing() -> None:
     scans = [nothing, some, nothing]
     firsts, same, _ = find_repeats(rows_of(scans), scans)
     assert firsts[same].tolist() == list(range(len(some.pixels)))
-    none = rows_of([nothing])
-    for within in (None, 0.45):
-        found = taught().neighbours(none, find_repeats(none, [nothing]), within)
-        assert len(found.distances) == 0
+
+
+@pytest.mark.parametrize("tail", [4000, 100])
+def test_nothing_is_found_for_scans_without_features(
+    tail: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(partition, "TAIL", tail)
+    nothing, some = scan(1, 0, count=0), scan(1, 1)
+    for scans in ([], [nothing], [nothing] * 3):
+        assert len(taught().neighbours_in(scans, 0.45).distances) == 0
+    found = taught().neighbours_in([nothing, some, nothing], 0.45)
+    assert len(found.distances) == len(some.pixels)
+    assert np.isfinite(found.distances).any()
 
 
 def test_nobody_is_near_in_an_index_without_views() -> None:
-    _, query, repeats = looked()
-    found = Index().neighbours(query, repeats, 0.45)
+    scans, query, _ = looked()
+    found = Index().neighbours_in(scans, 0.45)
+    assert len(found.words) == len(query)
     assert (found.words == NOBODY).all()
     assert np.isinf(found.distances).all()
+
+
+def test_a_single_scan_is_searched_for_as_its_features_are() -> None:
+    scans, _, _ = looked()
+    found = taught().neighbours_in(scans[:1], 0.45)
+    each = taught().neighbours(rows_of(scans[:1]))
+    assert np.array_equal(found.words, each.words)
+    assert np.array_equal(found.distances, each.distances)
+
+
+def test_the_first_scan_is_searched_for_before_the_others_have_come(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """And only the features that are new in the others are searched for later."""
+    monkeypatch.setattr(partition, "TAIL", 100)
+    searched, search = [], index_parts.Part.find_rows
+
+    def find_rows(
+        part: index_parts.Part, query: Rows, owners: NDArray[np.intp]
+    ) -> NDArray[np.int32]:
+        searched.append(len(query))
+        return search(part, query, owners)
+
+    monkeypatch.setattr(index_parts.Part, "find_rows", find_rows)
+    scans, _, repeats = looked()
+
+    class Coming(list[Features]):
+        def __iter__(self) -> Iterator[Features]:
+            yield self[0]
+            assert searched == [len(scans[0].pixels)]
+            yield from self[1:]
+
+    taught().neighbours_in(Coming(scans), 0.45)
+    assert searched[1:] == [len(repeats.firsts) - len(scans[0].pixels)]
+    assert searched[1] > 0
 
 
 @pytest.mark.parametrize(("tail", "few"), [(4000, 0), (100, 0), (100, 20_000)])
@@ -122,9 +169,9 @@ def test_what_is_found_for_repeats_is_nearly_what_is_found_for_each(
     """Exactly so for the first of each, and never nearer than the nearest is."""
     monkeypatch.setattr(partition, "TAIL", tail)
     monkeypatch.setattr(index_parts, "_FEW", few)
-    _, query, repeats = looked()
+    scans, query, repeats = looked()
     index = taught()
-    each, found = index.neighbours(query), index.neighbours(query, repeats)
+    each, found = index.neighbours(query), index.neighbours_in(scans, 2)
     nearest, near = (it.distances.min(axis=1) for it in (each, found))
     firsts = repeats.firsts
     assert near[firsts] == pytest.approx(nearest[firsts], abs=2e-3)
@@ -138,33 +185,31 @@ def test_what_is_found_for_repeats_is_nearly_what_is_found_for_each(
 def test_what_is_within_a_distance_is_found_for_all_repeats(
     within: float, close: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Among the newest views, which are searched exactly: no word that is so near is
-    missed, and none is nearer than it is."""
+    """Among the newest views, which are searched exactly: neither the nearest that is
+    so near is missed nor that of another word, and neither is nearer than it is."""
     monkeypatch.setattr(index_parts, "_CLOSE", close)
-    _, query, repeats = looked()
+    scans, query, _ = looked()
     index = taught()
-    each = index.neighbours(query)
-    found = index.neighbours(query, repeats, within)
-    for word in range(len(index.labels)):
-        true, got = (
-            np.where(it.words == word, it.distances, np.inf).min(axis=1)
-            for it in (each, found)
-        )
+    each, found = index.neighbours(query), index.neighbours_in(scans, within)
+    for _ in range(2):
+        (word, true), (got_word, got) = each.nearest(), found.nearest()
         near = true < within
         assert near.any() or within < 0.9
+        assert (got_word == word)[near].all()
         assert got[near] == pytest.approx(true[near], abs=2e-3)
         assert (got > true - 2e-3).all()
+        each, found = each.without(word), found.without(word)
 
 
 def test_descriptors_are_the_same_gathered_or_kept(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(partition, "TAIL", 100)
-    _, query, repeats = looked()
+    scans, query, _ = looked()
     found = []
     for few in (0, 20_000):
         monkeypatch.setattr(index_parts, "_FEW", few)
-        found += [taught().neighbours(query), taught().neighbours(query, repeats)]
+        found += [taught().neighbours(query), taught().neighbours_in(scans, 0.45)]
     for one, other in zip(found[:2], found[2:], strict=True):
         assert np.array_equal(one.words, other.words)
         assert np.array_equal(one.distances, other.distances)
@@ -175,7 +220,7 @@ def test_two_threads_find_what_one_finds(
     repeated: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(partition, "TAIL", 100)
-    _, query, repeats = looked()
+    scans, query, _ = looked()
     threads, compare = [], index_parts.Exact.neighbours
 
     def compare_in_thread(
@@ -190,8 +235,9 @@ def test_two_threads_find_what_one_finds(
         monkeypatch.setattr(growing, "_WORTH_A_THREAD", pairs)
         index = taught()
         index.learn(View("newest", "cup", scan(1, 200).descriptors))
-        given = (repeats, 0.45) if repeated else ()
-        found.append(index.neighbours(query, *given))
+        found.append(
+            index.neighbours_in(scans, 0.45) if repeated else index.neighbours(query)
+        )
     assert [it is main_thread() for it in threads] == [False, True]
     assert np.array_equal(found[0].words, found[1].words)
     assert np.array_equal(found[0].distances, found[1].distances)
