@@ -219,7 +219,7 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
 
 
 def _begins_clause(place: _Place) -> bool:
-    """Whether nothing but what is harmless, or joins, stands before it in its clause."""
+    """Whether only what is harmless, or joins, stands before it in its clause."""
     clause, before = place.inside[0].clause, place.sentence.words[: place.island.first]
     return all(it.is_harmless or it.joins or it.clause < clause for it in before)
 
