@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Protocol, Self
@@ -28,12 +28,19 @@ from kille.memory import (
     Turn,
     Word,
 )
+from kille.memory.errors import MemoryClosedError
+from kille.memory.late_reading import LateReader
 from kille.memory.lessons import By
 from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, Palette, colours_of, xkcd
 from kille.perception.colours.palette import pack_palette, unpack_palette
 from kille.perception.cues import CUES, measure_cues
 from kille.perception.descriptor_index import Background, View
+from kille.perception.descriptor_index.views import (
+    Descriptors,
+    GoneError,
+    LateView,
+)
 from kille.perception.evidence import Evidence as Heard
 from kille.perception.features import NONE
 from kille.perception.learners import Key
@@ -98,7 +105,7 @@ class Knowledge:
             self.objects.deny(view)
         for lesson in memory.attributes():
             shown = _palette_in(lesson.seen.traits)
-            traits = _up_to_date(memory, lesson)
+            traits = _up_to_date(memory, lesson.key, lesson.seen.traits)
             self._learn_attribute(
                 lesson.key, lesson.word.name, traits, shown, lesson.holds
             )
@@ -480,31 +487,80 @@ def _order(key: Key) -> int:
 
 
 def _views(memory: Memory, denied: list[View]) -> Iterator[View]:
-    """The views of the lessons in nouns; denied ones go into the list `denied`."""
-    for lesson in memory.objects():
-        view = _view(memory, lesson)
-        if lesson.holds:
+    """The views of the lessons in nouns; denied ones go into the list `denied`.
+
+    What was seen in very many lessons is read when it is needed.
+    """
+    late = memory.late_reader()
+    for view, holds in (
+        _all_views(memory) if late is None else _late_views(memory, late)
+    ):
+        if holds:
             yield view
         else:
             denied.append(view)
 
 
-def _view(memory: Memory, lesson: ObjectLesson) -> View:
-    blocks = [it.descriptors for it in lesson.seen.scans]
-    descriptors = (
-        blocks[0] if len(blocks) == 1 else np.concatenate([NONE.descriptors, *blocks])
-    )
-    traits = _up_to_date(memory, lesson)
-    return View(lesson.key, lesson.word.name, descriptors, traits)
+def _all_views(memory: Memory) -> Iterator[tuple[View, bool]]:
+    for lesson in memory.objects():
+        traits = _up_to_date(memory, lesson.key, lesson.seen.traits)
+        descriptors = _descriptors_of(lesson.seen.scans)
+        yield View(lesson.key, lesson.word.name, descriptors, traits), lesson.holds
 
 
-def _up_to_date(memory: Memory, lesson: ObjectLesson) -> Traits:
+def _late_views(memory: Memory, late: LateReader) -> Iterator[tuple[View, bool]]:
+    source = _LateLessons(late)
+    for key, name, holds, features in memory.outlines():
+        yield LateView(key, name, features, source), holds
+
+
+@dataclass(frozen=True)
+class _LateLessons:
+    """What was seen in lessons, read when it is asked for."""
+
+    late: LateReader
+
+    def descriptors(self, key: Key) -> Descriptors:
+        with _gone_if_closed():
+            return _descriptors_of(self.late.scans(_order(key)))
+
+    def traits(self, keys: Sequence[Key]) -> Sequence[Traits]:
+        numbers = [_order(key) for key in keys]
+        with _gone_if_closed():
+            found = self.late.traits(numbers)
+            return [
+                _up_to_date(self.late, key, traits)
+                for key, traits in zip(numbers, found, strict=True)
+            ]
+
+
+@contextmanager
+def _gone_if_closed() -> Iterator[None]:
+    try:
+        yield
+    except MemoryClosedError as error:
+        raise GoneError(str(error)) from error
+
+
+def _descriptors_of(scans: Sequence[Scan]) -> Descriptors:
+    blocks = [it.descriptors for it in scans]
+    if len(blocks) == 1:
+        return blocks[0]
+    return np.concatenate([NONE.descriptors, *blocks])
+
+
+class _Pictures(Protocol):
+    """What has the pictures of lessons."""
+
+    def picture(self, key: int) -> Picture | None: ...
+
+
+def _up_to_date(memory: _Pictures, key: int, traits: Traits) -> Traits:
     """The traits of a lesson, measured again if a cue has changed since."""
-    traits = lesson.seen.traits
     kept = _of_cues(traits)
     if kept and len(kept) == len(traits) - (PALETTE in traits):
         return kept
-    picture = memory.picture(lesson.key)
+    picture = memory.picture(key)
     if picture is None or picture.crop is None:
         return kept
     try:

@@ -29,6 +29,10 @@ class MemoryFileError(Exception):
     """
 
 
+class MemoryClosedError(MemoryFileError):
+    """A memory file that was closed before something was read from it."""
+
+
 class NoSuchLessonError(LookupError):
     """The memory has no lesson of this number or word.
 

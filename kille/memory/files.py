@@ -14,7 +14,7 @@ from typing import Literal
 
 from platformdirs import user_data_dir
 
-from kille.memory import schema
+from kille.memory import believed_files, schema
 from kille.memory.errors import (
     ELSEWHERE,
     STRANGE_JOURNAL,
@@ -111,6 +111,11 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
     return _connect(path, _reading_mode(path))
 
 
+def connect_beside(path: Path) -> sqlite3.Connection:
+    """Open one more connection to a file that was opened, to read in any thread."""
+    return _connect(path, "mode=ro", any_thread=True)
+
+
 def open_transient() -> sqlite3.Connection:
     """Open a connection to a memory without a file."""
     connection = sqlite3.connect(":memory:", isolation_level=None)
@@ -183,7 +188,7 @@ def _no_path(path: Path) -> MemoryFileError:
     )
 
 
-def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
+def _connect(path: Path, mode: Mode, any_thread: bool = False) -> sqlite3.Connection:
     if not os.path.isfile(path):
         raise MemoryFileError(
             f"{path} is a folder or a device: name a file with --memory"
@@ -197,6 +202,7 @@ def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
         uri=True,
         timeout=PATIENCE_SECONDS,
         isolation_level=None,
+        check_same_thread=not any_thread,
     )
     restrict(connection)
     return connection
@@ -215,14 +221,22 @@ def _own(connection: sqlite3.Connection) -> None:
 
 
 def _check_ours(connection: sqlite3.Connection, path: Path) -> None:
-    """Refuse a file that is not a kille memory before anything in it is changed."""
+    """Refuse a file that is not a kille memory before anything in it is changed.
+
+    The pages of a large file that was right and has not changed are not read again.
+    """
     check_identity(connection, path)
     for fault in schema.part_faults(connection):
         raise untrusted_file_error(str(path), fault)
+    before = believed_files.fingerprint(path)
+    if believed_files.is_believed(path, before):
+        return
     if connection.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
         raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_CORRUPT))
     for fault in schema.content_faults(connection):
         raise untrusted_file_error(str(path), fault)
+    if before == believed_files.fingerprint(path):
+        believed_files.believe(path, before)
 
 
 def check_identity(connection: sqlite3.Connection, path: Path) -> None:

@@ -150,10 +150,7 @@ class Sighting:
 
     def __post_init__(self) -> None:
         _require_finite("a sighting", self.time, *(self.place or ()))
-        if isinstance(self.traits, CheckedTraits):
-            return
-        for cue, vector in self.traits.items():
-            _require_trait(cue, vector)
+        check_traits(self.traits)
 
 
 @dataclass(frozen=True)
@@ -394,6 +391,14 @@ def _require(
         raise ValueError(
             f"{name} must be {dtype} {shape}, not {array.dtype} {array.shape}"
         )
+
+
+def check_traits(traits: Traits) -> None:
+    """Check that each vector is flat, float32 and finite. Raises ValueError."""
+    if isinstance(traits, CheckedTraits):
+        return
+    for cue, vector in traits.items():
+        _require_trait(cue, vector)
 
 
 def _require_trait(cue: str, vector: Vector) -> None:

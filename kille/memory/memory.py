@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from typing import Self
 
-from kille.memory import files, merging, reading, writing
+from kille.memory import believed_files, files, merging, reading, writing
 from kille.memory.errors import (
+    MemoryFileError,
     NoSuchLessonError,
     explain_content_failures,
     explain_failures,
 )
+from kille.memory.late_reading import LateReader
 from kille.memory.lessons import (
     Arrangement,
     By,
@@ -34,8 +36,12 @@ from kille.memory.lessons import (
 )
 from kille.memory.merging import MergeResult, MergeSource
 from kille.memory.pictures import Picture
+from kille.memory.reading import Outline
 from ttr.aliases import Alias
 from ttr.safety.closing import Closing
+
+LATE = 2_000
+"""Of more lessons in nouns than that, what was seen is read when it is needed."""
 
 Scope = Callable[[sqlite3.Connection], AbstractContextManager[None]]
 """A transaction: what happens in it is kept as a whole or undone."""
@@ -56,8 +62,11 @@ class MemoryReader(Closing):
     ()
     """
 
-    def __init__(self, connection: sqlite3.Connection, place: str) -> None:
+    def __init__(
+        self, connection: sqlite3.Connection, place: str, path: Path | None = None
+    ) -> None:
         self._connection = connection
+        self._path = path
         self.place = place
 
     def close(self) -> None:
@@ -65,12 +74,29 @@ class MemoryReader(Closing):
         with explain_failures(self.place):
             self._connection.close()
 
+    @contextmanager
+    def _reading(self) -> Iterator[None]:
+        """What is done while the content is read, whose failures are explained.
+
+        A file that failed is checked as a whole when it is next opened.
+        """
+        try:
+            with explain_content_failures(self.place):
+                yield
+        except MemoryFileError:
+            self._doubt()
+            raise
+
+    def _doubt(self) -> None:
+        if self._path is not None:
+            believed_files.doubt(self._path)
+
     def words(self) -> tuple[Word, ...]:
         """Every word that is known to apply to something, oldest first.
 
         It is as it was said when that was first taught, with the first article it had.
         """
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.words(self._connection)
 
     def copy_to(self, path: Path) -> None:
@@ -83,32 +109,32 @@ class MemoryReader(Closing):
     def counts(self) -> dict[tuple[Kind, str], int]:
         """The number of lessons in which each word was said to apply, by kind and
         name."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.counts(self._connection)
 
     def dialogues(self) -> tuple[Dialogue, ...]:
         """All dialogues, in the order in which they began."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.dialogues(self._connection)
 
     def turns(self) -> tuple[Turn, ...]:
         """Everything that was said, dialogue by dialogue."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.turns(self._connection)
 
     def lessons(self) -> tuple[Lesson, ...]:
         """All lessons, oldest first, without what was seen in them."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.lessons(self._connection)
 
     def latest(self, count: int = 1) -> tuple[Lesson, ...]:
         """The newest `count` lessons, the newest last, without what was seen."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.latest(self._connection, count)
 
     def lesson_without_sight(self, key: int) -> Lesson:
         """The lesson of this key without what was seen. Raises NoSuchLessonError."""
-        with explain_content_failures(self.place):
+        with self._reading():
             found = reading.lesson_without_sight(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
@@ -118,7 +144,7 @@ class MemoryReader(Closing):
 
     def keys_of(self, kind: Kind, name: str) -> tuple[int, ...]:
         """The keys of the lessons in a word, oldest first."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.keys_of(self._connection, kind, name)
 
     def objects(self) -> Iterator[ObjectLesson]:
@@ -126,33 +152,38 @@ class MemoryReader(Closing):
 
         They are read some hundred at a time, as they are asked for.
         """
-        with explain_content_failures(self.place):
+        with self._reading():
             yield from reading.objects(self._connection)
+
+    def outlines(self) -> list[Outline]:
+        """What the lessons in names of objects are about, oldest first."""
+        with self._reading():
+            return reading.outlines(self._connection)
 
     def attributes(self) -> Iterator[ObjectLesson]:
         """The lessons in attributes of objects, read like those in their names."""
-        with explain_content_failures(self.place):
+        with self._reading():
             yield from reading.objects(self._connection, "attribute")
 
     def relations(self) -> Iterator[RelationLesson]:
         """The lessons about relations, read like those about objects."""
-        with explain_content_failures(self.place):
+        with self._reading():
             yield from reading.relations(self._connection)
 
     def kinds(self) -> tuple[KindLesson, ...]:
         """The lessons that say which kind of thing is a kind of which, oldest
         first."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.kinds(self._connection)
 
     def criteria(self) -> tuple[CriterionLesson, ...]:
         """The lessons that say by what things of a kind are known, oldest first."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.criteria(self._connection)
 
     def lesson(self, key: int) -> SeenLesson:
         """The lesson of this key with its picture. Raises NoSuchLessonError."""
-        with explain_content_failures(self.place):
+        with self._reading():
             found = reading.lesson(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
@@ -160,7 +191,7 @@ class MemoryReader(Closing):
 
     def picture(self, key: int) -> Picture | None:
         """The picture of a lesson; None if none was kept or there is no such lesson."""
-        with explain_content_failures(self.place):
+        with self._reading():
             return reading.picture(self._connection, key)
 
     @contextmanager
@@ -187,9 +218,12 @@ class Memory(MemoryReader):
     (Word(name='cup', surface='cup', kind='object', article=''),)
     """
 
-    def __init__(self, connection: sqlite3.Connection, place: str) -> None:
-        super().__init__(connection, place)
+    def __init__(
+        self, connection: sqlite3.Connection, place: str, path: Path | None = None
+    ) -> None:
+        super().__init__(connection, place, path)
         self._scope: Scope = _commit_durably
+        self._late: LateReader | None = None
 
     @classmethod
     def open(cls, path: Path) -> Self:
@@ -197,12 +231,42 @@ class Memory(MemoryReader):
 
         One program at a time may hold it so. Raises MemoryFileError.
         """
-        return cls(files.open_to_write(path), str(path))
+        return cls(files.open_to_write(path), str(path), path)
+
+    def close(self) -> None:
+        """Close the file; a second call does nothing.
+
+        A large file that was right is believed when it is next opened.
+        """
+        path, self._path = self._path, None
+        with ExitStack() as closing:
+            closing.callback(super().close)
+            if self._late is not None:
+                closing.callback(self._late.close)  # first, or SQLite's log would stay
+        if path is not None:
+            believed_files.believe(path, believed_files.fingerprint(path))
+
+    def late_reader(self) -> LateReader | None:
+        """A reader of what was seen in lessons in names of objects, until this closes.
+
+        None where they are few, or in no file: then all can be read at once.
+        """
+        if self._late is None and self._path is not None:
+            with self._reading():
+                if reading.count(self._connection, "object") <= LATE:
+                    return None
+                beside = files.connect_beside(self._path)
+            self._late = LateReader(beside, self.place, self._doubt)
+        return self._late
+
+    def _doubt(self) -> None:
+        super()._doubt()
+        self._path = None
 
     @staticmethod
     def open_to_read(path: Path) -> MemoryReader:
         """Open the memory in this file, only to read. Raises MemoryFileError."""
-        return MemoryReader(files.open_to_read(path), str(path))
+        return MemoryReader(files.open_to_read(path), str(path), path)
 
     reading = Alias("open_to_read")
 

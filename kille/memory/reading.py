@@ -9,10 +9,10 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,6 +35,7 @@ from kille.memory.lessons import (
     Subsumption,
     Turn,
     Word,
+    check_traits,
     with_picture,
 )
 from kille.memory.pictures import Crop, Picture
@@ -44,6 +45,19 @@ _FLOAT = np.dtype("<f4")
 
 BATCH = 250
 """How many lessons are read at once."""
+
+
+class Outline(NamedTuple):
+    """What a lesson in the name of a thing is about, without what was seen in it.
+
+    `features` is how many features were kept of the thing.
+    """
+
+    key: int
+    name: str
+    holds: bool
+    features: int
+
 
 WORDS = """
     SELECT name, surface, kind, coalesce(
@@ -117,14 +131,35 @@ CRITERIA = f"""
 
 KEYS = "SELECT id FROM lessons WHERE kind = ? ORDER BY id"
 
+COUNT = "SELECT count(*) FROM lessons WHERE kind = ?"
+
+THERE = "SELECT id FROM lessons WHERE id IN ({})"
+
+# SQLite finds the length of a value without reading the value.
+OUTLINES = """
+    SELECT id, name, holds,
+           (SELECT total(length(descriptors)) FROM scans WHERE lesson = lessons.id)
+    FROM lessons WHERE kind = 'object' ORDER BY id
+"""
+
 SCANS = """
     SELECT lesson, descriptors, points FROM scans
-    WHERE lesson BETWEEN ? AND ? ORDER BY lesson, id
+    WHERE lesson BETWEEN ? AND ?
+    AND (SELECT kind FROM lessons WHERE lessons.id = lesson) IN (?, ?)
+    ORDER BY lesson, id
 """
 
 TRAITS = """
     SELECT lesson, cue, vector FROM traits
-    WHERE lesson BETWEEN ? AND ? ORDER BY lesson, id
+    WHERE lesson BETWEEN ? AND ?
+    AND (SELECT kind FROM lessons WHERE lessons.id = lesson) IN (?, ?)
+    ORDER BY lesson, id
+"""
+
+SCANS_OF = "SELECT descriptors, points FROM scans WHERE lesson = ? ORDER BY id"
+
+TRAITS_OF = """
+    SELECT lesson, cue, vector FROM traits WHERE lesson IN ({}) ORDER BY lesson, id
 """
 
 PICTURE = """
@@ -265,8 +300,8 @@ def objects_between(
     kinds: tuple[Kind, Kind] = ("object", "attribute"),
 ) -> list[ObjectLesson]:
     """The lessons of these kinds with keys from `first` to `last`."""
-    scans = _scans(connection, first, last)
-    traits = _traits(connection, first, last)
+    scans = _scans(connection, first, last, kinds)
+    traits = _traits(connection, first, last, kinds)
     found = []
     for row in connection.execute(OBJECTS, (first, last, *kinds)).fetchall():
         key = row[0]
@@ -339,23 +374,77 @@ def floats(blob: bytes) -> Vector:
     return numbers if _FLOAT.isnative else numbers.astype(np.float32)
 
 
+def missing(connection: sqlite3.Connection, keys: Sequence[int]) -> list[int]:
+    """The keys, some hundreds at most, of which there is no lesson."""
+    there = {key for (key,) in connection.execute(_for_each(THERE, keys), keys)}
+    return [key for key in keys if key not in there]
+
+
+def count(connection: sqlite3.Connection, kind: Kind) -> int:
+    """How many lessons of a kind there are."""
+    (found,) = connection.execute(COUNT, (kind,)).fetchone()
+    return int(found)
+
+
+def outlines(connection: sqlite3.Connection) -> list[Outline]:
+    """What each lesson in the name of a thing is about, oldest first."""
+    return [
+        Outline(key, _word(name, name, "object", "").name, bool(holds), _rows_of(size))
+        for key, name, holds, size in connection.execute(OUTLINES).fetchall()
+    ]
+
+
+def scans_of(connection: sqlite3.Connection, key: int) -> tuple[Scan, ...]:
+    """The scans of one lesson; () if there is none of this key."""
+    return tuple(scan(*it) for it in connection.execute(SCANS_OF, (key,)).fetchall())
+
+
+def traits_of(
+    connection: sqlite3.Connection, keys: Sequence[int]
+) -> Mapping[int, Traits]:
+    """The traits of some hundred lessons, by key, of those that have any."""
+    rows = connection.execute(_for_each(TRAITS_OF, keys), keys).fetchall()
+    found = _traits_in(rows)
+    for traits in found.values():
+        check_traits(traits)
+    return found
+
+
+def _for_each(statement: str, keys: Sequence[int]) -> str:
+    """The statement with a place for each key."""
+    return statement.format(", ".join("?" * len(keys)))
+
+
+def _rows_of(size: float) -> int:
+    """How many descriptors so many bytes are."""
+    rows, rest = divmod(int(size), DESCRIPTOR_LENGTH)
+    if rest:
+        raise ValueError(f"{int(size)} bytes of descriptors")
+    return rows
+
+
 def _scans(
-    connection: sqlite3.Connection, first: int, last: int
+    connection: sqlite3.Connection, first: int, last: int, kinds: tuple[Kind, Kind]
 ) -> Mapping[int, list[Scan]]:
     found = defaultdict[int, list[Scan]](list)
-    for key, *arrays in connection.execute(SCANS, (first, last)):
+    for key, *arrays in connection.execute(SCANS, (first, last, *kinds)):
         found[key].append(scan(*arrays))
     return found
 
 
 def _traits(
-    connection: sqlite3.Connection, first: int, last: int
+    connection: sqlite3.Connection, first: int, last: int, kinds: tuple[Kind, Kind]
 ) -> Mapping[int, Traits]:
-    """The traits of these lessons, marked as checked if nothing is wrong with any.
+    """The traits of these lessons, by key, of those that have any."""
+    rows = connection.execute(TRAITS, (first, last, *kinds)).fetchall()
+    return _traits_in(rows)
+
+
+def _traits_in(rows: Sequence[tuple[int, str, bytes]]) -> Mapping[int, Traits]:
+    """The traits in rows, marked as checked if nothing is wrong with any.
 
     Otherwise each is checked by itself, and the one that is wrong is named.
     """
-    rows = connection.execute(TRAITS, (first, last)).fetchall()
     right = _are_finite([blob for *_, blob in rows])
     found = defaultdict[int, dict[str, Vector]](CheckedTraits if right else dict)
     for key, cue, blob in rows:

@@ -42,6 +42,7 @@ from numpy.typing import NDArray
 
 from kille.perception.calibration import LeftOut, leave_out
 from kille.perception.descriptor_index import View
+from kille.perception.descriptor_index.views import load_traits
 from kille.perception.negative_examples import weights_with_denials
 from kille.scene import Traits, Vector
 
@@ -136,6 +137,7 @@ class Examples:
         """
         compared = _compared_views(views, labels)
         taught = [view for some in compared.values() for view in some]
+        load_traits(taught)
         against = _against(denied, labels)
         self._views = [*taught, *(view for some in against for view in some)]
         self._taught = len(taught)

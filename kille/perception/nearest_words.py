@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 
 from kille.perception.calibration import LeftOut
 from kille.perception.descriptor_index import View
+from kille.perception.descriptor_index.views import load_traits
 from kille.perception.likeness import (
     Examples,
     Kernel,
@@ -78,6 +79,7 @@ class NearestWords:
             self._denied.setdefault(view.label, []).append(view)
         self._most = int(np.clip(_COMPARED // max(len(labels), 1), 1, _MOST))
         self._chosen = self._choose(old)
+        load_traits(view for views in self._chosen.values() for view in views)
         self._views = [view for label in labels for view in self._chosen[label]]
         counts = np.array([len(self._chosen[label]) for label in labels], np.intp)
         self._firsts = np.cumsum(counts) - counts

@@ -250,7 +250,7 @@ class ObjectMemory:
         return self._nearest_in_features(x, label) if found is None else found
 
     def _nearest_in_features(self, x: Percept, label: str) -> View | None:
-        own = [it for it in self.views if it.label == label and len(it.descriptors)]
+        own = [it for it in self.views if it.label == label and it.size]
         query = rooted(descriptors_of(x.scans[:1]))
         if not own or not len(query):
             return None

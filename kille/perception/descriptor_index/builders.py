@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from kille.perception.descriptor_index.index_parts import Part
+from kille.perception.descriptor_index.views import GoneError
 
 _QUICK = 200_000  # descriptors; trees over these take about a third of a second
 _PATIENCE = 20_000  # descriptors; trees over these take about .03 s
@@ -152,6 +153,8 @@ def _may_begin() -> bool:
 def _build(part: Part) -> None:
     try:
         part.build()
+    except GoneError:
+        return  # nobody will ask any more
     except Exception as error:
         logging.getLogger(__name__).error(
             "an index over %d descriptors could not be built (%r): "

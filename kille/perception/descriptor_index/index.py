@@ -127,16 +127,17 @@ class Index:
         self._tail.append(view)
         self._exact = None
         before = self._partition
-        self._partition = before.with_view(len(view.descriptors))
+        self._partition = before.with_view(view.size)
         if self._partition.runs != before.runs:
             self._arrange()
 
     def forget(self, key: Key) -> None:
         """Remove a view, as if it had never been learned; KeyError if it was not."""
+        self._views[key].load()  # others may still hold it
         view = self._views.pop(key)
         left = tuple(it for it in self._words[view.label] if it is not view)
         self._words[view.label] = left
-        self._sizes[view.label] -= len(view.descriptors)
+        self._sizes[view.label] -= view.size
         if not left:
             del self._words[view.label]
             self._renumber()
@@ -259,7 +260,7 @@ class Index:
                 f"the key {view.key!r} was learned before; forget it first"
             )
         self._views[view.key] = view
-        self._sizes[view.label] += len(view.descriptors)
+        self._sizes[view.label] += view.size
         before = self._words.get(view.label, ())
         self._words[view.label] = (*before, view)
         if not before:
@@ -277,7 +278,7 @@ class Index:
 
     def _partition_anew(self) -> None:
         """Partition the views as if they had been learned one after the other."""
-        sizes = (len(view.descriptors) for view in self._views.values())
+        sizes = (view.size for view in self._views.values())
         self._partition = partition_views(sizes)
         self._has_forgotten = False
         self._arrange()

@@ -268,7 +268,7 @@ class Part:
     @cached_property
     def _starts(self) -> NDArray[np.intp]:
         """The row at which each view starts, and that after the last."""
-        sizes = [-(-len(view.descriptors) // self.step) for view in self.views]
+        sizes = [-(-view.size // self.step) for view in self.views]
         return np.cumsum([0, *sizes])
 
     @cached_property

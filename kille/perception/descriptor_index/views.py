@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import blake2b
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,10 +56,94 @@ class View:
     descriptors: Descriptors
     traits: Traits = field(default_factory=dict)
 
+    @property
+    def size(self) -> int:
+        """The number of descriptors."""
+        return len(self.descriptors)
+
     @cached_property
     def lot(self) -> bytes:
         """Its place in an order of chance by the key, the same on every machine."""
         return blake2b(repr(self.key).encode(), digest_size=8).digest()
+
+    def load(self) -> None:
+        """Have all of it in the working memory, wherever it was."""
+
+
+class GoneError(Exception):
+    """A view that can no longer be read, since what it was read from was closed."""
+
+
+class ViewSource(Protocol):
+    """From what views are read when they are needed, in any thread.
+
+    Either method raises GoneError once the source is closed.
+    """
+
+    def descriptors(self, key: Key) -> Descriptors:
+        """The descriptors of the view of this key."""
+        ...
+
+    def traits(self, keys: Sequence[Key]) -> Sequence[Traits]:
+        """The traits of the views of these keys."""
+        ...
+
+
+class LateView(View):
+    """A view whose descriptors and traits are read when they are first asked for.
+
+    `size`, the number of descriptors, is known before. ValueError if another number is
+    read.
+
+    >>> class Source:
+    ...     def descriptors(self, key):
+    ...         print("read", key)
+    ...         return np.zeros((40, 128), np.uint8)
+    >>> view = LateView(7, "cup", 40, Source())
+    >>> view.size, view.label
+    (40, 'cup')
+    >>> view.descriptors.shape, view.descriptors.shape
+    read 7
+    ((40, 128), (40, 128))
+    """
+
+    def __init__(self, key: Key, label: str, size: int, source: ViewSource) -> None:
+        self.__dict__.update(key=key, label=label, _size=size, _source=source)
+
+    @property
+    def size(self) -> int:
+        """The number of descriptors."""
+        size: int = self.__dict__["_size"]
+        return size
+
+    def load(self) -> None:
+        """Read what was not read yet."""
+        for name in ("descriptors", "traits"):
+            getattr(self, name)
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in ("descriptors", "traits"):
+            raise AttributeError(name)
+        if name == "traits":
+            load_traits([self])
+            return self.__dict__[name]
+        source: ViewSource = self.__dict__["_source"]
+        found = source.descriptors(self.key)
+        if len(found) != self.size:
+            raise ValueError(f"{len(found)} descriptors instead of {self.size}")
+        return self.__dict__.setdefault(name, found)
+
+
+def load_traits(views: Iterable[View]) -> None:
+    """Read the traits of the views that have not been read yet, together."""
+    missing: dict[ViewSource, list[LateView]] = {}
+    for view in views:
+        if isinstance(view, LateView) and "traits" not in view.__dict__:
+            missing.setdefault(view.__dict__["_source"], []).append(view)
+    for source, some in missing.items():
+        found = source.traits([view.key for view in some])
+        for view, traits in zip(some, found, strict=True):
+            view.__dict__.setdefault("traits", traits)
 
 
 def rooted(descriptors: Descriptors) -> Rows:
@@ -103,17 +188,30 @@ def stack_descriptors(views: Sequence[View]) -> Descriptors:
 
 def count(views: Sequence[View]) -> int:
     """The number of descriptors of all views together."""
-    return sum(len(view.descriptors) for view in views)
+    return sum(view.size for view in views)
+
+
+_THINNEST = 16  # of how many descriptors of a view one is left at least
 
 
 def thin_views(views: Sequence[View], most: int) -> Sequence[View]:
     """The views with fewer descriptors each, about `most` together.
 
+    Of so many views that little would be left of each, some are left out.
+
     >>> (few,) = thin_views([View(0, "cup", np.zeros((10, 128), np.uint8))], 5)
     >>> len(few.descriptors)
     5
+    >>> many = [View(n, "cup", np.zeros((32, 128), np.uint8)) for n in range(1000)]
+    >>> count(thin_views(many, 200))
+    200
     """
     step = -(-count(views) // most)
     if step <= 1:
         return views
-    return [replace(view, descriptors=view.descriptors[::step]) for view in views]
+    within = min(step, _THINNEST)
+    every = -(-step // within)
+    return [
+        View(view.key, view.label, view.descriptors[::within])
+        for view in views[(len(views) - 1) % every :: every]  # the newest is among them
+    ]
