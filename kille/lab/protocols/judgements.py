@@ -30,6 +30,8 @@ from kille.perception.relations.one_number_rule import AngleRule
 from kille.scene import Configuration
 
 SIZES = (1, 2, 4, 8, 16, 24, 48)
+FEW = 8
+"""After so many lessons each word is told of by itself."""
 _DRAWS = 5
 _SPAN = 0.4  # metres: half the width of a map
 TOLD = "angle, told"
@@ -53,6 +55,7 @@ def judgements(
         title=f"Spatial words as people judged them: {study.name}",
         tables=(
             _by_size(curves, sizes),
+            *([_by_word_after(curves, sizes)] if FEW in sizes else []),
             _by_word(study, rights),
             *_choice_tables(study, methods, seed),
         ),
@@ -119,6 +122,26 @@ def _by_size(
         rows=tuple(rows),
         note=f"Means over words and {_DRAWS} draws; low and high: 80 % of the draws. "
         f"{TOLD!r} knows beforehand which number each word is about.",
+    )
+
+
+def _by_word_after(
+    curves: Mapping[str, Sequence[Sequence[Mapping[str, Agreement]]]],
+    sizes: Sequence[int],
+) -> Table:
+    """The agreement on each word after a few lessons."""
+    rows: list[tuple[Cell, ...]] = []
+    for name, by_size in curves.items():
+        draws = by_size[sizes.index(FEW)]
+        for word in draws[0]:
+            rank = mean_and_range([it[word].spearman for it in draws])
+            right = mean_and_range([it[word].accuracy for it in draws])
+            rows.append((name, word, *rank[:3], right.value))
+    return Table(
+        title=f"By word, {FEW} lessons of each",
+        columns=("method", "word", "Spearman", "low", "high", "accuracy"),
+        rows=tuple(rows),
+        note=f"Means over {_DRAWS} draws; low and high: 80 % of the draws.",
     )
 
 

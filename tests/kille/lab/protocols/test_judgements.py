@@ -120,3 +120,7 @@ def test_the_grid_is_learned_as_people_rated_it(data: Path) -> None:
         assert isinstance(few, float)
         assert isinstance(rule, float)
         assert few > rule
+    by_word = [row for row in result.tables[1].rows if row[0] == "default"]
+    assert result.tables[1].title == "By word, 8 lessons of each"
+    assert {row[1] for row in by_word} == set(study.words)
+    assert np.mean([row[2] for row in by_word]) == pytest.approx(rows["default", 8])
