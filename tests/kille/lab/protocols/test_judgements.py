@@ -39,7 +39,7 @@ def invented(places: int = 40) -> JudgementStudy:
 
 def test_learners_are_held_against_people() -> None:
     result = judgements(invented(), METHODS, seed=1, progress=silent)
-    by_size, by_word = result.tables
+    by_size, _, by_word = result.tables
     names = {row[0] for row in by_size.rows}
     assert names == {*METHODS, "angle, told"}
     assert [row[0] for row in by_word.rows] == ["left", "right", "mean"]
