@@ -168,7 +168,10 @@ class ObjectMemory:
         if self._said.pop(key, None) is not None:
             self._weigh_anew()
             return
-        if self._denied.pop(key, None) is None:
+        if key in self._denied:
+            self._denied[key].load()  # others may still hold it
+            del self._denied[key]
+        else:
             self._index.forget(key)
         self._views_changed()
 
