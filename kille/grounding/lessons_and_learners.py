@@ -504,7 +504,7 @@ def _views(memory: Memory, denied: list[View]) -> Iterator[View]:
 def _all_views(memory: Memory) -> Iterator[tuple[View, bool]]:
     for lesson in memory.objects():
         traits = _up_to_date(memory, lesson.key, lesson.seen.traits)
-        descriptors = _descriptors_of(lesson.seen.scans)
+        descriptors = _joined([it.descriptors for it in lesson.seen.scans])
         yield View(lesson.key, lesson.word.name, descriptors, traits), lesson.holds
 
 
@@ -520,9 +520,10 @@ class _LateLessons:
 
     late: LateReader
 
-    def descriptors(self, key: Key) -> Descriptors:
+    def descriptors(self, keys: Sequence[Key]) -> Sequence[Descriptors]:
         with _gone_if_closed():
-            return _descriptors_of(self.late.scans(_order(key)))
+            found = self.late.descriptors([_order(key) for key in keys])
+        return [_joined(blocks) for blocks in found]
 
     def traits(self, keys: Sequence[Key]) -> Sequence[Traits]:
         numbers = [_order(key) for key in keys]
@@ -542,8 +543,8 @@ def _gone_if_closed() -> Iterator[None]:
         raise GoneError(str(error)) from error
 
 
-def _descriptors_of(scans: Sequence[Scan]) -> Descriptors:
-    blocks = [it.descriptors for it in scans]
+def _joined(blocks: Sequence[Descriptors]) -> Descriptors:
+    """The descriptors of some scans together."""
     if len(blocks) == 1:
         return blocks[0]
     return np.concatenate([NONE.descriptors, *blocks])

@@ -20,8 +20,8 @@ from kille.memory.errors import (
     explain_content_failures,
     explain_failures,
 )
-from kille.memory.lessons import Scan
 from kille.memory.pictures import Picture
+from kille.memory.reading import Descriptors
 from kille.scene import Traits
 from ttr.safety.closing import Closing
 
@@ -51,20 +51,17 @@ class LateReader(Closing):
             self._is_open = False
             self._connection.close()
 
-    def scans(self, key: int) -> tuple[Scan, ...]:
-        """The scans of the lesson of this key."""
-        with self._reading(key):
-            return reading.scans_of(self._connection, key)
+    def descriptors(self, keys: Sequence[int]) -> Sequence[Sequence[Descriptors]]:
+        """The descriptors of each scan of the lessons of these keys, some hundreds."""
+        with self._reading(*keys):
+            found = reading.descriptors_of(self._connection, keys)
+        return [found.get(key, ()) for key in keys]
 
     def traits(self, keys: Sequence[int]) -> Sequence[Traits]:
-        """The traits of what was seen in the lessons of these keys."""
-        found: list[Traits] = []
-        for start in range(0, len(keys), reading.BATCH):
-            some = keys[start : start + reading.BATCH]
-            with self._reading(*some):
-                traits = reading.traits_of(self._connection, some)
-            found += [traits.get(key, {}) for key in some]
-        return found
+        """The traits of what was seen in the lessons of these keys, some hundreds."""
+        with self._reading(*keys):
+            found = reading.traits_of(self._connection, keys)
+        return [found.get(key, {}) for key in keys]
 
     def picture(self, key: int) -> Picture | None:
         """The picture of the lesson of this key; None if none was kept."""

@@ -15,6 +15,7 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kille.memory.configurations import from_text
 from kille.memory.lessons import (
@@ -40,6 +41,9 @@ from kille.memory.lessons import (
 )
 from kille.memory.pictures import Crop, Picture
 from kille.scene import Box, Intrinsics, Point, Traits, Vector
+
+Descriptors = NDArray[np.uint8]
+"""The descriptors (n, 128) of the features of a scan."""
 
 _FLOAT = np.dtype("<f4")
 
@@ -156,7 +160,9 @@ TRAITS = """
     ORDER BY lesson, id
 """
 
-SCANS_OF = "SELECT descriptors, points FROM scans WHERE lesson = ? ORDER BY id"
+DESCRIPTORS_OF = """
+    SELECT lesson, descriptors FROM scans WHERE lesson IN ({}) ORDER BY lesson, id
+"""
 
 TRAITS_OF = """
     SELECT lesson, cue, vector FROM traits WHERE lesson IN ({}) ORDER BY lesson, id
@@ -394,9 +400,14 @@ def outlines(connection: sqlite3.Connection) -> list[Outline]:
     ]
 
 
-def scans_of(connection: sqlite3.Connection, key: int) -> tuple[Scan, ...]:
-    """The scans of one lesson; () if there is none of this key."""
-    return tuple(scan(*it) for it in connection.execute(SCANS_OF, (key,)).fetchall())
+def descriptors_of(
+    connection: sqlite3.Connection, keys: Sequence[int]
+) -> Mapping[int, Sequence[Descriptors]]:
+    """The descriptors of the scans of some hundred lessons, by key."""
+    found = defaultdict[int, list[Descriptors]](list)
+    for key, rows in connection.execute(_for_each(DESCRIPTORS_OF, keys), keys):
+        found[key].append(np.frombuffer(rows, np.uint8).reshape(-1, DESCRIPTOR_LENGTH))
+    return found
 
 
 def traits_of(

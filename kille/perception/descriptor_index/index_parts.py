@@ -19,6 +19,7 @@ from kille.perception.descriptor_index.views import (
     Rows,
     View,
     apart,
+    load_descriptors,
     rooted,
     stack_descriptors,
 )
@@ -263,6 +264,7 @@ class Part:
 
     @cached_property
     def _blocks(self) -> list[Descriptors]:
+        load_descriptors(self.views)
         return [view.descriptors[:: self.step] for view in self.views]
 
     @cached_property

@@ -36,6 +36,7 @@ Descriptors = NDArray[np.uint8]
 LENGTH = 128
 """Numbers of a descriptor, each a byte."""
 
+_TOGETHER = 250  # views that are read at once
 _ROUNDING = 1e-6  # of a squared distance: sums of 128 products of float32 are not exact
 
 
@@ -80,8 +81,8 @@ class ViewSource(Protocol):
     Either method raises GoneError once the source is closed.
     """
 
-    def descriptors(self, key: Key) -> Descriptors:
-        """The descriptors of the view of this key."""
+    def descriptors(self, keys: Sequence[Key]) -> Sequence[Descriptors]:
+        """The descriptors of the views of these keys."""
         ...
 
     def traits(self, keys: Sequence[Key]) -> Sequence[Traits]:
@@ -96,9 +97,9 @@ class LateView(View):
     read.
 
     >>> class Source:
-    ...     def descriptors(self, key):
-    ...         print("read", key)
-    ...         return np.zeros((40, 128), np.uint8)
+    ...     def descriptors(self, keys):
+    ...         print("read", *keys)
+    ...         return [np.zeros((40, 128), np.uint8) for key in keys]
     >>> view = LateView(7, "cup", 40, Source())
     >>> view.size, view.label
     (40, 'cup')
@@ -122,28 +123,45 @@ class LateView(View):
             getattr(self, name)
 
     def __getattr__(self, name: str) -> Any:
-        if name not in ("descriptors", "traits"):
-            raise AttributeError(name)
-        if name == "traits":
-            load_traits([self])
-            return self.__dict__[name]
-        source: ViewSource = self.__dict__["_source"]
-        found = source.descriptors(self.key)
-        if len(found) != self.size:
-            raise ValueError(f"{len(found)} descriptors instead of {self.size}")
-        return self.__dict__.setdefault(name, found)
+        match name:
+            case "descriptors":
+                load_descriptors([self])
+            case "traits":
+                load_traits([self])
+            case _:
+                raise AttributeError(name)
+        return self.__dict__[name]
+
+
+def load_descriptors(views: Iterable[View]) -> None:
+    """Read the descriptors of the views that have not been read yet, together."""
+    for source, some in _by_source(views, "descriptors"):
+        found = source.descriptors([view.key for view in some])
+        for view, rows in zip(some, found, strict=True):
+            if len(rows) != view.size:
+                raise ValueError(f"{len(rows)} descriptors instead of {view.size}")
+            view.__dict__.setdefault("descriptors", rows)
 
 
 def load_traits(views: Iterable[View]) -> None:
     """Read the traits of the views that have not been read yet, together."""
-    missing: dict[ViewSource, list[LateView]] = {}
-    for view in views:
-        if isinstance(view, LateView) and "traits" not in view.__dict__:
-            missing.setdefault(view.__dict__["_source"], []).append(view)
-    for source, some in missing.items():
+    for source, some in _by_source(views, "traits"):
         found = source.traits([view.key for view in some])
         for view, traits in zip(some, found, strict=True):
             view.__dict__.setdefault("traits", traits)
+
+
+def _by_source(
+    views: Iterable[View], name: str
+) -> Iterable[tuple[ViewSource, list[LateView]]]:
+    """The views of which this has not been read, some hundreds of a source at once."""
+    missing: dict[ViewSource, list[LateView]] = {}
+    for view in views:
+        if isinstance(view, LateView) and name not in view.__dict__:
+            missing.setdefault(view.__dict__["_source"], []).append(view)
+    for source, some in missing.items():
+        for start in range(0, len(some), _TOGETHER):
+            yield source, some[start : start + _TOGETHER]
 
 
 def rooted(descriptors: Descriptors) -> Rows:
@@ -211,7 +229,6 @@ def thin_views(views: Sequence[View], most: int) -> Sequence[View]:
         return views
     within = min(step, _THINNEST)
     every = -(-step // within)
-    return [
-        View(view.key, view.label, view.descriptors[::within])
-        for view in views[(len(views) - 1) % every :: every]  # the newest is among them
-    ]
+    some = views[(len(views) - 1) % every :: every]  # the newest is among them
+    load_descriptors(some)
+    return [View(it.key, it.label, it.descriptors[::within]) for it in some]
