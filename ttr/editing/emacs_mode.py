@@ -6,11 +6,11 @@ names only by how they are written. Texts and comments are left to Emacs' own ta
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 
 from ttr.dialogues.stories.story_reader import MARKS
 from ttr.editing.tokens import BEFORE_BRACKETS
+from ttr.escapes import json_text
 from ttr.notation.parser import BEFORE_NAMES
 from ttr.notation.syntax_errors import KEYWORDS
 from ttr.types.reserved_words import LOGICAL
@@ -60,7 +60,7 @@ def emacs_mode() -> str:
 def _keywords(patterns: Iterable[tuple[str, str]]) -> str:
     """Patterns and faces as font-lock takes them."""
     return "\n    ".join(
-        f"({json.dumps(it, ensure_ascii=False)} 1 font-lock-{face}-face)"
+        f"({json_text(it)} 1 font-lock-{face}-face)"
         for it, face in patterns
     )
 
