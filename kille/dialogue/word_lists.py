@@ -70,6 +70,8 @@ class WordLists:
     """Forms that are written as they are spoken, and those of the grammar for them."""
     elliptic: Mapping[str, str] = field(default_factory=dict)
     """Forms that leave out a noun, and those with the noun in its place: {a_noun}."""
+    elsewhere: Mapping[str, str] = field(default_factory=dict)
+    """The same of forms that say which one it is instead: "No, the other one."."""
 
     def harmless_runs(self, forms: Sequence[str]) -> Iterator[range]:
         """Where harmless words and phrases stand among these words."""
@@ -96,15 +98,21 @@ class WordLists:
         """
         return _replace_forms(text, self.spoken)
 
-    def fill_noun(self, text: str, noun: str, a_noun: str) -> str:
-        """The text with a noun where it is left out: the one that was just learned.
+    def fill_noun(
+        self, text: str, noun: str, a_noun: str, *, is_elsewhere: bool = False
+    ) -> str:
+        """The text with a noun where it is left out: what was learned, or pointed out.
 
-        >>> word_lists("en").fill_noun("That's another one.", "key", "a key")
+        >>> english = word_lists("en")
+        >>> english.fill_noun("That's another one.", "key", "a key")
         "That's another key."
+        >>> english.fill_noun("No, the left one.", "key", "a key", is_elsewhere=True)
+        'no, the left one is a key.'
         """
+        elliptic = self.elsewhere if is_elsewhere else self.elliptic
         forms = {
             said: written.format(noun=noun, a_noun=a_noun)
-            for said, written in self.elliptic.items()
+            for said, written in elliptic.items()
         }
         return _replace_forms(text, forms)
 
@@ -290,6 +298,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         numbers=tuple(data.get("numbers", "").split()),
         spoken=data.get("spoken", {}),
         elliptic=data.get("elliptic", {}),
+        elsewhere=data.get("elsewhere", {}),
     )
 
 

@@ -60,8 +60,7 @@ def emacs_mode() -> str:
 def _keywords(patterns: Iterable[tuple[str, str]]) -> str:
     """Patterns and faces as font-lock takes them."""
     return "\n    ".join(
-        f"({json_text(it)} 1 font-lock-{face}-face)"
-        for it, face in patterns
+        f"({json_text(it)} 1 font-lock-{face}-face)" for it, face in patterns
     )
 
 

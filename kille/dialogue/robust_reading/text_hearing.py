@@ -16,6 +16,7 @@ from kille.dialogue.meanings import (
     predicate_at,
     value_at,
 )
+from kille.dialogue.moves import words_in
 from kille.dialogue.robust_reading.island_kinds import CLAIMS
 from kille.dialogue.robust_reading.lessons_together import (
     are_about_unmarked_things,
@@ -31,6 +32,7 @@ from kille.dialogue.robust_reading.whole_sentences import (
     is_weak,
     needs_parts,
 )
+from kille.dialogue.state import words
 from kille.dialogue.word_lists import NAME, PARTIAL, WordLists, plain_text, word_lists
 from ttr import Record
 
@@ -125,13 +127,20 @@ def without_early_answers(said: Iterable[Sentence]) -> tuple[Sentence, ...]:
 def fill_noun(text: str, s: Record, language: str = "en") -> str:
     """The text with the noun that was learned last, where it says so little.
 
-    "That's another one." is "That's another cup." after "This is a cup.".
+    "That's another one." is "That's another cup." after "This is a cup.". Where the
+    robot has just pointed out a cup, "No, the other one." says which one is.
     """
-    if not s.private.lessons or s.private.lessons[-1].sign.kind != "noun":
-        return text
-    sign = s.private.lessons[-1].sign
-    a_noun = lexicon(language).with_article(sign.form, sign.article)
-    return word_lists(language).fill_noun(text, sign.form, a_noun)
+    said = [predicate_at(it, "e").name for it in s.private.last[-1:]]
+    is_elsewhere = "point_out" in said
+    signs = [it.sign for it in s.private.lessons[-1:]]
+    if is_elsewhere:
+        signs = [*words_in(words(s), *s.shared.pending)]
+    for sign in (it for it in signs if it.kind == "noun"):
+        a_noun = lexicon(language).with_article(sign.form, sign.article)
+        return word_lists(language).fill_noun(
+            text, sign.form, a_noun, is_elsewhere=is_elsewhere
+        )
+    return text
 
 
 def complete_answer(
