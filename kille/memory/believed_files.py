@@ -64,24 +64,24 @@ def fingerprint(path: Path) -> str | None:
     return f"{sqlite3.sqlite_version} {' '.join(map(str, numbers))}"
 
 
-def is_believed(path: Path, print_: str | None) -> bool:
+def is_believed(path: Path, state: str | None) -> bool:
     """Was a file of this fingerprint found right at this place?"""
-    if print_ is None:
+    if state is None:
         return False
     try:
-        return _mark(path).read_text("utf-8") == print_
+        return _mark(path).read_text("utf-8") == state
     except (OSError, ValueError):
         return False
 
 
-def believe(path: Path, print_: str | None) -> None:
+def believe(path: Path, state: str | None) -> None:
     """Keep that the file of this fingerprint is right, if that can be kept."""
-    if print_ is None:
+    if state is None:
         return
     mark = _mark(path)
     with suppress(OSError, TTRError):
         mark.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(mark, print_)
+        write_whole(mark, state)
         kept = sorted(mark.parent.iterdir(), key=lambda it: it.stat().st_mtime)
         for old in kept[:-MOST]:
             old.unlink()
