@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from collections import Counter
 from collections.abc import Iterator
@@ -19,9 +20,13 @@ ROOT = Path(__file__).resolve().parent.parent
 # which of them were really run.
 OPTIONAL = ("browser", "data", "oracle", "ros", "speech")
 
+# What is interned and cached grows with the tests: to look through all of it for garbage
+# takes a twentieth of the run if it is done as often as in a small program.
+gc.set_threshold(20_000, 20, 100)
+
 settings.register_profile("dev", max_examples=50, deadline=None)
 settings.register_profile(
-    "ci", max_examples=60, derandomize=True, deadline=None, print_blob=True
+    "ci", max_examples=45, derandomize=True, deadline=None, print_blob=True
 )
 settings.register_profile("deep", max_examples=5_000, deadline=None)
 settings.register_profile("release", max_examples=100_000, deadline=None)
