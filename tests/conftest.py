@@ -20,8 +20,8 @@ ROOT = Path(__file__).resolve().parent.parent
 # which of them were really run.
 OPTIONAL = ("browser", "data", "oracle", "ros", "speech")
 
-# What is interned and cached grows with the tests: to look through all of it for garbage
-# takes a twentieth of the run if it is done as often as in a small program.
+# What is interned and cached grows with the tests: to look through all of it for
+# garbage takes a twentieth of the run if that is done as often as in a small program.
 gc.set_threshold(20_000, 20, 100)
 
 settings.register_profile("dev", max_examples=50, deadline=None)
