@@ -67,7 +67,7 @@ def _plan_several(
     s: Record, things: Sequence[str], sign: Record, *, types: DialogueTypes
 ) -> Record:
     """The plan to learn that each of these things is so."""
-    teaches = [said_of(s, sign, x, types=types) for x in things]
+    teaches = [_said_of(s, sign, x, types=types) for x in things]
     seen = [record(sit=record(x=x), sign=sign) for x in things]
     is_noun = sign.kind == "noun"
     return plan(
@@ -89,7 +89,7 @@ def reject_several(s: Record, *, types: DialogueTypes) -> Record | None:
     if not s.view.things:
         return None
     sign = _claimed_word(s)
-    teaches = [denial(said_of(s, sign, x, types=types)) for x in s.view.things]
+    teaches = [denial(_said_of(s, sign, x, types=types)) for x in s.view.things]
     forgets = [
         key for it in teaches for key in opposite_lesson_keys(s, it, types=types)
     ]
@@ -177,7 +177,7 @@ def _plan_question(
     s: Record, ask: str, noun: Record, x: str, *, types: DialogueTypes
 ) -> Record:
     """The plan to ask if it is so of a thing of which something else was said."""
-    content = said_of(s, noun, x, types=types)
+    content = _said_of(s, noun, x, types=types)
     content = set_to(content, **number_field(s, x, types=types))
     asked = issue(ask, [s.shared.latest])
     return plan(s, ask, content, signs=[noun], asks=[asked], types=types)
@@ -194,8 +194,8 @@ def _said_in_question(s: Record) -> Record | None:
 def _plan_only(s: Record, *, types: DialogueTypes) -> Record:
     """The plan to learn that one thing is so, and all others are not."""
     noun, this = _claimed_word(s), thing_at(content_of(s), "target") or ""
-    own = said_of(s, noun, this, types=types)
-    others = (said_of(s, noun, x, types=types) for x in s.view.things if x != this)
+    own = _said_of(s, noun, this, types=types)
+    others = (_said_of(s, noun, x, types=types) for x in s.view.things if x != this)
     teaches = [own, *map(denial, others)]
     forgets = [
         key for it in teaches for key in opposite_lesson_keys(s, it, types=types)
@@ -245,7 +245,7 @@ def ask_single(
     sign = _claimed_word(s)
     if len(s.view.things) != 1 or " " not in sign.article:
         return None
-    content = said_of(s, sign, s.view.things[0], types=types)
+    content = _said_of(s, sign, s.view.things[0], types=types)
     move, model = model.create(
         set_to(
             types.move_type("Heard", "Instruct"),
@@ -298,6 +298,12 @@ def _one_of(
     return set_to(
         asked, target=set_to(phrase, **dict(phrase_at(asked, "target").fields))
     )
+
+
+def _said_of(s: Record, sign: Record, x: str, *, types: DialogueTypes) -> RecordType:
+    """That a thing is what a noun says, or as another word says how it is."""
+    template = "Naming" if sign.kind == "noun" else "Having"
+    return said_of(s, sign, x, template, types=types)
 
 
 def _claimed_word(s: Record) -> Record:
