@@ -325,8 +325,11 @@ class Reader:
         if "component" in content:
             said = (it for it in signs if it.meaning == content["component"])
         elif "counted" in content:
-            nouns = tuple(it for it in signs if it.kind == "noun")
-            said = (it for it in nouns or signs)  # "These are cups."  "These are red."
+            words = tuple(signs)
+            if not words:
+                return SAYING  # "These are things."
+            nouns = tuple(it for it in words if it.kind == "noun")
+            said = (it for it in nouns or words)  # "These are cups."  "These are red."
         else:
             said = (it for it in signs if claims(content, it))
         for sign in said:

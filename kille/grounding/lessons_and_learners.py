@@ -504,7 +504,7 @@ def _views(memory: Memory, denied: list[View]) -> Iterator[View]:
 def _all_views(memory: Memory) -> Iterator[tuple[View, bool]]:
     for lesson in memory.objects():
         traits = _up_to_date(memory, lesson.key, lesson.seen.traits)
-        descriptors = _joined([it.descriptors for it in lesson.seen.scans])
+        descriptors = _stack_scans([it.descriptors for it in lesson.seen.scans])
         yield View(lesson.key, lesson.word.name, descriptors, traits), lesson.holds
 
 
@@ -523,7 +523,7 @@ class _LateLessons:
     def descriptors(self, keys: Sequence[Key]) -> Sequence[Descriptors]:
         with _gone_if_closed():
             found = self.late.descriptors([_order(key) for key in keys])
-        return [_joined(blocks) for blocks in found]
+        return [_stack_scans(blocks) for blocks in found]
 
     def traits(self, keys: Sequence[Key]) -> Sequence[Traits]:
         numbers = [_order(key) for key in keys]
@@ -543,7 +543,7 @@ def _gone_if_closed() -> Iterator[None]:
         raise GoneError(str(error)) from error
 
 
-def _joined(blocks: Sequence[Descriptors]) -> Descriptors:
+def _stack_scans(blocks: Sequence[Descriptors]) -> Descriptors:
     """The descriptors of some scans together."""
     if len(blocks) == 1:
         return blocks[0]

@@ -53,29 +53,29 @@ class LateReader(Closing):
 
     def descriptors(self, keys: Sequence[int]) -> Sequence[Sequence[Descriptors]]:
         """The descriptors of each scan of the lessons of these keys, some hundreds."""
-        with self._reading(*keys):
+        with self._guard_reading(*keys):
             found = reading.descriptors_of(self._connection, keys)
         return [found.get(key, ()) for key in keys]
 
     def traits(self, keys: Sequence[int]) -> Sequence[Traits]:
         """The traits of what was seen in the lessons of these keys, some hundreds."""
-        with self._reading(*keys):
+        with self._guard_reading(*keys):
             found = reading.traits_of(self._connection, keys)
         return [found.get(key, {}) for key in keys]
 
     def picture(self, key: int) -> Picture | None:
         """The picture of the lesson of this key; None if none was kept."""
-        with self._reading(key):
+        with self._guard_reading(key):
             return reading.picture(self._connection, key)
 
     @contextmanager
-    def _reading(self, *keys: int) -> Iterator[None]:
+    def _guard_reading(self, *keys: int) -> Iterator[None]:
         with self._lock:
             if not self._is_open:
                 raise MemoryClosedError(f"{self._place} is closed")
             try:
                 with explain_content_failures(self._place):
-                    gone = reading.missing(self._connection, keys)
+                    gone = reading.keys_of_no_lesson(self._connection, keys)
                     if not gone:
                         yield
             except MemoryFileError:

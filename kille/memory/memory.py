@@ -75,7 +75,7 @@ class MemoryReader(Closing):
             self._connection.close()
 
     @contextmanager
-    def _reading(self) -> Iterator[None]:
+    def _guard_reading(self) -> Iterator[None]:
         """What is done while the content is read, whose failures are explained.
 
         A file that failed is checked as a whole when it is next opened.
@@ -96,7 +96,7 @@ class MemoryReader(Closing):
 
         It is as it was said when that was first taught, with the first article it had.
         """
-        with self._reading():
+        with self._guard_reading():
             return reading.words(self._connection)
 
     def copy_to(self, path: Path) -> None:
@@ -109,32 +109,32 @@ class MemoryReader(Closing):
     def counts(self) -> dict[tuple[Kind, str], int]:
         """The number of lessons in which each word was said to apply, by kind and
         name."""
-        with self._reading():
+        with self._guard_reading():
             return reading.counts(self._connection)
 
     def dialogues(self) -> tuple[Dialogue, ...]:
         """All dialogues, in the order in which they began."""
-        with self._reading():
+        with self._guard_reading():
             return reading.dialogues(self._connection)
 
     def turns(self) -> tuple[Turn, ...]:
         """Everything that was said, dialogue by dialogue."""
-        with self._reading():
+        with self._guard_reading():
             return reading.turns(self._connection)
 
     def lessons(self) -> tuple[Lesson, ...]:
         """All lessons, oldest first, without what was seen in them."""
-        with self._reading():
+        with self._guard_reading():
             return reading.lessons(self._connection)
 
     def latest(self, count: int = 1) -> tuple[Lesson, ...]:
         """The newest `count` lessons, the newest last, without what was seen."""
-        with self._reading():
+        with self._guard_reading():
             return reading.latest(self._connection, count)
 
     def lesson_without_sight(self, key: int) -> Lesson:
         """The lesson of this key without what was seen. Raises NoSuchLessonError."""
-        with self._reading():
+        with self._guard_reading():
             found = reading.lesson_without_sight(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
@@ -144,7 +144,7 @@ class MemoryReader(Closing):
 
     def keys_of(self, kind: Kind, name: str) -> tuple[int, ...]:
         """The keys of the lessons in a word, oldest first."""
-        with self._reading():
+        with self._guard_reading():
             return reading.keys_of(self._connection, kind, name)
 
     def objects(self) -> Iterator[ObjectLesson]:
@@ -152,38 +152,38 @@ class MemoryReader(Closing):
 
         They are read some hundred at a time, as they are asked for.
         """
-        with self._reading():
+        with self._guard_reading():
             yield from reading.objects(self._connection)
 
     def outlines(self) -> list[Outline]:
         """What the lessons in names of objects are about, oldest first."""
-        with self._reading():
+        with self._guard_reading():
             return reading.outlines(self._connection)
 
     def attributes(self) -> Iterator[ObjectLesson]:
         """The lessons in attributes of objects, read like those in their names."""
-        with self._reading():
+        with self._guard_reading():
             yield from reading.objects(self._connection, "attribute")
 
     def relations(self) -> Iterator[RelationLesson]:
         """The lessons about relations, read like those about objects."""
-        with self._reading():
+        with self._guard_reading():
             yield from reading.relations(self._connection)
 
     def kinds(self) -> tuple[KindLesson, ...]:
         """The lessons that say which kind of thing is a kind of which, oldest
         first."""
-        with self._reading():
+        with self._guard_reading():
             return reading.kinds(self._connection)
 
     def criteria(self) -> tuple[CriterionLesson, ...]:
         """The lessons that say by what things of a kind are known, oldest first."""
-        with self._reading():
+        with self._guard_reading():
             return reading.criteria(self._connection)
 
     def lesson(self, key: int) -> SeenLesson:
         """The lesson of this key with its picture. Raises NoSuchLessonError."""
-        with self._reading():
+        with self._guard_reading():
             found = reading.lesson(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
@@ -191,7 +191,7 @@ class MemoryReader(Closing):
 
     def picture(self, key: int) -> Picture | None:
         """The picture of a lesson; None if none was kept or there is no such lesson."""
-        with self._reading():
+        with self._guard_reading():
             return reading.picture(self._connection, key)
 
     @contextmanager
@@ -252,7 +252,7 @@ class Memory(MemoryReader):
         None where they are few, or in no file: then all can be read at once.
         """
         if self._late is None and self._path is not None:
-            with self._reading():
+            with self._guard_reading():
                 if reading.count(self._connection, "object") <= LATE:
                     return None
                 beside = files.connect_beside(self._path)

@@ -380,7 +380,7 @@ def floats(blob: bytes) -> Vector:
     return numbers if _FLOAT.isnative else numbers.astype(np.float32)
 
 
-def missing(connection: sqlite3.Connection, keys: Sequence[int]) -> list[int]:
+def keys_of_no_lesson(connection: sqlite3.Connection, keys: Sequence[int]) -> list[int]:
     """The keys, some hundreds at most, of which there is no lesson."""
     there = {key for (key,) in connection.execute(_for_each(THERE, keys), keys)}
     return [key for key in keys if key not in there]
