@@ -35,7 +35,6 @@ from kille.agent.explanations import criterion_of_lesson, kind_of_lesson, sign_o
 from kille.agent.reason_pictures import reason_picture
 from kille.agent.silence import Silence, missing_things
 from kille.dialogue.beliefs import is_sure, names_of, thinks
-from kille.dialogue.commitments import as_told
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
@@ -434,7 +433,7 @@ class Agent(Closing, NotebookValue):
     def _name_by(self, beliefs: Sequence[Record]) -> str:
         """What it would call a thing of which it believes this."""
         s = self.state
-        if not thinks(s, beliefs := as_told(s, beliefs)):
+        if not thinks(s, beliefs):
             return ""
         return f"{beliefs[0].sign.form}{'' if is_sure(s, beliefs) else '?'}"
 

@@ -7,13 +7,16 @@ its judgements.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence, Set
 from functools import lru_cache
+from itertools import combinations
 
-from kille.dialogue.meanings import KINDS, word_of
+from kille.dialogue.meanings import KINDS, is_denial, word_of
 from kille.dialogue.reference.perspectives import front_of
-from kille.dialogue.taxonomy import is_kind_of, rank_names
-from ttr import Model, Pred, Record, record
+from kille.dialogue.reference.resolving import taught_words, thing_at
+from kille.dialogue.taxonomy import are_related, is_kind_of, rank_names
+from ttr import Model, Pred, Record, record, replace
 from ttr.safety.budgets import cache_in_question
 from ttr.types import PType
 
@@ -66,10 +69,54 @@ def _pair(s: Record, x: str, y: str) -> Record:
 def names_of(s: Record, model: Model, x: str) -> Beliefs:
     """How probably each noun is true of x, the one that it would be called by first.
 
-    After it come the nouns that are its rivals; those of which it is a kind, or which
-    are kinds of it, may be true as well.
+    As long as x is in view, what the tutor called it is certain, and what the tutor
+    denied is out of the question. After the first noun come its rivals: those of which
+    it is a kind, or which are kinds of it, may be true as well. Where the tutor called
+    x by rivals, each is at least as probable as its share in how often that was.
     """
-    return rank_names(s, beliefs_about(s, model, s.private.nouns, x))
+    beliefs = beliefs_about(s, model, s.private.nouns, x)
+    certain = as_told(s, beliefs)
+    shares = _shares_of_rivals(s, x)
+    if shares:
+        seen = {word_of(it.sign): it.p for it in beliefs}
+        shared = (
+            replace(it, p=max(seen[word], shares[word])) if word in shares else it
+            for it in certain
+            for word in [word_of(it.sign)]
+        )
+        certain = sorted(shared, key=lambda it: (-it.p, it.sign.form))
+    return rank_names(s, certain)
+
+
+def _shares_of_rivals(s: Record, x: str) -> dict[Pred, float]:
+    """The shares of rival nouns in what the tutor called x; none without rivals."""
+    here = frozenset(s.shared.here)
+    names = [
+        it.sign
+        for it in s.private.lessons
+        if "c" in it.content
+        and it.content in here
+        and not is_denial(it.content)
+        and thing_at(it.content, "target") == x
+    ]
+    if all(are_related(s, one, other) for one, other in combinations(names, 2)):
+        return {}
+    counts = Counter(map(word_of, names))
+    return {word: count / len(names) for word, count in counts.items()}
+
+
+def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
+    """What it believes of things in view, where what it was told of them is certain.
+
+    The tutor decides what words mean: the robot does not deny that a thing is red which
+    the tutor has just called red, whatever most people would call it.
+    """
+    told = taught_words(s)
+    certain = []
+    for it in beliefs:
+        so = told.get((word_of(it.sign), it.sit.x)) if "x" in it.sit else None
+        certain.append(it if so is None else replace(it, p=float(so)))
+    return sorted(certain, key=lambda it: (-it.p, it.sign.form))
 
 
 def special_name(s: Record, model: Model, noun: Record, x: str) -> Record | None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 
-from kille.dialogue.beliefs import Beliefs
 from kille.dialogue.meanings import (
     CLAIMS,
     DialogueTypes,
@@ -20,9 +19,8 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.moves import plan
 from kille.dialogue.reference import PARTS, thing_at, things_in
-from kille.dialogue.reference.resolving import taught_words
 from kille.dialogue.state import words
-from ttr import Pred, Record, RecordType, replace
+from ttr import Pred, Record, RecordType
 
 LEARNED = {"c": "Learned", "a": "LearnedQuality", "rel": "LearnedRelation"}
 """What the robot says when it has learned a claim, by the claim's label."""
@@ -100,20 +98,6 @@ def lessons_in(s: Record, claim: RecordType, *, types: DialogueTypes) -> list[Re
         if same(it.content, claim)
         and (it.content["look"] == claim["look"] or it.content in here)
     ]
-
-
-def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
-    """What it believes of things in view, where what it was told of them is certain.
-
-    The tutor decides what words mean: the robot does not deny that a thing is red which
-    the tutor has just called red, whatever most people would call it.
-    """
-    told = taught_words(s)
-    certain = []
-    for it in beliefs:
-        so = told.get((word_of(it.sign), it.sit.x)) if "x" in it.sit else None
-        certain.append(it if so is None else replace(it, p=float(so)))
-    return sorted(certain, key=lambda it: (-it.p, it.sign.form))
 
 
 def is_here(s: Record, claim: RecordType, *, types: DialogueTypes) -> bool:

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import (
     Beliefs,
+    as_told,
     beliefs_about,
     is_sure,
     knows,
     special_name,
 )
-from kille.dialogue.commitments import as_told
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from kille.dialogue.beliefs import beliefs_about, thinks
-from kille.dialogue.commitments import as_told
+from kille.dialogue.beliefs import as_told, beliefs_about, thinks
 from kille.dialogue.criteria import (
     COMPONENT,
     CUE,

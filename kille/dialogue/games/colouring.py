@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import beliefs_about, certainty
-from kille.dialogue.commitments import as_told
+from kille.dialogue.beliefs import as_told, beliefs_about, certainty
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import thing_at

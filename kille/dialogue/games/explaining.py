@@ -11,13 +11,14 @@ from operator import itemgetter
 
 from kille.dialogue.beliefs import (
     about,
+    as_told,
     beliefs_about,
     degree,
     has_rival,
     special_name,
     thinks,
 )
-from kille.dialogue.commitments import affirmation, as_told, kind_of, same, signs_for
+from kille.dialogue.commitments import affirmation, kind_of, same, signs_for
 from kille.dialogue.criteria import last_subject
 from kille.dialogue.games.citing import cite_reasons
 from kille.dialogue.meanings import (

@@ -237,6 +237,17 @@ def tell(robot: Any, text: str) -> None:
         robot.acts(ANSWERS[act])
 
 
+COUNTS = {
+    "I see none.": (0, 0),
+    "Perhaps one, but I am not sure.": (0, 1),
+    "Perhaps two, but I am not sure.": (0, 2),
+    "One.": (1, 1),
+    "One, and perhaps one more.": (1, 2),
+    "Two.": (2, 2),
+}
+"""How many things at least and at most an answer says that there are."""
+
+
 @given(st.lists(st.one_of(LESSONS, KINDS, SWAPS), max_size=8), DEGREES)
 def test_what_was_taught_is_affirmed(
     scene: Callable[..., Any],
@@ -268,6 +279,7 @@ def test_what_was_taught_is_affirmed(
         for upper in signs
         if so and sign.kind == "noun" and is_kind_of(robot.state, sign, upper)
     ]
+    told = {(x, sign.form): so for x, sign, so in [*held, *follow]}
     for x, sign, so in [*held, *follow]:
         point_at(robot, x)
         [act] = robot.acts(f"Is this {claim(sign.form)}?")
@@ -278,3 +290,36 @@ def test_what_was_taught_is_affirmed(
     for x in THINGS:
         about = [(sign.form, so) for y, sign, so in [*held, *follow] if y == x]
         assert not any((form, not so) in about for form, so in about)
+        check_name(robot, x, {form: so for form, so in about if form in NOUNS})
+    for word in WORDS:
+        check_things(robot, word, [told.get((x, word)) for x in THINGS])
+
+
+def check_name(robot: Any, x: str, told: dict[str, bool]) -> None:
+    """What a thing is called is what it was called, and nothing that was denied."""
+    point_at(robot, x)
+    [act] = robot.acts("What is this?")
+    first, *rest = [it.form for it in robot.state.shared.latest.signs] or [None]
+    assert not any(told.get(it) is False for it in (first, *rest)), (first, rest, told)
+    if any(told.values()):
+        assert act in ("assert_name", "hedge_name")
+        assert told.get(first), (first, told)
+
+
+def check_things(robot: Any, word: str, told: list[bool | None]) -> None:
+    """Of what was called something there is that many, and it is what is shown."""
+    least, most = COUNTS[robot.hear(f"How many {plural(word)} are there?")]
+    assert told.count(True) <= least, (word, told)
+    assert most <= len(told) - told.count(False), (word, told)
+    phrase = f"the {word}" if word in NOUNS else f"the {word} one"
+    if sorted(map(str, told)) == ["False", "True"]:
+        assert f"#{told.index(True) + 1}" in robot.hear(f"Show me {phrase}.")
+        [act] = robot.acts(f"Where is {phrase}?")
+        assert act in ("need_landmark", "admit_place", "tell_place"), act
+    if told == [False, False]:
+        assert robot.acts(f"Show me {phrase}.") == ["see_no_such"]
+
+
+def plural(word: str) -> str:
+    """How the things of which a word holds are counted."""
+    return f"{word}s" if word in NOUNS else f"{word} things"

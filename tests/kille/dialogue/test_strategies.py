@@ -177,6 +177,7 @@ def test_what_a_yes_and_a_no_do(scene: Make, p: float, said: str, count: int) ->
     robot = scene(nouns=("cup",), known={("cup", "o1"): p}, wording="four")
     for _ in range(count - 1):
         robot.hear("This is a cup.")
+    robot.look(kept=())  # something else lies there now
     lessons = len(robot.state.private.lessons)
     assert robot.hear("What is this?") == SAYS[p]
     if said == "Yes." and p >= 0.5:
