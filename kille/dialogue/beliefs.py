@@ -7,10 +7,8 @@ its judgements.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Sequence, Set
 from functools import lru_cache
-from itertools import combinations
 
 from kille.dialogue.meanings import KINDS, is_denial, word_of
 from kille.dialogue.reference.perspectives import front_of
@@ -69,29 +67,25 @@ def _pair(s: Record, x: str, y: str) -> Record:
 def names_of(s: Record, model: Model, x: str) -> Beliefs:
     """How probably each noun is true of x, the one that it would be called by first.
 
-    As long as x is in view, what the tutor called it is certain, and what the tutor
-    denied is out of the question. After the first noun come its rivals: those of which
-    it is a kind, or which are kinds of it, may be true as well. Where the tutor called
-    x by rivals, each is at least as probable as its share in how often that was.
+    After it come its rivals: nouns of which it is a kind, or which are kinds of it, may
+    be true as well. As long as x is in view, what the tutor called it is certain, and
+    its rivals are out of the question, as is what the tutor denied. Of rivals that the
+    tutor called it, each is as probable as its share in how often that was.
     """
-    beliefs = beliefs_about(s, model, s.private.nouns, x)
-    certain = as_told(s, beliefs)
-    shares = _shares_of_rivals(s, x)
-    if shares:
-        seen = {word_of(it.sign): it.p for it in beliefs}
+    beliefs = as_told(s, beliefs_about(s, model, s.private.nouns, x))
+    called = _nouns_called(s, x)
+    if called:
         shared = (
-            replace(it, p=max(seen[word], shares[word])) if word in shares else it
-            for it in certain
-            for word in [word_of(it.sign)]
+            replace(it, p=min(it.p, _share(s, it.sign, called))) for it in beliefs
         )
-        certain = sorted(shared, key=lambda it: (-it.p, it.sign.form))
-    return rank_names(s, certain)
+        beliefs = sorted(shared, key=lambda it: (-it.p, it.sign.form))
+    return rank_names(s, beliefs)
 
 
-def _shares_of_rivals(s: Record, x: str) -> dict[Pred, float]:
-    """The shares of rival nouns in what the tutor called x; none without rivals."""
-    here = frozenset(s.shared.here)
-    names = [
+def _nouns_called(s: Record, x: str) -> Sequence[Record]:
+    """What the tutor has called x since it came into view, once for each time."""
+    here = frozenset(s.shared.here) if s.private.lessons else frozenset()
+    return [
         it.sign
         for it in s.private.lessons
         if "c" in it.content
@@ -99,10 +93,16 @@ def _shares_of_rivals(s: Record, x: str) -> dict[Pred, float]:
         and not is_denial(it.content)
         and thing_at(it.content, "target") == x
     ]
-    if all(are_related(s, one, other) for one, other in combinations(names, 2)):
-        return {}
-    counts = Counter(map(word_of, names))
-    return {word: count / len(names) for word, count in counts.items()}
+
+
+def _share(s: Record, noun: Record, called: Sequence[Record]) -> float:
+    """How probable a noun is at most, if a thing is called by these nouns."""
+    if not s.private.kinds:
+        own = word_of(noun)
+        return sum(word_of(it) is own for it in called) / len(called)
+    if all(are_related(s, noun, it) for it in called):
+        return 1.0
+    return sum(is_kind_of(s, it, noun) for it in called) / len(called)
 
 
 def as_told(s: Record, beliefs: Beliefs) -> Beliefs:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from kille.dialogue.beliefs import as_told, beliefs_about, certainty
-from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import thing_at
+from kille.dialogue.reference.resolving import taught_words
 from kille.dialogue.rules import rule
 from ttr import Model, Record, replace
 from ttr.updates import first, seq
@@ -13,12 +14,17 @@ from ttr.updates import first, seq
 
 @rule(answers="AskQuality")
 def recognise_colour(s: Record, *, model: Model) -> Record | None:
-    """The tutor asks what colour a thing is: judge every colour of it."""
+    """The tutor asks what colour a thing is: judge every colour of it.
+
+    What the tutor called it, as long as it is in view, has no rivals but one another.
+    """
     x = thing_at(content_of(s), "target")
     if x is None:
         return None
     beliefs = as_told(s, beliefs_about(s, model, s.private.colours, x))
-    return replace(s, {"private.beliefs": beliefs})
+    told = taught_words(s)
+    called = [it for it in beliefs if told.get((word_of(it.sign), x))]
+    return replace(s, {"private.beliefs": called or beliefs})
 
 
 @rule(answers="AskQuality")

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.dialogue.meanings import is_denial, noun, value_at
+from kille.dialogue.meanings import adjective, is_denial, noun, value_at
 from kille.dialogue.taxonomy import is_kind_of
 from ttr import Record, record, replace
 
@@ -46,6 +46,14 @@ def test_what_was_called_red_is_the_red_one(table: Any) -> None:
     assert table.hear("What is the red one?") == "This is a book."
     assert table.hear("How many red things are there?") == "One."
     assert table.hear("Is the red one a book?") == "Yes, the red one is a book."
+
+
+def test_what_was_called_red_has_no_other_colour(scene: Callable[..., Any]) -> None:
+    known = {("is_red", "o1"): 0.6, ("is_crimson", "o1"): 0.9}
+    words = ["red", "crimson"]
+    robot = scene(1, adjectives=words, colours=map(adjective, words), known=known)
+    robot.hear("This is red.")
+    assert robot.hear("What colour is it?") == "This is red."
 
 
 def test_what_was_called_a_mug_is_the_mug(table: Any) -> None:
@@ -303,7 +311,7 @@ def check_name(robot: Any, x: str, told: dict[str, bool]) -> None:
     assert not any(told.get(it) is False for it in (first, *rest)), (first, rest, told)
     if any(told.values()):
         assert act in ("assert_name", "hedge_name")
-        assert told.get(first), (first, told)
+        assert told.get(first), (act, first, told)
 
 
 def check_things(robot: Any, word: str, told: list[bool | None]) -> None:
