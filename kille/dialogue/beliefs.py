@@ -13,7 +13,7 @@ from functools import lru_cache
 from kille.dialogue.meanings import KINDS, is_denial, word_of
 from kille.dialogue.reference.perspectives import front_of
 from kille.dialogue.reference.resolving import taught_words, thing_at
-from kille.dialogue.taxonomy import are_related, is_kind_of, rank_names
+from kille.dialogue.taxonomy import are_related, has_kind, is_kind_of, rank_names
 from ttr import Model, Pred, Record, record, replace
 from ttr.safety.budgets import cache_in_question
 from ttr.types import PType
@@ -69,17 +69,23 @@ def names_of(s: Record, model: Model, x: str) -> Beliefs:
 
     After it come its rivals: nouns of which it is a kind, or which are kinds of it, may
     be true as well. As long as x is in view, what the tutor called it is certain, and
-    its rivals are out of the question, as is what the tutor denied. Of rivals that the
-    tutor called it, each is as probable as its share in how often that was.
+    its rivals are left out; what the tutor denied is out of the question. Of rivals
+    that the tutor called it, each is as probable as its share in how often that was.
     """
     beliefs = as_told(s, beliefs_about(s, model, s.private.nouns, x))
     called = _nouns_called(s, x)
-    if called:
-        shared = (
-            replace(it, p=min(it.p, _share(s, it.sign, called))) for it in beliefs
-        )
-        beliefs = sorted(shared, key=lambda it: (-it.p, it.sign.form))
-    return rank_names(s, beliefs)
+    return rank_names(s, _share_out(s, beliefs, called) if called else beliefs)
+
+
+def _share_out(s: Record, beliefs: Beliefs, called: Sequence[Record]) -> Beliefs:
+    """The beliefs in what a thing is, if it is called by these nouns."""
+    words = frozenset(map(word_of, called))
+    shared = []
+    for it in beliefs:
+        if word_of(it.sign) in words or (s.private.kinds and has_kind(s, it.sign)):
+            p = min(it.p, _share(s, it.sign, called))
+            shared.append(it if p == it.p else replace(it, p=p))
+    return sorted(shared, key=lambda it: (-it.p, it.sign.form))
 
 
 def _nouns_called(s: Record, x: str) -> Sequence[Record]:
@@ -97,9 +103,6 @@ def _nouns_called(s: Record, x: str) -> Sequence[Record]:
 
 def _share(s: Record, noun: Record, called: Sequence[Record]) -> float:
     """How probable a noun is at most, if a thing is called by these nouns."""
-    if not s.private.kinds:
-        own = word_of(noun)
-        return sum(word_of(it) is own for it in called) / len(called)
     if all(are_related(s, noun, it) for it in called):
         return 1.0
     return sum(is_kind_of(s, it, noun) for it in called) / len(called)
