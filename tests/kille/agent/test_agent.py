@@ -617,9 +617,11 @@ def test_beliefs_about_things_in_view_have_the_name_first_and_its_rivals() -> No
         tell(robot, "@place cup at -0.15 0", "@place book at 0.15 0.1")
         assert [len(it) for it in robot.beliefs_in_view()] == [0, 0]
         tell(robot, "#1 This is a cup.", "#2 This is a book.", "@glimpse")
-        one, other = robot.beliefs_in_view()
-        assert [it.sign.form for it in one] == ["cup", "book"]
-        assert [it.sign.form for it in other] == ["book", "cup"]
+        named = [[it.sign.form for it in one] for one in robot.beliefs_in_view()]
+        assert named == [["cup"], ["book"]]  # called so, while they are in view
+        tell(robot, "@show book", "@glimpse")
+        [one] = robot.beliefs_in_view()
+        assert [it.sign.form for it in one] == ["book", "cup"]
         assert one[0].p > one[1].p
 
 
