@@ -103,9 +103,9 @@ def _nouns_called(s: Record, x: str) -> Sequence[Record]:
 
 def _share(s: Record, noun: Record, called: Sequence[Record]) -> float:
     """How probable a noun is at most, if a thing is called by these nouns."""
-    if all(are_related(s, noun, it) for it in called):
-        return 1.0
-    return sum(is_kind_of(s, it, noun) for it in called) / len(called)
+    of_it = sum(is_kind_of(s, it, noun) for it in called)
+    certain = of_it and all(are_related(s, noun, it) for it in called)
+    return 1.0 if certain else of_it / len(called)
 
 
 def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
