@@ -36,6 +36,9 @@ HOW = "AskHow"
 MEANT = "AskMeant"
 """The question whether the tutor means what was understood of a sentence."""
 
+MEANT_TOO = "AskMeantToo"
+"""What it asks besides, of what the tutor has said in the same breath."""
+
 Update = tuple[Record, Model]
 
 

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from kille.dialogue.robust_reading.clause_words import Word, are_harmless
 from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import (
+    ABOUT_KINDS,
     CLAIMS,
     CORRECTABLE,
     ELLIPTIC,
@@ -165,7 +166,7 @@ def _leaves_enough(place: _Place) -> bool:
     rule, cover = place.island.rule, place.cover
     if rule in FALLBACK and not place.is_only:
         return False
-    if rule == "classify" and place.near:
+    if rule in ABOUT_KINDS and place.near:
         return False  # "Not all mugs are cups."
     if (rule in STRICT and cover.missed) or (rule in WHOLE and place.near):
         return False
@@ -191,6 +192,10 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
             return False
         case "other_place" if cover.missed or not situation.asks_whether:
             return False
+        case "instruct_several" if place.earlier[-1:] and (
+            place.earlier[-1].rule in ABOUT_KINDS
+        ):
+            return False  # "Mugs aren't bowls, they are cups."
         case "instruct_several" if not _are_as_many(place, situation):
             return False
         case "instruct_several" | "instruct_every" | "reject_several" if not (

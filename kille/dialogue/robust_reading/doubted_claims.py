@@ -5,7 +5,7 @@ from __future__ import annotations
 from kille.dialogue.robust_reading.admissible_covers import is_taken_up
 from kille.dialogue.robust_reading.clause_words import are_harmless
 from kille.dialogue.robust_reading.island_covers import Cover
-from kille.dialogue.robust_reading.island_kinds import CLAIMS, INDIRECT
+from kille.dialogue.robust_reading.island_kinds import ABOUT_KINDS, CLAIMS, INDIRECT
 from kille.dialogue.robust_reading.islands import Island
 from kille.dialogue.robust_reading.self_repairs import RepairedSentence
 from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists
@@ -23,7 +23,7 @@ def doubt_about(
     `PARTIAL` where the tutor may be asked.
     """
     rule, words = island.rule, sentence.words
-    if rule not in CLAIMS and rule != "classify":
+    if rule not in CLAIMS | ABOUT_KINDS:
         return ""
     if lists.is_unreal(_forms_left(cover, sentence, lists)):
         return SAYING
@@ -32,8 +32,8 @@ def doubt_about(
         near |= {it.form for it in words[island.first : island.after]}
     if near & lists.negations:
         return SAYING
-    if rule == "classify":
-        return ""  # of a noun that it does not know the robot asks anyway
+    if rule in ABOUT_KINDS:
+        return ""
     asks = sentence.is_question and are_harmless(words[island.after :])
     hedged = any(
         it.rule in HEDGING and not is_taken_up(it, cover) for it in cover.islands

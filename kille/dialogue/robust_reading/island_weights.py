@@ -68,9 +68,13 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             return 0.5
         case "okay":
             return 0.9 if situation.asks_whether else 1.0
+        case "classify" if any(it.rule == "also" for it in parts(move)):
+            return 1.8  # "Forks are tools, and so are spoons."
         case "classify":
             hows = _words_of(move, "superkind")
             return 0.0 if any(_says_how(it, situation, lists) for it in hows) else 1.0
+        case "kinds_too":
+            return 1.2  # "they are cups", of kinds
         case "generalise":
             hows = _words_of(move, "property")
             return 1.0 if all(_says_how(it, situation, lists) for it in hows) else 0.5

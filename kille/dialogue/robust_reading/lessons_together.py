@@ -20,6 +20,7 @@ from kille.dialogue.meanings import (
     set_to,
     value_at,
 )
+from kille.dialogue.taxonomy import LOWER, UPPER
 from kille.dialogue.word_lists import PARTIAL
 from ttr import Record, RecordType, RecType
 
@@ -137,8 +138,10 @@ def fill_from(
     """An elliptic claim, filled with what the claim before it says, or with its thing.
 
     "The other one isn't" says of another thing what was just said, "and soft" of the
-    same thing something else.
+    same thing something else, and "i.e. a kind of cup" of the kind that was named.
     """
+    if said.readings and UPPER in said.readings[0].content:
+        return _fill_kind(said, before, types)
     told = next(
         (it.readings[0] for it in reversed(before) if _claims_something(it)), None
     )
@@ -164,6 +167,30 @@ def fill_from(
         signs = (*it.signs, sign)
         readings.append(_with_content(it, content, signs, types))
     return Sentence(said.text, tuple(readings))
+
+
+def _fill_kind(
+    said: Sentence, before: Sequence[Sentence], types: DialogueTypes
+) -> Sentence:
+    """What says of which kind another is one, of the kind that was spoken of last."""
+    told = next((it.readings[0] for it in reversed(before) if it.readings), None)
+    lower = None if told is None else _noun_of(told)
+    if lower is None:
+        return Sentence(said.text, ())
+    readings = []
+    for it in said.readings:
+        content = set_to(it.content, **{LOWER: lower.meaning})
+        readings.append(_with_content(it, content, (lower, *it.signs), types))
+    return Sentence(said.text, tuple(readings))
+
+
+def _noun_of(told: Utterance) -> Record | None:
+    """The noun that a claim says of a thing, or the kind that it speaks of."""
+    content = told.content
+    for sign in (it for it in told.signs if it.kind == "noun"):
+        if content.get(LOWER) == sign.meaning or claims(content, sign):
+            return sign
+    return None
 
 
 def _with_content(
