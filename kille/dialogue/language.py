@@ -149,6 +149,8 @@ class Sentence:
     weights: tuple[float, ...] = field(default=(), repr=False)
     adds: bool = field(default=False, repr=False)
     """Whether it adds a word to one that was just said: "also called a mug"."""
+    part: str = field(default="", repr=False, compare=False)
+    """The stretch of the text that says it, where it is not all of it."""
 
 
 def understand(

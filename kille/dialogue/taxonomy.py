@@ -129,8 +129,25 @@ def are_synonyms(s: Record, one: Record, other: Record) -> bool:
 
 
 def are_related(s: Record, one: Record, other: Record) -> bool:
-    """Whether one of two nouns is a kind of the other, so that both may be true."""
+    """Whether one of two nouns is a kind of the other, so that both may be true.
+
+    So is a compound a kind of its head, if nothing else was said: "toy car" of "car".
+    """
+    if is_compound_of(one, other) or is_compound_of(other, one):
+        return True
     return is_kind_of(s, one, other) or is_kind_of(s, other, one)
+
+
+def is_compound_of(compound: Record, head: Record) -> bool:
+    """Whether a noun is a compound whose head is another noun.
+
+    >>> from kille.dialogue.meanings import noun
+    >>> is_compound_of(noun("toy car"), noun("car"))
+    True
+    >>> is_compound_of(noun("pineapple"), noun("apple"))
+    False
+    """
+    return bool(compound.form.endswith((f" {head.form}", f"-{head.form}")))
 
 
 def rank_names(s: Record, beliefs: Beliefs) -> Beliefs:

@@ -112,6 +112,8 @@ def _is_unmarked(content: RecordType) -> bool:
     """Whether a claim names its thing, and does not say which one it is."""
     if "c" not in content or is_denial(content) or not phrases(content):
         return False
+    if "mentioned" in str(phrase_at(content, "target").get("d")):
+        return False  # "or just a jug", of the same thing
     return set(phrase_at(content, "target").labels) <= UNMARKED
 
 

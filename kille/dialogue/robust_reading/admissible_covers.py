@@ -216,11 +216,19 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
             it.is_bare for it in place.other_claims
         ):
             return False
+        case "instruct" | "alone" if island.is_bare and _is_subject(place):
+            return False
         case "ask_deed" if place.follows_missed:
             return False
         case rule if rule.startswith("ask_") and len(place.near) > len(place.inside):
             return False
     return None
+
+
+def _is_subject(place: _Place) -> bool:
+    """Whether a verb follows in the same clause: "a real bear would eat you"."""
+    after = [it for it in place.near if it > place.inside[-1]]
+    return any(it.is_auxiliary for it in after)
 
 
 def _begins_clause(place: _Place) -> bool:
@@ -271,7 +279,8 @@ def _may_name_stand(place: _Place, situation: Situation) -> bool:
     aside = LONGEST_ASIDE if far else LONGEST_NAME
     if place.sentence.is_question or babbles or len(cover.missed) > aside:
         return False
-    return not place.other_claims or is_list_of_names(cover, place.sentence)
+    others = [it for it in place.other_claims if it.rule != "also_named"]
+    return not others or is_list_of_names(cover, place.sentence)
 
 
 def _may_clause_stand(place: _Place) -> bool:

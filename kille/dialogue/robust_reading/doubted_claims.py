@@ -27,6 +27,9 @@ def doubt_about(
         return ""
     if lists.is_unreal(_forms_left(cover, sentence, lists)):
         return SAYING
+    after = words[island.after : island.after + 1]
+    if rule == "reject" and any(it.form in lists.reasons for it in after):
+        return SAYING  # "It isn't a bottle because it's green."
     near = {it.form for it in cover.missed_near(island, words)}
     if rule in INDIRECT:
         near |= {it.form for it in words[island.first : island.after]}
@@ -45,9 +48,14 @@ def doubt_about(
 def _forms_left(
     cover: Cover, sentence: RepairedSentence, lists: WordLists
 ) -> list[str]:
-    """The words without a no that a correction says, and without harmless phrases."""
+    """The words without a no that a correction says, without harmless phrases, and
+    without those that say where something has another name."""
     forms = [it.form for it in sentence.words]
-    taken_up = [it for it in cover.islands if is_taken_up(it, cover)]
+    taken_up = [
+        it
+        for it in cover.islands
+        if is_taken_up(it, cover) or it.rule == "also_named"  # "if you are British"
+    ]
     gone = {at for it in taken_up for at in range(it.first, it.after)}
     runs = lists.harmless_runs(forms)
     gone |= {at for run in runs if len(run) > 1 for at in run}  # "if you like"
