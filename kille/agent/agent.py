@@ -53,7 +53,7 @@ from kille.dialogue.robust_reading.text_hearing import (
     complete_answer,
     fill_noun,
     hear_in_parts,
-    without_early_answers,
+    settle_moves,
 )
 from kille.dialogue.robust_reading.whole_sentences import needs_parts
 from kille.dialogue.state import blank_model, words
@@ -566,7 +566,7 @@ class Agent(Closing, NotebookValue):
             situation = situation._replace(points_anew=True)
         if needs_parts(full, situation, self.language):
             return self._hear_in_parts(full, situation, exchange, now)
-        for sentence in without_early_answers(sentences):
+        for sentence in settle_moves(sentences, situation, types=self.types):
             sentence = self._in_full(sentence, now.state)
             exchange, now = self._answer(
                 sentence, hear_sentences(sentence), exchange, now

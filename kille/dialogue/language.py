@@ -99,6 +99,9 @@ _FORMS = 3
 _Changes = tuple[int, ...]
 """When the files of a language were changed last."""
 
+_ABBREVIATION = re.compile(r"\b[^\W\d_]{1,2}\.(?:[^\W\d_]{1,2}\.)+")
+"""Letters with a dot after each, which end no sentence: "i.e."."""
+
 _SENTENCE = re.compile(r"[^.!?…\n]+[.!?…\n]*")
 
 
@@ -146,6 +149,8 @@ class Sentence:
     weights: tuple[float, ...] = field(default=(), repr=False)
     adds: bool = field(default=False, repr=False)
     """Whether it adds a word to one that was just said: "also called a mug"."""
+    part: str = field(default="", repr=False, compare=False)
+    """The stretch of the text that says it, where it is not all of it."""
 
 
 def understand(
@@ -163,6 +168,7 @@ def understand(
     reads = reader(language, types or packaged_types())
     found: list[Sentence] = []
     plain = join_repairs(replace_lookalikes(text), word_lists(language))
+    plain = _ABBREVIATION.sub(lambda it: it[0].replace(".", ""), plain)
     for part in _SENTENCE.findall(plain):
         if re.search(r"\w", part):
             found += reads.sentences(part.strip())

@@ -15,6 +15,7 @@ from kille.dialogue.language_files import WORDS, last_change, read_table
 
 REMARK, DOUBTFUL, SAYING, PARTIAL = "remark", "doubtful", "saying", "partial"
 NAME, CUT_OFF = "name", "cut off"
+CONTRADICTORY = "contradictory"
 """What a new word of a lesson may be: no word for a thing at all, or perhaps none.
 
 A saying is one as a whole, whatever its words are. What is partial is read from a part
@@ -64,6 +65,12 @@ class WordLists:
     """Words before what something holds or is made of: "of", "with"."""
     articles: frozenset[str] = frozenset()
     negations: frozenset[str] = frozenset()
+    auxiliaries: frozenset[str] = frozenset()
+    """Verbs of which the words before them are the subject: "a real bear would"."""
+    reasons: frozenset[str] = frozenset()
+    """Words before a reason: "it is not a bottle because it is green"."""
+    copulas: frozenset[str] = frozenset()
+    """The forms of "be" that say something of a subject, also as endings: "'s"."""
     numbers: tuple[str, ...] = ()
     """The words for one, two, three and so on, in order."""
     spoken: Mapping[str, str] = field(default_factory=dict)
@@ -84,6 +91,11 @@ class WordLists:
     def is_closed(self, form: str) -> bool:
         """Whether a word is no noun or adjective in a part of a sentence."""
         return form in self.closed or form in self.fillers
+
+    def has_copula(self, form: str) -> bool:
+        """Whether a word is a form of "be", or ends with one: "isn't", "cup's"."""
+        _, mark, ending = form.partition("'")
+        return form in self.copulas or (bool(mark) and mark + ending in self.copulas)
 
     def is_unreal(self, forms: Sequence[str]) -> bool:
         """Whether a sentence of these words says what is not, or not for certain."""
@@ -218,6 +230,8 @@ def is_noise(form: str) -> bool:
             and not _VOWELS & {*word}
         ):
             return True
+        if len(parts := word.split("-")) > 2 and all(len(it) == 1 for it in parts):
+            return True  # "c-u-p"
         if any(a == b == c for a, b, c in zip(word, word[1:], word[2:], strict=False)):
             return True
     return False
@@ -295,6 +309,9 @@ def _word_lists(language: str, _: int) -> WordLists:
         contents=frozenset(data.get("contents", "").split()),
         articles=frozenset(data.get("articles", "").split()),
         negations=frozenset(data.get("negations", "").split()),
+        auxiliaries=frozenset(data.get("auxiliaries", "").split()),
+        reasons=frozenset(data.get("reasons", "").split()),
+        copulas=frozenset(data.get("copulas", "").split()),
         numbers=tuple(data.get("numbers", "").split()),
         spoken=data.get("spoken", {}),
         elliptic=data.get("elliptic", {}),

@@ -23,7 +23,14 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import in_view
 from kille.dialogue.rules import rule
-from kille.dialogue.word_lists import CUT_OFF, DOUBTFUL, NAME, PARTIAL, SAYING
+from kille.dialogue.word_lists import (
+    CONTRADICTORY,
+    CUT_OFF,
+    DOUBTFUL,
+    NAME,
+    PARTIAL,
+    SAYING,
+)
 from ttr import Model, Record, RecType, rectype, replace
 from ttr.updates import first
 
@@ -35,6 +42,9 @@ HOW = "AskHow"
 
 MEANT = "AskMeant"
 """The question whether the tutor means what was understood of a sentence."""
+
+MEANT_TOO = "AskMeantToo"
+"""What it asks besides, of what the tutor has said in the same breath."""
 
 Update = tuple[Record, Model]
 
@@ -71,6 +81,15 @@ def tell_names(s: Record, *, types: DialogueTypes) -> Record | None:
 
 
 @rule(answers="Doubted")
+def tell_contradiction(s: Record, *, types: DialogueTypes) -> Record | None:
+    """In one breath the tutor has said that it is so and that it is not: it says so."""
+    said = s.shared.latest
+    if said.doubt != CONTRADICTORY:
+        return None
+    return plan(s, "TellContradiction", said.content, signs=said.signs, types=types)
+
+
+@rule(answers="Doubted")
 def ask_whole(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor breaks off in the middle of a word: it asks for all of it."""
     if s.shared.latest.doubt != CUT_OFF or _doubted_sign(s) is None:
@@ -90,6 +109,30 @@ def take_as_remark(s: Record, *, types: DialogueTypes) -> Record | None:
     if doubt == DOUBTFUL and not is_settled:
         return None
     return plan(s, "TakeAsRemark", types=types)
+
+
+@rule(answers="Doubted")
+def ask_opposed(s: Record, *, types: DialogueTypes) -> Record | None:
+    """A new word is said in place of one for how things are: so it says how, too."""
+    said, sign = s.shared.latest, _doubted_sign(s)
+    if said.doubt != DOUBTFUL or sign is None or sign.kind != "adjective":
+        return None
+    denied = said.content.get("denied")
+    others = [it for it in said.signs if it != sign and it.kind == "adjective"]
+    if denied is None or not any(knows_word(s, it) for it in others):
+        return None
+    content = in_view(s, said.content, types=types)
+    asked = issue(MEANT, [replace(said, content=content, doubt="")])
+    pending = s.shared.pending
+    return plan(
+        s,
+        MEANT,
+        said.content,
+        signs=said.signs,
+        pending=pending,
+        asks=[asked],
+        types=types,
+    )
 
 
 @rule(answers="Doubted")
@@ -212,6 +255,14 @@ def _as_naming(
     return model.create(move)
 
 
-DOUBTING_WORDS = first(ask_meant, tell_names, ask_whole, take_as_remark, ask_kind)
+DOUBTING_WORDS = first(
+    ask_meant,
+    tell_names,
+    tell_contradiction,
+    ask_whole,
+    take_as_remark,
+    ask_opposed,
+    ask_kind,
+)
 DOUBT_ANSWERED = first(take_vetted, ask_how, let_be, let_go)
 """What answers the questions whether that is a word, or takes the lesson back."""

@@ -1,9 +1,11 @@
 """A mug is a kind of cup: the tutor says that one kind of thing is a kind of another.
 
 That is an axiom, mug(x, look) <: cup(x, look): whatever the robot takes for a mug is a
-cup from then on. Of a noun that it does not know it asks first if it is a kind of
-thing. What would make two kinds one it does not learn; where it was told of a mug that
-it is not a cup, it asks which is so. "Forget that." or "No." takes the axiom back.
+cup from then on. "Tin is another word for can." is two, one in each direction. Where
+it does not know one of the nouns it asks first if that is meant, and several kinds it
+takes in together. What would make two kinds one, though nobody called the nouns
+synonyms, it does not learn; where it was told of a mug that it is not a cup, it asks
+which is so. "Forget that." or "No." takes the axiom back.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from kille.dialogue.beliefs import knows, knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.games.contradicting import plan_earlier_question
-from kille.dialogue.games.doubting_words import KIND
+from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -25,7 +27,17 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import content_of, issue, nouns_said, plan
 from kille.dialogue.reference import phrase_at, thing_at
 from kille.dialogue.rules import rule
-from kille.dialogue.taxonomy import is_kind_of, nouns_in, subsumption
+from kille.dialogue.taxonomy import (
+    LOWER,
+    SYNONYM,
+    are_synonyms,
+    is_kind_of,
+    nouns_in,
+    single_kinds,
+    subsumption,
+    subsumptions_in,
+    synonymy,
+)
 from ttr import Record, RecordType, record, replace
 from ttr.updates import first
 
@@ -33,36 +45,59 @@ STILL = "AskKindStill"
 """The question whether it is a kind of the other, though a lesson says otherwise."""
 
 VETTED = "vetted"
-"""The label under which a move has a new noun that the tutor means as a word."""
+"""The label that a move has of which the tutor has said that all of it is meant."""
 
-TOLD = ("learned_kind", "know_kind", "cite_kind", "explain_kind", "same_kind")
+CLASSIFYING = ("Classify", "Equate")
+"""The moves that say of a kind what it is a kind of, or what else it is called."""
+
+TOLD = (
+    "learned_kind",
+    "know_kind",
+    "cite_kind",
+    "explain_kind",
+    "same_kind",
+    "learned_synonym",
+    "know_synonym",
+)
 """What the robot says of an axiom, which "Forget that." may take back."""
 
 
 # --- teaching -------------------------------------------------------------------------
 
 
-@rule(answers="Classify")
+@rule(answers=CLASSIFYING)
+def take_kinds_together(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It is said of several kinds at once: it takes in all, or asks about all."""
+    said = s.shared.latest
+    singles = [replace(said, content=it) for it in single_kinds(said.content)]
+    if len(singles) < 2:
+        return None
+    singles.sort(key=lambda it: said.signs.index(nouns_in(it.content, said.signs)[0]))
+    nouns = [_nouns(replace(s, {"shared.latest": it})) for it in singles]
+    for lower, upper in nouns:
+        if not (knows_word(s, lower) or knows_word(s, upper)):
+            return _plan_answer(s, "NeedKind", lower, upper, types=types)
+    if not all(knows_word(s, sign) for two in nouns for sign in two):
+        return _plan_question(s, singles, types=types)
+    learned = s
+    for it in singles:
+        learned = plan_kind(replace(learned, {"shared.latest": it}), types=types)
+    return learned
+
+
+@rule(answers=CLASSIFYING)
 def know_kind(s: Record, *, types: DialogueTypes) -> Record | None:
     """That the one is a kind of the other was taught, or follows from what was."""
-    lower, upper = _nouns(s)
-    if knows([lower], upper) or not is_kind_of(s, lower, upper):
-        return None
-    return _plan_answer(s, "KnowKind", lower, upper, types=types)
+    return _plan_known(s, types=types)
 
 
-@rule(answers="Classify")
+@rule(answers=CLASSIFYING)
 def refuse_same(s: Record, *, types: DialogueTypes) -> Record | None:
     """It would make two kinds one: it says that the reverse was taught."""
-    lower, upper = _nouns(s)
-    if knows([lower], upper):
-        return plan(s, "SameThing", types=types)
-    if not is_kind_of(s, upper, lower):
-        return None
-    return _plan_answer(s, "SameKind", upper, lower, types=types)
+    return _plan_refusal(s, types=types)
 
 
-@rule(answers="Classify")
+@rule(answers=CLASSIFYING)
 def need_kind(s: Record, *, types: DialogueTypes) -> Record | None:
     """It knows neither of the two nouns: it asks to be shown one of them first."""
     lower, upper = _nouns(s)
@@ -71,30 +106,22 @@ def need_kind(s: Record, *, types: DialogueTypes) -> Record | None:
     return _plan_answer(s, "NeedKind", lower, upper, types=types)
 
 
-@rule(answers="Classify")
+@rule(answers=CLASSIFYING)
 def ask_new_kind(s: Record, *, types: DialogueTypes) -> Record | None:
-    """It does not know one of the nouns: it asks whether that is a kind of thing."""
+    """It does not know one of the nouns: it asks whether all of it is meant."""
     said = s.shared.latest
-    for sign in _nouns(s):
-        if knows_word(s, sign) or (VETTED in said and said[VETTED] == sign.form):
-            continue
-        meant = record({**{label: said[label] for label in said}, VETTED: sign.form})
-        asked = issue(KIND, [meant])
-        return plan(s, KIND, sign.meaning, signs=[sign], asks=[asked], types=types)
-    return None
+    if VETTED in said or all(knows_word(s, sign) for sign in _nouns(s)):
+        return None
+    return _plan_question(s, [said], types=types)
 
 
-@rule(answers="Classify")
+@rule(answers=CLASSIFYING)
 def ask_still(s: Record, *, types: DialogueTypes) -> Record | None:
     """Something here was said to be the one and not the other: it asks which is so."""
-    lower, upper = _nouns(s)
-    if not any(_exceptions(s, lower, upper)):
-        return None
-    asked = issue(STILL, [s.shared.latest])
-    return _plan_answer(s, STILL, lower, upper, asks=[asked], types=types)
+    return _plan_still(s, types=types)
 
 
-@rule(answers="Classify")
+@rule(answers=CLASSIFYING)
 def learn_kind(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor says that the one is a kind of the other: that is an axiom now."""
     return _plan_axiom(s, types=types)
@@ -107,8 +134,7 @@ def learn_still(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     asked, *rest = s.shared.qud
     said = replace(s, {"shared.qud": rest, "shared.latest": asked.options[0]})
-    lower, upper = _nouns(said)
-    against = [it.key for it in _exceptions(said, lower, upper)]
+    against = [it.key for two in _directions(said) for it in _exceptions(said, *two)]
     return _plan_axiom(said, forgets=against, types=types)
 
 
@@ -204,7 +230,9 @@ def _axiom_told(s: Record) -> Record | None:
     if s.shared.pending or predicate_at(said, "e").name not in TOLD:
         return None
     told = value_at(said, "content")
-    return next((it for it in s.private.kinds if it.content == told), None)
+    assert isinstance(told, RecordType)
+    [first, *_] = subsumptions_in(told, value_at(said, "signs"))
+    return next((it for it in s.private.kinds if it.content == first), None)
 
 
 @rule(answers="ForgetLast")
@@ -241,8 +269,82 @@ def plan_objection(s: Record, *, types: DialogueTypes) -> Record | None:
     return None
 
 
+def is_about_kinds(content: RecordType) -> bool:
+    """Whether a content says of kinds which is one of which, or what means the same."""
+    return LOWER in content or SYNONYM in content
+
+
+def plan_kind(s: Record, *, types: DialogueTypes) -> Record:
+    """The plan to learn what the latest move says of two kinds, or to say why not."""
+    for find in (_plan_known, _plan_refusal, _plan_still):
+        answered = find(s, types=types)
+        if answered is not None:
+            return answered
+    return _plan_axiom(s, types=types)
+
+
+def _plan_known(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The plan to say that it knows this, if it does."""
+    lower, upper = _nouns(s)
+    if knows([lower], upper):
+        return None
+    if SYNONYM in content_of(s):
+        known = are_synonyms(s, lower, upper)
+        act, content = "KnowSynonym", synonymy(lower, upper)
+    else:
+        known = is_kind_of(s, lower, upper)
+        act, content = "KnowKind", subsumption(lower, upper)
+    return plan(s, act, content, signs=[lower, upper], types=types) if known else None
+
+
+def _plan_refusal(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The plan to say why two kinds cannot be so related, if they cannot."""
+    lower, upper = _nouns(s)
+    if knows([lower], upper):
+        return plan(s, "SameThing", types=types)
+    for one, other in _directions(s):
+        if is_kind_of(s, other, one):
+            return _plan_answer(s, "SameKind", other, one, types=types)
+    return None
+
+
+def _plan_still(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The plan to ask if it is so though a lesson says otherwise, if one does."""
+    for lower, upper in _directions(s):
+        if any(_exceptions(s, lower, upper)):
+            asked = issue(STILL, [s.shared.latest])
+            return _plan_answer(s, STILL, lower, upper, asks=[asked], types=types)
+    return None
+
+
+def _plan_question(
+    s: Record, meant: Sequence[Record], *, types: DialogueTypes
+) -> Record:
+    """The plan to ask whether the tutor means what these moves say of kinds."""
+    options = [
+        record({**{label: it[label] for label in it}, VETTED: "yes"}) for it in meant
+    ]
+    for n, it in enumerate(options):
+        s = plan(
+            s,
+            MEANT_TOO if n else MEANT,
+            it.content,
+            signs=nouns_in(it.content, it.signs),
+            asks=() if n else [issue(MEANT, options)],
+            types=types,
+        )
+    return s
+
+
+def _directions(s: Record) -> list[tuple[Record, Record]]:
+    """Of which kind which is said to be one: for synonyms, each of the other."""
+    lower, upper = _nouns(s)
+    both = [(lower, upper), (upper, lower)]
+    return both if SYNONYM in content_of(s) else both[:1]
+
+
 def _nouns(s: Record) -> tuple[Record, Record]:
-    """The two nouns of the latest move: of which kind which kind is one."""
+    """The two nouns of the latest move: of which kind which is one, or synonyms."""
     lower, upper = nouns_in(content_of(s), s.shared.latest.signs)
     return lower, upper
 
@@ -275,28 +377,31 @@ def _plan_answer(
 def _plan_axiom(
     s: Record, *, forgets: Sequence[str] = (), types: DialogueTypes
 ) -> Record:
-    """The plan to learn that the one kind is a kind of the other."""
-    lower, upper = _nouns(s)
-    content = subsumption(lower, upper)
+    """The plan to learn that the one kind is a kind of the other, or means the same."""
+    content, said = content_of(s), s.shared.latest
+    told = subsumptions_in(content, said.signs)
     return plan(
         s,
-        "LearnedKind",
+        "LearnedSynonym" if SYNONYM in content else "LearnedKind",
         content,
-        signs=[lower, upper],
+        signs=nouns_in(content, said.signs),
         forgets=forgets,
-        classifies=[content],
+        classifies=told,
         types=types,
     )
 
 
 def _plan_forgetting(s: Record, kind: Record, *, types: DialogueTypes) -> Record:
-    """The plan to take an axiom back."""
+    """The plan to take an axiom back; that of synonyms in both directions."""
+    lower, upper = kind.signs
+    reverse = _axiom(s, upper, lower)
+    synonyms = synonymy(lower, upper)
     return plan(
         s,
-        "ForgotKind",
-        kind.content,
+        "ForgotKind" if reverse is None else "ForgotSynonym",
+        kind.content if reverse is None else synonyms,
         signs=kind.signs,
-        forgets=[kind.key],
+        forgets=[it.key for it in (kind, reverse) if it is not None],
         types=types,
     )
 
@@ -345,6 +450,7 @@ def _holds(lesson: Record) -> bool:
 
 
 KINDS_OF_KINDS = first(
+    take_kinds_together,
     know_kind,
     refuse_same,
     need_kind,

@@ -26,8 +26,8 @@ def offer_word(s: Record, *, model: Model, types: DialogueTypes) -> Record | Non
     said = s.shared.latest
     for sign in said.signs:
         known = _intended_word(s, model, sign, types=types)
-        if known is None:
-            continue
+        if known is None or knows(said.signs, known):
+            continue  # "Whistle, not thistle."
         seen = replace(said, content=in_view(s, said.content, types=types))
         options = [_with(seen, sign, known), seen]
         asks = [issue(OFFER, options)]

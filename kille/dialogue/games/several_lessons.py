@@ -12,7 +12,8 @@ from collections.abc import Sequence
 
 from kille.dialogue.commitments import plan_learning
 from kille.dialogue.games.distinguishing import say_where
-from kille.dialogue.games.doubting_words import MEANT
+from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO
+from kille.dialogue.games.kinds_of_kinds import is_about_kinds, plan_kind
 from kille.dialogue.games.referring import about
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -32,9 +33,6 @@ from kille.dialogue.reference import (
 from kille.dialogue.rules import rule
 from kille.dialogue.word_lists import PARTIAL
 from ttr import Model, Record, RecordType, replace
-
-MEANT_TOO = "AskMeantToo"
-"""What it asks besides, of what the tutor has said in the same breath."""
 
 UNMARKED = {"x", "look", "d"}
 """The labels of a phrase that describes no thing, such as "this"."""
@@ -76,6 +74,9 @@ def learn_together(s: Record, *, types: DialogueTypes) -> Record | None:
     learned = replace(s, {"shared.qud": rest})
     for option in asked.options:
         now = {"shared.latest": option}
+        if is_about_kinds(option.content):
+            learned = plan_kind(replace(learned, now), types=types)
+            continue
         learned = about(replace(learned, now), option.content, types=types)
         learned = plan_learning(learned, content_of(learned), types=types)
     return learned
@@ -111,6 +112,8 @@ def _is_unmarked(content: RecordType) -> bool:
     """Whether a claim names its thing, and does not say which one it is."""
     if "c" not in content or is_denial(content) or not phrases(content):
         return False
+    if "mentioned" in str(phrase_at(content, "target").get("d")):
+        return False  # "or just a jug", of the same thing
     return set(phrase_at(content, "target").labels) <= UNMARKED
 
 

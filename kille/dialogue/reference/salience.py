@@ -23,7 +23,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from kille.dialogue.meanings import DialogueTypes, packaged_types
+from kille.dialogue.meanings import DialogueTypes, is_denial, packaged_types, value_at
 from kille.dialogue.reference.comparing import COMPARATIVES, unexceeded_things
 from ttr import Model, Pred, Record, RecordType, record, replace
 from ttr.types import Meet, PType, TypeNode
@@ -292,6 +292,17 @@ def _other(
     return [x for x in things if x != latest]
 
 
+def _remaining(
+    s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+) -> Sequence[str]:
+    """Those of which nobody has said what they are, or else what was not mentioned."""
+    said = [it for it in s.shared.here if "c" in it and not is_denial(it)]
+    named = {value_at(it["target"], "x") for it in said}
+    if not named:
+        return _other(s, model, things, types)
+    return [x for x in things if x not in named]
+
+
 def _nth(n: int) -> Choice:
     def choose_nth(
         s: Record, model: Model, things: Sequence[str], types: DialogueTypes
@@ -339,6 +350,7 @@ CHOICES: Mapping[str, Choice] = {
     "mentioned": _most_salient,
     "other": _other,
     "middle": _middle,
+    "remaining": _remaining,
     "any_other": _any,
     "flank": _flanks,
     "leftmost": _nth(0),

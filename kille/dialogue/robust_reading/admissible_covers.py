@@ -13,6 +13,7 @@ from typing import NamedTuple
 from kille.dialogue.robust_reading.clause_words import Word, are_harmless
 from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import (
+    ABOUT_KINDS,
     CLAIMS,
     CORRECTABLE,
     ELLIPTIC,
@@ -165,7 +166,7 @@ def _leaves_enough(place: _Place) -> bool:
     rule, cover = place.island.rule, place.cover
     if rule in FALLBACK and not place.is_only:
         return False
-    if rule == "classify" and place.near:
+    if rule in ABOUT_KINDS and place.near:
         return False  # "Not all mugs are cups."
     if (rule in STRICT and cover.missed) or (rule in WHOLE and place.near):
         return False
@@ -191,6 +192,10 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
             return False
         case "other_place" if cover.missed or not situation.asks_whether:
             return False
+        case "instruct_several" if place.earlier[-1:] and (
+            place.earlier[-1].rule in ABOUT_KINDS
+        ):
+            return False  # "Mugs aren't bowls, they are cups."
         case "instruct_several" if not _are_as_many(place, situation):
             return False
         case "instruct_several" | "instruct_every" | "reject_several" if not (
@@ -211,11 +216,19 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
             it.is_bare for it in place.other_claims
         ):
             return False
+        case "instruct" | "alone" if island.is_bare and _is_subject(place):
+            return False
         case "ask_deed" if place.follows_missed:
             return False
         case rule if rule.startswith("ask_") and len(place.near) > len(place.inside):
             return False
     return None
+
+
+def _is_subject(place: _Place) -> bool:
+    """Whether a verb follows in the same clause: "a real bear would eat you"."""
+    after = [it for it in place.near if it > place.inside[-1]]
+    return any(it.is_auxiliary for it in after)
 
 
 def _begins_clause(place: _Place) -> bool:
@@ -266,7 +279,8 @@ def _may_name_stand(place: _Place, situation: Situation) -> bool:
     aside = LONGEST_ASIDE if far else LONGEST_NAME
     if place.sentence.is_question or babbles or len(cover.missed) > aside:
         return False
-    return not place.other_claims or is_list_of_names(cover, place.sentence)
+    others = [it for it in place.other_claims if it.rule != "also_named"]
+    return not others or is_list_of_names(cover, place.sentence)
 
 
 def _may_clause_stand(place: _Place) -> bool:

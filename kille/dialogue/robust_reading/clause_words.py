@@ -25,6 +25,8 @@ class Word(NamedTuple):
     """Whether it joins clauses: it may be left out, but not from within an island."""
     phrase: int = 1
     """How many words the harmless phrase has in which it stands: "no problem"."""
+    is_auxiliary: bool = False
+    """Whether the words before it are its subject: "a real bear would eat you"."""
 
 
 def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
@@ -58,7 +60,8 @@ def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
         joins = form in lists.joining
         clause += at > 0 and (joins or at in breaks)
         is_harmless, phrase = joins or at in harmless, harmless.get(at, 1)
-        words.append(Word(begin, end, form, clause, is_harmless, joins, phrase))
+        verb = form in lists.auxiliaries
+        words.append(Word(begin, end, form, clause, is_harmless, joins, phrase, verb))
     return tuple(words)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from kille.dialogue.robust_reading.admissible_covers import is_taken_up
 from kille.dialogue.robust_reading.clause_words import are_harmless
 from kille.dialogue.robust_reading.island_covers import Cover
-from kille.dialogue.robust_reading.island_kinds import CLAIMS, INDIRECT
+from kille.dialogue.robust_reading.island_kinds import ABOUT_KINDS, CLAIMS, INDIRECT
 from kille.dialogue.robust_reading.islands import Island
 from kille.dialogue.robust_reading.self_repairs import RepairedSentence
 from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists
@@ -23,17 +23,20 @@ def doubt_about(
     `PARTIAL` where the tutor may be asked.
     """
     rule, words = island.rule, sentence.words
-    if rule not in CLAIMS and rule != "classify":
+    if rule not in CLAIMS | ABOUT_KINDS:
         return ""
     if lists.is_unreal(_forms_left(cover, sentence, lists)):
         return SAYING
+    after = words[island.after : island.after + 1]
+    if rule == "reject" and any(it.form in lists.reasons for it in after):
+        return SAYING  # "It isn't a bottle because it's green."
     near = {it.form for it in cover.missed_near(island, words)}
     if rule in INDIRECT:
         near |= {it.form for it in words[island.first : island.after]}
     if near & lists.negations:
         return SAYING
-    if rule == "classify":
-        return ""  # of a noun that it does not know the robot asks anyway
+    if rule in ABOUT_KINDS:
+        return ""
     asks = sentence.is_question and are_harmless(words[island.after :])
     hedged = any(
         it.rule in HEDGING and not is_taken_up(it, cover) for it in cover.islands
@@ -45,9 +48,14 @@ def doubt_about(
 def _forms_left(
     cover: Cover, sentence: RepairedSentence, lists: WordLists
 ) -> list[str]:
-    """The words without a no that a correction says, and without harmless phrases."""
+    """The words without a no that a correction says, without harmless phrases, and
+    without those that say where something has another name."""
     forms = [it.form for it in sentence.words]
-    taken_up = [it for it in cover.islands if is_taken_up(it, cover)]
+    taken_up = [
+        it
+        for it in cover.islands
+        if is_taken_up(it, cover) or it.rule == "also_named"  # "if you are British"
+    ]
     gone = {at for it in taken_up for at in range(it.first, it.after)}
     runs = lists.harmless_runs(forms)
     gone |= {at for run in runs if len(run) > 1 for at in run}  # "if you like"

@@ -24,10 +24,10 @@ INDIRECT = frozenset(
 )
 """The claims that are always asked about."""
 
-ELLIPTIC = frozenset({"is_not", "is_too", "and_how"})
+ELLIPTIC = frozenset({"is_not", "is_too", "and_how", "kind_too", "kinds_too"})
 """The claims that say of another thing what was just said: "the right one isn't".
 
-Or of the same thing something else: "and soft".
+Or of the same thing something else, "and soft", or of its kind: "i.e. a kind of cup".
 """
 
 GAPPED = frozenset({"gapped", "sided"})
@@ -40,6 +40,10 @@ FOLLOWS = {
     "is_not": _FULL | ELLIPTIC,
     "is_too": _FULL | ELLIPTIC,
     "and_how": frozenset({"describe", "and_how"}),
+    "kind_too": frozenset(
+        {"instruct", "correct", "named", "also_named", "alone", "classify"}
+    ),
+    "kinds_too": frozenset({"classify", "unclassify", "kinds_too"}),
 }
 """After which claims, and nothing else, the elliptic ones may stand."""
 
@@ -47,6 +51,9 @@ CLAIMS = frozenset(
     (*LESSONS, "relate", "turned", "other_place", *INDIRECT, *ELLIPTIC, *GAPPED)
 )
 """The moves that say how things are."""
+
+ABOUT_KINDS = frozenset({"classify", "equate", "unclassify", "kind_too", "kinds_too"})
+"""The claims about kinds: of a noun that it does not know the robot asks anyway."""
 
 CORRECTED = {"instruct": "correct", "describe": "correct", "relate": "correct"}
 """What a lesson is after a no: "Far from it, that's a lamp."."""

@@ -68,9 +68,15 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             return 0.5
         case "okay":
             return 0.9 if situation.asks_whether else 1.0
+        case "classify" if any(it.rule == "also" for it in parts(move)):
+            return 1.8  # "Forks are tools, and so are spoons."
+        case "classify" if _says_nothing(move):
+            return 0.0  # "A cup's a cup."
         case "classify":
             hows = _words_of(move, "superkind")
             return 0.0 if any(_says_how(it, situation, lists) for it in hows) else 1.0
+        case "kinds_too":
+            return 1.2  # "they are cups", of kinds
         case "generalise":
             hows = _words_of(move, "property")
             return 1.0 if all(_says_how(it, situation, lists) for it in hows) else 0.5
@@ -82,9 +88,51 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "choice_colour":
             named = all(it in situation.colours for it in _new_words(parts(move)[1]))
             return 2.0 if named else 0.0
+        case "named":
+            how = all(_says_how(it, situation, lists) for it in _new_words(move))
+            return (
+                1.0 if how == (move.rule == "describe") or _has_article(move) else 0.2
+            )
+        case "correct":
+            return _fit_of_contrast(move, situation, lists)
         case "instruct" if len(parts(move)) == 1:
             return 0.6
     return 1.0
+
+
+def _says_nothing(move: Tree) -> bool:
+    """Whether a kind is said to be a kind of itself."""
+    one, other = ([*_words_of(move, it)] for it in ("subkind", "superkind"))
+    return one == other
+
+
+def _fit_of_contrast(move: Tree, situation: Situation, lists: WordLists) -> float:
+    """How well it fits to take bare words that are opposed for nouns, or for qualities.
+
+    "Whistle, not thistle" corrects a noun, and "metal, not plastic" how a thing is.
+    """
+    said, *others = parts(move)
+    if [it.rule for it in others] != ["denied"]:
+        return 1.0
+    denied = [*_new_words(others[0])]
+    if all(_says_how(it, situation, lists) for it in denied):
+        how = True
+    elif any(it in situation.known for it in denied):
+        how = False
+    else:
+        how = all(
+            _says_how(it, situation, lists) for it in (*denied, *_new_words(said))
+        )
+    is_how = said.rule == "having"
+    return 1.0 if how == is_how or _has_article(move) else 0.2
+
+
+def _has_article(tree: Tree) -> bool:
+    """Whether some word in a part is an article."""
+    return any(
+        _has_article(it) if isinstance(it, Tree) else it.terminal == "A"
+        for it in tree.children
+    )
 
 
 def _fit_of_several(move: Tree, situation: Situation, lists: WordLists) -> float:

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence, Set
+from dataclasses import replace
 
 from kille.dialogue.language import Sentence, Utterance
 from kille.dialogue.meanings import (
@@ -20,7 +21,8 @@ from kille.dialogue.meanings import (
     set_to,
     value_at,
 )
-from kille.dialogue.word_lists import PARTIAL
+from kille.dialogue.taxonomy import LOWER, UPPER
+from kille.dialogue.word_lists import DOUBTFUL, PARTIAL
 from ttr import Record, RecordType, RecType
 
 TOGETHER = ("instruct", "describe", "reject")
@@ -45,7 +47,7 @@ def doubt_lesson(
         )
         for it in said.readings
     )
-    return Sentence(said.text, tuple(readings), said.weights, said.adds)
+    return replace(said, readings=tuple(readings))
 
 
 def correct_lesson(said: Sentence, *, types: DialogueTypes) -> Sentence:
@@ -57,7 +59,7 @@ def correct_lesson(said: Sentence, *, types: DialogueTypes) -> Sentence:
         else it
         for it in said.readings
     )
-    return Sentence(said.text, tuple(readings), said.weights, said.adds)
+    return replace(said, readings=tuple(readings))
 
 
 def join_lessons(
@@ -65,13 +67,13 @@ def join_lessons(
     qualities: Set[str] = frozenset(),
     *,
     types: DialogueTypes,
-) -> tuple[Sentence, ...]:
-    """The first of the doubted lessons, joined with what the others claim.
+) -> tuple[tuple[Sentence, ...], tuple[Sentence, ...]]:
+    """The first of the doubted lessons, joined with what others claim; and the rest.
 
     Left out is what calls a thing by a word for how things are: "not a real one".
     """
     if not asked:
-        return ()
+        return (), ()
     first, *others = asked
     forms = {_form(first.readings[0])}
     joined = [
@@ -82,21 +84,44 @@ def join_lessons(
     ]
     joined = joined if _may_be_joined(first) else []
     more: list[Utterance] = []
+    rest = [
+        it
+        for it in others
+        if it not in joined
+        and not _says_same(it, first)
+        and _form(it.readings[0]) not in qualities
+    ]
     for it in joined:
         best = it.readings[0]
         new = _form(best) not in forms or "d" not in str(best.content.get("target"))
         if new and len(more) < MOST - 1:
             forms.add(_form(best))
-            more.append(best)
+            more.append(_of_same_thing(best, types) if it.adds else best)
+        elif new:
+            rest.append(it)
     if not more:
-        return (first,)
+        return (first,), tuple(rest)
     text = " ".join(dict.fromkeys((first.text, *(it.text for it in more))))
     readings = tuple(
         Utterance(text, _join(it, more, text, types))
         for it in first.readings
-        if _is_partial(it)
+        if _may_be_meant(it)
     )
-    return (Sentence(text, readings),)
+    return (Sentence(text, readings),), tuple(rest)
+
+
+def _of_same_thing(reading: Utterance, types: DialogueTypes) -> Utterance:
+    """The claim of what was just spoken of, if of nothing else: "or just a jug"."""
+    target = reading.content.get("target")
+    if not isinstance(target, RecordType) or "d" in target or "c" in target:
+        return reading
+    it = set_to(target, d=types.record_type("It")["d"])
+    content = set_to(reading.content, target=it)
+    return _with_content(reading, content, reading.signs, types)
+
+
+def _says_same(said: Sentence, other: Sentence) -> bool:
+    return _form(said.readings[0]) == _form(other.readings[0])
 
 
 def _join(
@@ -110,6 +135,7 @@ def _join(
         text=types["Text"] @ text,
         signs=types.record_type("Heard")["signs"] @ tuple(signs),
         content=RecType @ content,
+        doubt=types["Text"] @ PARTIAL,
     )
 
 
@@ -124,7 +150,15 @@ def _form(reading: Utterance) -> str:
 
 def _may_be_joined(said: Sentence) -> bool:
     best = said.readings[0]
-    return _is_partial(best) and predicate_at(best.type, "e").name in TOGETHER
+    return _may_be_meant(best) and predicate_at(best.type, "e").name in TOGETHER
+
+
+def _may_be_meant(reading: Utterance) -> bool:
+    """Whether a lesson may be asked about as it was said, or its word is doubtful."""
+    return "doubt" in reading.type and value_at(reading.type, "doubt") in (
+        PARTIAL,
+        DOUBTFUL,
+    )
 
 
 def _is_partial(reading: Utterance) -> bool:
@@ -137,8 +171,10 @@ def fill_from(
     """An elliptic claim, filled with what the claim before it says, or with its thing.
 
     "The other one isn't" says of another thing what was just said, "and soft" of the
-    same thing something else.
+    same thing something else, and "i.e. a kind of cup" of the kind that was named.
     """
+    if said.readings and UPPER in said.readings[0].content:
+        return _fill_kind(said, before, types)
     told = next(
         (it.readings[0] for it in reversed(before) if _claims_something(it)), None
     )
@@ -163,7 +199,31 @@ def fill_from(
         content = set_to(about, **{label: whole[label]})
         signs = (*it.signs, sign)
         readings.append(_with_content(it, content, signs, types))
-    return Sentence(said.text, tuple(readings))
+    return replace(said, readings=tuple(readings))
+
+
+def _fill_kind(
+    said: Sentence, before: Sequence[Sentence], types: DialogueTypes
+) -> Sentence:
+    """What says of which kind another is one, of the kind that was spoken of last."""
+    told = next((it.readings[0] for it in reversed(before) if it.readings), None)
+    lower = None if told is None else _noun_of(told)
+    if lower is None:
+        return Sentence(said.text, ())
+    readings = []
+    for it in said.readings:
+        content = set_to(it.content, **{LOWER: lower.meaning})
+        readings.append(_with_content(it, content, (lower, *it.signs), types))
+    return replace(said, readings=tuple(readings))
+
+
+def _noun_of(told: Utterance) -> Record | None:
+    """The noun that a claim says of a thing, or the kind that it speaks of."""
+    content = told.content
+    for sign in (it for it in told.signs if it.kind == "noun"):
+        if content.get(LOWER) == sign.meaning or claims(content, sign):
+            return sign
+    return None
 
 
 def _with_content(

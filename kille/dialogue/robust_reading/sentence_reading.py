@@ -22,6 +22,7 @@ from kille.dialogue.robust_reading.admissible_covers import (
     is_taken_up,
     keep_admissible,
 )
+from kille.dialogue.robust_reading.clause_words import Word
 from kille.dialogue.robust_reading.doubted_claims import doubt_about
 from kille.dialogue.robust_reading.island_covers import Cover, best_covers
 from kille.dialogue.robust_reading.island_kinds import (
@@ -59,6 +60,8 @@ class Understanding(NamedTuple):
     missed: tuple[str, ...]
     is_remark: bool = False
     """Whether it only is taken as a remark."""
+    dropped: tuple[str, ...] = ()
+    """The clauses that say something of something, and of which no move is made."""
 
 
 NOTHING = Understanding((), (), ())
@@ -109,6 +112,7 @@ def read_robustly(
                 tuple(sentence.text_of(it.first, it.after) for it in best.islands),
                 tuple(sentence.plain[it.begin : it.end] for it in best.missed),
                 _is_fallback(best),
+                _dropped_clauses(best, sentence, lists),
             )
     return _phrases(sentence, found)
 
@@ -147,13 +151,15 @@ class _CoverReading(NamedTuple):
             }
         text = self.sentence.said
         readings = self.reads.readings(text, moves, doubt)
-        return Sentence(text, readings, adds=island.rule == "also_named")
+        part = self.sentence.text_of(island.first, island.after)
+        adds = island.rule == "also_named"
+        return Sentence(text, readings, adds=adds, part=part)
 
     def _takes_back(self, denial: Sentence, heard: Sequence[Sentence]) -> bool:
         """Whether a denial is of what was said before as what is not so, or of "it"."""
         if not heard:
             return False
-        return _is_saying(heard[-1]) or is_about_it(denial, types=self.types)
+        return is_saying(heard[-1]) or is_about_it(denial, types=self.types)
 
     def with_rivals(
         self, moves: tuple[Sentence, ...], best: Cover, others: Sequence[Cover]
@@ -169,7 +175,7 @@ class _CoverReading(NamedTuple):
         return (with_rivals(moves[0], best.weight, rivals),)
 
 
-def _is_saying(it: Sentence) -> bool:
+def is_saying(it: Sentence) -> bool:
     """Whether the best reading of a sentence is doubted as no claim at all."""
     best = it.readings[0].type if it.readings else None
     return best is not None and "doubt" in best and value_at(best, "doubt") == SAYING
@@ -179,12 +185,44 @@ def _rank(cover: Cover, sentence: RepairedSentence) -> float:
     """The weight of a cover; several names in a row are one thing to say."""
     if is_list_of_names(cover, sentence):
         return cover.weight / ALONE ** (len(cover.islands) - 1)
+    if [it.rule for it in cover.islands[:2]] == ["alone", "also_named"]:
+        return cover.weight / ALONE  # "Eraser, or rubber if you're British."
     return cover.weight
 
 
 def _is_fallback(cover: Cover) -> bool:
     """Whether a cover is all remarks and the like."""
     return all(it.rule in FALLBACK for it in cover.islands)
+
+
+def _dropped_clauses(
+    cover: Cover, sentence: RepairedSentence, lists: WordLists
+) -> tuple[str, ...]:
+    """The clauses of a sentence that a cover leaves out, and that claim something.
+
+    Such a clause has a copula, and a word that may be a noun or an adjective: "the long
+    one isn't", but not "I found it in the attic".
+    """
+    words = sentence.words
+    clauses = dict.fromkeys(it.clause for it in cover.missed)
+    found = []
+    for clause in clauses:
+        inside = [it for it in words if it.clause == clause]
+        said = [it for it in inside if not it.is_harmless]
+        if set(said) <= set(cover.missed) and _claims_anything(said, lists):
+            first, last = words.index(said[0]), words.index(said[-1])
+            found.append(sentence.text_of(first, last + 1))
+    return tuple(found)
+
+
+def _claims_anything(words: Sequence[Word], lists: WordLists) -> bool:
+    """Whether words say something of something: they have a copula, and a content."""
+    forms = [it.form for it in words]
+    copulas = [it for it in forms if lists.has_copula(it)]
+    said = [it for it in forms if it not in copulas and not lists.is_closed(it)]
+    if said and {it.partition("'")[0] for it in copulas} >= {*said} - lists.articles:
+        return False  # "A cup's a cup."
+    return bool(copulas) and bool(said)
 
 
 def _phrases(sentence: RepairedSentence, found: Sequence[Cover]) -> Understanding:

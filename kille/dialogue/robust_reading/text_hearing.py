@@ -17,6 +17,7 @@ from kille.dialogue.meanings import (
     value_at,
 )
 from kille.dialogue.moves import words_in
+from kille.dialogue.robust_reading.contradictions import settle_contradictions
 from kille.dialogue.robust_reading.island_kinds import CLAIMS
 from kille.dialogue.robust_reading.lessons_together import (
     are_about_unmarked_things,
@@ -25,7 +26,11 @@ from kille.dialogue.robust_reading.lessons_together import (
     is_about_unmarked_thing,
     join_lessons,
 )
-from kille.dialogue.robust_reading.sentence_reading import Understanding, read_robustly
+from kille.dialogue.robust_reading.sentence_reading import (
+    Understanding,
+    is_saying,
+    read_robustly,
+)
 from kille.dialogue.robust_reading.situations import Situation, situation_of
 from kille.dialogue.robust_reading.whole_sentences import (
     are_parts_better,
@@ -33,7 +38,14 @@ from kille.dialogue.robust_reading.whole_sentences import (
     needs_parts,
 )
 from kille.dialogue.state import words
-from kille.dialogue.word_lists import NAME, PARTIAL, WordLists, plain_text, word_lists
+from kille.dialogue.word_lists import (
+    CONTRADICTORY,
+    NAME,
+    PARTIAL,
+    WordLists,
+    plain_text,
+    word_lists,
+)
 from ttr import Record
 
 SELF_ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repeat"})
@@ -104,7 +116,21 @@ def hear_text(
     situation = situation_of(s)
     if needs_parts(sentences, situation, language):
         return hear_in_parts(sentences, situation, language, types=types)
-    return Hearing(without_early_answers(sentences), (), in_parts=False)
+    moves = settle_moves(sentences, situation, types=types)
+    return Hearing(moves, (), in_parts=False)
+
+
+def settle_moves(
+    said: Sequence[Sentence], situation: Situation, *, types: DialogueTypes
+) -> tuple[Sentence, ...]:
+    """The moves of sentences that are read as a whole, as far as each makes sense.
+
+    Without a yes that comes too early, and with what contradicts itself doubted.
+    """
+    moves = without_early_answers(said)
+    if len(moves) < _SEVERAL or not all(it.readings for it in moves):
+        return moves
+    return tuple(settle_contradictions(moves, situation.things, types=types))
 
 
 def without_early_answers(said: Iterable[Sentence]) -> tuple[Sentence, ...]:
@@ -190,6 +216,8 @@ def hear_in_parts(
             continue
         if not found.moves:
             missed.append((said, found))
+        elif not found.is_remark:
+            missed += [_dropped(it) for it in found.dropped]
         if (not moves or found.is_remark) and _says_no(said, lists):
             lessons = [it for it in done if _teaches(it)]
             asked += [doubt_lesson(it, PARTIAL, types=types) for it in lessons]
@@ -202,16 +230,36 @@ def hear_in_parts(
             aside = found.is_remark or _is_name(move)
             kind = remarks if aside else asked if is_doubted(move) else done
             kind.append(move)
+    told = settle_contradictions([*done, *asked], situation.things, types=types)
+    against = [it for it in told if _is_contradictory(it)]
+    done = [it for it in told if not is_doubted(it)]
+    asked = [it for it in told if is_doubted(it) and it not in against]
     idle = HESITATING | {"okay"} if asked or remarks else HESITATING
     meant = [it for it in done if act_of(it) not in idle]
-    done = meant if meant or asked or remarks else done
+    done = meant if meant or asked or remarks or against else done
     done = _keep_last_answer(without_early_answers(done))
     settled, open_ = _settle_lessons(done, asked, types)
-    told = join_lessons(open_, lists.qualities, types=types)
-    heard = (*_without_repetitions(settled), *told) or tuple(remarks[:1])
+    sayings = [it for it in open_ if is_saying(it)]
+    if len(sayings) < len(open_):
+        open_ = [it for it in open_ if it not in sayings]
+        missed += [_dropped(it.part) for it in sayings if it.part]
+    joined, rest = join_lessons(open_, lists.qualities, types=types)
+    missed += [_dropped(it.part) for it in rest if _is_clause(it.part, lists)]
+    heard = (*against, *_without_repetitions(settled), *joined) or tuple(remarks[:1])
     if heard:
         missed = [it for it in missed if len(it[1].missed) > 1]
     return Hearing(heard, tuple(missed))
+
+
+def _is_clause(part: str, lists: WordLists) -> bool:
+    """Whether a part of a sentence says something of something: it has a copula."""
+    forms = part.lower().replace("’", "'").split()
+    return any(map(lists.has_copula, forms))
+
+
+def _dropped(clause: str) -> tuple[Sentence, Understanding]:
+    """A clause of which nothing is understood, beside others that are."""
+    return Sentence(clause, ()), Understanding((), (), tuple(clause.split()))
 
 
 def _keep_last_answer(said: Sequence[Sentence]) -> list[Sentence]:
@@ -327,6 +375,11 @@ def act_of(it: Sentence) -> str:
 def is_doubted(it: Sentence) -> bool:
     """Whether the best reading of a sentence is in doubt."""
     return "doubt" in it.readings[0].type
+
+
+def _is_contradictory(it: Sentence) -> bool:
+    """Whether a move says what the same text takes back."""
+    return is_doubted(it) and value_at(it.readings[0].type, "doubt") == CONTRADICTORY
 
 
 def _is_name(it: Sentence) -> bool:

@@ -27,7 +27,7 @@ from kille.dialogue.word_lists import word_lists
 HERE = Path(__file__).parent
 MARKS = {
     "": "", "partial": "?", "saying": "!", "remark": "!", "doubtful": "~", "name": "@",
-    "cut off": "-",
+    "cut off": "-", "contradictory": "%",
 }  # fmt: skip
 KNOWN = {
     "en": frozenset({"cup", "mug", "red", "blue", "box", "book"}),

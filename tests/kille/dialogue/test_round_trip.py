@@ -76,6 +76,8 @@ WORD_SLOTS = {
 KIND_SLOTS = {
     "a_subkind": "subkind",
     "superkind": "superkind",
+    "synonym": "synonym",
+    "headword": "headword",
     "a_superkind": "superkind",
 }
 """Slots of the two kinds of which one is a kind of the other, as their labels."""
