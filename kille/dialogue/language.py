@@ -93,6 +93,12 @@ TELL_PART = "tell_part"
 QUALIFIED = "qualified"
 """What a noun of several words is that may be an adjective and a noun."""
 
+ASSERTED, SUPPOSED = "asserted", "supposed"
+"""The stances of who says something, and does not ask it, or says it as a question."""
+
+STANCES = {ASSERTED: "asserted_stance", SUPPOSED: "supposed_stance"}
+"""The rules of the grammar by which a stance is found."""
+
 _FORMS = 3
 """How many words a form is read as, at most; those in the lexicon come first."""
 
@@ -314,6 +320,9 @@ class Reader:
             if any(it.rule == "material" for it in parts(move)):
                 doubt = PARTIAL if doubt == DOUBTFUL else doubt
                 doubt, partly = ("", partly) if partly == SAYING else (doubt, doubt)
+            for stance, rule in STANCES.items():
+                if any(it.rule == rule for it in parts(move)):
+                    heard = set_to(heard, stance=self._types["Text"] @ stance)
             doubt = SAYING if is_saying else doubt
             doubt = REMARK if doubt == DOUBTFUL and partly else doubt or partly
             if doubt == QUALIFIED:

@@ -36,6 +36,9 @@ HOW = "AskHow"
 MEANT = "AskMeant"
 """The question whether the tutor means what was understood of a sentence."""
 
+PRESUMED = "AskPresumed"
+"""The question whether a thing is called so by which the tutor has called one."""
+
 Update = tuple[Record, Model]
 
 
@@ -160,7 +163,7 @@ def ask_how(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Deny")
 def let_be(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor did not mean it as a word: nothing is learned."""
-    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, MEANT):
+    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, MEANT, PRESUMED):
         return None
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
 
@@ -168,7 +171,13 @@ def let_be(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers=("ForgetThat", "ForgetLast"))
 def let_go(s: Record, *, types: DialogueTypes) -> Record | None:
     """What the tutor takes back has not been learned yet: the robot lets it be."""
-    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, BOTH, MEANT):
+    if not s.shared.qud or s.shared.qud[0].ask not in (
+        KIND,
+        HOW,
+        BOTH,
+        MEANT,
+        PRESUMED,
+    ):
         return None
     if kind_of(content_of(s)) is not None:
         return None

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 from kille.dialogue.commitments import plan_learning
 from kille.dialogue.games.distinguishing import say_where
-from kille.dialogue.games.doubting_words import MEANT
+from kille.dialogue.games.doubting_words import MEANT, PRESUMED
 from kille.dialogue.games.referring import about
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -68,10 +68,10 @@ def ask_together(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
 @rule(answers="Affirm")
 def learn_together(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor means all of it: all of it is learned."""
-    if not s.shared.qud or s.shared.qud[0].ask != MEANT:
+    if not s.shared.qud or s.shared.qud[0].ask not in (MEANT, PRESUMED):
         return None
     asked, *rest = s.shared.qud
-    if len(asked.options) < 2:
+    if asked.ask == MEANT and len(asked.options) < 2:
         return None
     learned = replace(s, {"shared.qud": rest})
     for option in asked.options:
