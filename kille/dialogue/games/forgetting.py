@@ -9,18 +9,20 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from kille.dialogue.beliefs import knows
-from kille.dialogue.commitments import kind_of, lessons_in
+from kille.dialogue.commitments import kind_of, lessons_in, plan_learning
 from kille.dialogue.games.surveying import in_view
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
+    denial,
     is_denial,
+    mentions,
     predicate_at,
     values_at,
     word_of,
 )
-from kille.dialogue.moves import content_of, issue, plan
-from kille.dialogue.reference import things_in
+from kille.dialogue.moves import content_of, issue, plan, said_of
+from kille.dialogue.reference import thing_at, things_in
 from kille.dialogue.reference.salience import talked_about
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
@@ -77,6 +79,52 @@ def forget_that(s: Record, *, types: DialogueTypes) -> Record | None:
     if not lessons:
         return None
     return plan_taking_back(s, taught_together(s, lessons[-1]), types=types)
+
+
+@rule(answers="ForgetAbout")
+def forget_about(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor takes back what they said about a thing: the latest lesson about it.
+
+    That it is what they call it is taken back only where nothing else was said of it.
+    """
+    x, phrase = thing_at(content_of(s), "target"), content_of(s).get("target")
+    about = [
+        it
+        for it in s.private.lessons
+        if it.content in s.shared.here and x in things_in(it.content)
+    ]
+    own = [it for it in about if phrase and mentions(phrase, it.sign)]
+    others = [it for it in about if it not in own]
+    for lesson in (others or own)[-1:]:
+        return plan_taking_back(s, taught_together(s, lesson), types=types)
+    return None
+
+
+@rule(answers="CorrectThing")
+def move_lesson(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor has said it of the wrong thing: it is learned of the other instead."""
+    lesson, x = (
+        next(iter(s.private.lessons[-1:]), None),
+        thing_at(content_of(s), "target"),
+    )
+    if lesson is None or x is None or "rel" in lesson.content:
+        return None
+    taught = {content for it in s.private.last for content in values_at(it, "teaches")}
+    if lesson.content not in taught or thing_at(lesson.content, "target") == x:
+        return None
+    moved = said_of(s, lesson.sign, x, _SAID[lesson.sign.kind], types=types)
+    moved = denial(moved) if is_denial(lesson.content) else moved
+    return plan_learning(plan_forgetting(s, lesson, types=types), moved, types=types)
+
+
+@rule(answers="CorrectThing")
+def move_nothing(s: Record, *, types: DialogueTypes) -> Record:
+    """Nothing was just said of another thing."""
+    return plan(s, "WhatAbout", types=types)
+
+
+_SAID = {"noun": "Naming", "adjective": "Having"}
+"""As what words of a kind are said of a thing."""
 
 
 @rule(answers="ForgetThat")
@@ -187,7 +235,7 @@ def miss_forgotten(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "UnknownWord", sign.meaning, signs=[sign], types=types)
 
 
-@rule(answers="ForgetThat")
+@rule(answers=("ForgetThat", "ForgetAbout"))
 def forget_no_such(s: Record, *, types: DialogueTypes) -> Record:
     """Nothing was taught about the thing that is talked of."""
     return plan(s, "ForgetNothing", types=types)
@@ -286,6 +334,9 @@ def _plan_forgetting_several(
 FORGETTING = first(
     forget_claim,
     forget_that,
+    forget_about,
+    move_lesson,
+    move_nothing,
     ask_forget,
     forget_that_earlier,
     forget_last,

@@ -23,7 +23,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from kille.dialogue.meanings import DialogueTypes, packaged_types
+from kille.dialogue.meanings import DialogueTypes, is_denial, packaged_types
 from kille.dialogue.reference.comparing import COMPARATIVES, unexceeded_things
 from ttr import Model, Pred, Record, RecordType, record, replace
 from ttr.types import Meet, PType, TypeNode
@@ -292,6 +292,20 @@ def _other(
     return [x for x in things if x != latest]
 
 
+def _remaining(
+    s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+) -> Sequence[str]:
+    """Those of the things of which nobody has said what they are, since they came."""
+    here = frozenset(s.shared.here)
+    named = {
+        str(target["x"].value)
+        for it in s.private.lessons
+        if it.sign.kind == "noun" and it.content in here and not is_denial(it.content)
+        for target in [it.content["target"]]
+    }
+    return [x for x in things if x not in named]
+
+
 def _nth(n: int) -> Choice:
     def choose_nth(
         s: Record, model: Model, things: Sequence[str], types: DialogueTypes
@@ -338,6 +352,7 @@ def _middle(
 CHOICES: Mapping[str, Choice] = {
     "mentioned": _most_salient,
     "other": _other,
+    "remaining": _remaining,
     "middle": _middle,
     "any_other": _any,
     "flank": _flanks,
