@@ -55,6 +55,7 @@ from kille.dialogue.robust_reading.text_hearing import (
     fill_noun,
     hear_in_parts,
     without_early_answers,
+    without_wavering,
 )
 from kille.dialogue.robust_reading.whole_sentences import needs_parts
 from kille.dialogue.state import blank_model, words
@@ -567,7 +568,8 @@ class Agent(Closing, NotebookValue):
             situation = situation._replace(points_anew=True)
         if needs_parts(full, situation, self.language):
             return self._hear_in_parts(full, situation, exchange, now)
-        for sentence in without_early_answers(sentences):
+        said = without_wavering(without_early_answers(sentences), types=self.types)
+        for sentence in said:
             sentence = self._in_full(sentence, now.state)
             exchange, now = self._answer(
                 sentence, hear_sentences(sentence), exchange, now

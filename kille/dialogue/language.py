@@ -33,7 +33,7 @@ from kille.dialogue.meanings import (
     value_at,
 )
 from kille.dialogue.parsing import Grammar, Token, Tree, parts, words
-from kille.dialogue.restarts import join_repairs
+from kille.dialogue.restarts import join_repairs, settle_spelling
 from kille.dialogue.robot_grammar import CLOSELY, LOOSELY, robot_rules
 from kille.dialogue.word_lists import (
     CUT_OFF,
@@ -174,7 +174,8 @@ def understand(
     """
     reads = reader(language, types or packaged_types())
     found: list[Sentence] = []
-    plain = join_repairs(replace_lookalikes(text), word_lists(language))
+    plain = settle_spelling(replace_lookalikes(text))
+    plain = join_repairs(plain, word_lists(language))
     for part in _SENTENCE.findall(plain):
         if re.search(r"\w", part):
             found += reads.sentences(part.strip())

@@ -77,6 +77,12 @@ class WordLists:
     """Forms that are written as they are spoken, and those of the grammar for them."""
     elliptic: Mapping[str, str] = field(default_factory=dict)
     """Forms that leave out a noun, and those with the noun in its place: {a_noun}."""
+    opposites: Mapping[str, str] = field(default_factory=dict)
+    """Relations, and how things stand that stand the other way round."""
+    reversing: str = ""
+    """The expression of who says that it is the other way round."""
+    reversed: str = ""
+    """That in full, where it is known how things stand."""
     sides: Mapping[str, str] = field(default_factory=dict)
     """Forms that only say on which side it is, and those in full: "No, left."."""
     elsewhere: Mapping[str, str] = field(default_factory=dict)
@@ -110,12 +116,19 @@ class WordLists:
         words = (self.swapped.get(it.lower(), it) for it in re.split(r"(\W+)", text))
         return _replace_forms("".join(words), self.spoken)
 
-    def fill_side(self, text: str) -> str:
+    def fill_side(self, text: str, relation: str = "") -> str:
         """The text in full, where it only says on which side something is instead.
+
+        So it is if it says that it is the other way round, and how things stand.
 
         >>> word_lists("en").fill_side("Nope, left.")
         'no, to the left of it.'
+        >>> word_lists("en").fill_side("Other way round.", "behind")
+        'no, in front of it. '
         """
+        if relation in self.opposites and self.reversing:
+            full = self.reversed.format(relation=self.opposites[relation])
+            text = re.sub(f"(?i:{self.reversing})", full, text)
         return _replace_forms(text, self.sides)
 
     def fill_noun(
@@ -367,6 +380,9 @@ def _word_lists(language: str, _: int) -> WordLists:
         swapped=_swapped(data.get("small_words", "").split()),
         spoken=data.get("spoken", {}),
         elliptic=data.get("elliptic", {}),
+        opposites=data.get("opposites", {}),
+        reversing=data.get("reversing", ""),
+        reversed=data.get("reversed", ""),
         sides=data.get("sides", {}),
         elsewhere=data.get("elsewhere", {}),
     )

@@ -94,6 +94,20 @@ JUST_LEARNED = ("learned", "learned_quality", "learned_relation", "learned_sever
 """What the robot says when it has learned what the tutor said, or confirmed."""
 
 
+@rule(answers="AgreePartly")
+def ask_rest(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor agrees in part with what it has claimed: it asks what is right."""
+    if not s.shared.pending:
+        return None
+    return plan(s, "AskRest", pending=s.shared.pending, types=types)
+
+
+@rule(answers="AgreePartly")
+def note_agreement(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor agrees in part, and it has claimed nothing."""
+    return plan(s, "Noted", types=types)
+
+
 @rule(answers="Deny")
 def wonder_why(s: Record, *, types: DialogueTypes) -> Record:
     """The robot has claimed nothing to reject."""
@@ -107,5 +121,7 @@ CONFIRMING = first(
     learn_after_all,
     ask_again,
     take_back,
+    ask_rest,
+    note_agreement,
     wonder_why,
 )

@@ -12,6 +12,8 @@ from kille.dialogue.language import Sentence, reader, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
     DialogueTypes,
+    claims,
+    denial,
     packaged_types,
     predicate_at,
     value_at,
@@ -110,7 +112,8 @@ def hear_text(
     situation = situation_of(s)
     if needs_parts(sentences, situation, language):
         return hear_in_parts(sentences, situation, language, types=types)
-    return Hearing(without_early_answers(sentences), (), in_parts=False)
+    said = without_wavering(without_early_answers(sentences), types=types)
+    return Hearing(said, (), in_parts=False)
 
 
 def without_early_answers(said: Iterable[Sentence]) -> tuple[Sentence, ...]:
@@ -130,6 +133,29 @@ def without_early_answers(said: Iterable[Sentence]) -> tuple[Sentence, ...]:
     return tuple(kept)
 
 
+def without_wavering(
+    said: Sequence[Sentence], *, types: DialogueTypes
+) -> tuple[Sentence, ...]:
+    """The moves, of which a lesson is doubted that the tutor then denies and affirms.
+
+    So it is if the same is said and denied: "It's a mug, and it's not a mug.".
+
+    >>> moves = understand("This is a cup. No, it isn't. Yes, it is.")
+    >>> [said] = without_wavering(moves, types=packaged_types())
+    >>> is_doubted(said)
+    True
+    """
+    acts = [act_of(it) if it.readings else "" for it in said]
+    if acts and acts[0] in NAMING and acts[1:] == ["deny", "affirm"]:
+        return (doubt_lesson(said[0], PARTIAL, types=types),)
+    if len(said) == 2 and acts[0] in NAMING and acts[1] == "reject":
+        told, denied = (it.readings[0].content for it in said)
+        same = told.get("target") == denied.get("target")
+        if same and denial(told).get("c") == denied.get("c"):
+            return (doubt_lesson(said[0], PARTIAL, types=types),)
+    return tuple(said)
+
+
 def fill_noun(text: str, s: Record, language: str = "en") -> str:
     """The text with the noun that was learned last, where it says so little.
 
@@ -137,8 +163,9 @@ def fill_noun(text: str, s: Record, language: str = "en") -> str:
     robot has just pointed out a cup, "No, the other one." says which one is. Where it
     has said how two things stand, "No, left." says how they do.
     """
-    if any("rel" in it for it in s.shared.pending[:1]):
-        text = word_lists(language).fill_side(text)
+    for claim in (it for it in s.shared.pending[:1] if "rel" in it):
+        stands = next((it.form for it in words(s) if claims(claim, it)), "")
+        text = word_lists(language).fill_side(text, stands)
     said = [predicate_at(it, "e").name for it in s.private.last[-1:]]
     is_elsewhere = "point_out" in said
     signs = [it.sign for it in s.private.lessons[-1:]]
@@ -216,7 +243,9 @@ def hear_in_parts(
     done = meant if meant or asked or remarks else done
     if any(act_of(it) in _FORGETTING for it in done):
         done = [it for it in done if act_of(it) not in _REGRETTING]
-    done = _keep_last_answer(without_early_answers(done))
+    unwavering = without_wavering(without_early_answers(done), types=types)
+    asked += [it for it in unwavering if is_doubted(it)]
+    done = _keep_last_answer([it for it in unwavering if not is_doubted(it)])
     settled, open_ = _settle_lessons(done, asked, types)
     told = join_lessons(open_, lists.qualities, types=types)
     heard = (*_without_repetitions(settled), *told) or tuple(remarks[:1])
