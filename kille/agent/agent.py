@@ -653,6 +653,8 @@ class Agent(Closing, NotebookValue):
         self._log.record_heard(sentence.text)
         if now.state.shared.qud and _is_yes(sentence):
             self._log.quote(_text_asked_about(now.state))
+        elif now.state.shared.pending and _is_yes(sentence):
+            self._log.quote_robot()
         if not sentence.readings:
             sorry = RobotSentence(
                 did_not_understand(self._lexicon, sentence.text, types=self.types), None

@@ -26,6 +26,7 @@ class DialogueLog:
         self._turns = 0
         self._heard: dict[str, Turn] = {}
         self._quoted: Turn | None = None
+        self._said: Turn | None = None
         self.turn = self._next("world", "")
 
     def begin_look(self) -> None:
@@ -47,6 +48,13 @@ class DialogueLog:
         """
         self._quoted = self._heard.get(text)
 
+    def quote_robot(self) -> None:
+        """Take what the robot said last as the source of the lessons of this turn.
+
+        So what the tutor has confirmed by "Yes." is kept as the robot has said it.
+        """
+        self._quoted = self._said
+
     def record_judgement(self, judgement: str) -> None:
         """Record as what the tutor's sentence was understood."""
         completed = dataclasses.replace(self.turn, judgement=judgement)
@@ -56,7 +64,7 @@ class DialogueLog:
 
     def record_said(self, text: str, judgement: str = "") -> None:
         """Record what the robot says."""
-        self._record(self._next("robot", text, judgement))
+        self._said = self._record(self._next("robot", text, judgement))
 
     def record_source(self) -> Turn:
         """Record the turn in which a lesson was said, mostly this one; returns it."""

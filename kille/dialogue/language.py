@@ -33,7 +33,7 @@ from kille.dialogue.meanings import (
     value_at,
 )
 from kille.dialogue.parsing import Grammar, Token, Tree, parts, words
-from kille.dialogue.restarts import join_repairs
+from kille.dialogue.restarts import join_repairs, settle_spelling
 from kille.dialogue.robot_grammar import CLOSELY, LOOSELY, robot_rules
 from kille.dialogue.word_lists import (
     CUT_OFF,
@@ -42,6 +42,7 @@ from kille.dialogue.word_lists import (
     PARTIAL,
     REMARK,
     SAYING,
+    is_noise,
     plain_text,
     word_lists,
 )
@@ -92,6 +93,17 @@ TELL_PART = "tell_part"
 
 QUALIFIED = "qualified"
 """What a noun of several words is that may be an adjective and a noun."""
+
+STANCES = {
+    "asserted": "asserted_stance",
+    "supposed": "supposed_stance",
+    "reversed": "reversed_stance",
+    "of all": "of_all_stance",
+}
+"""How somebody says a thing that can be said in several ways, and the rules for it.
+
+As a claim or as a question; a no, that it is the other way round, or so of all things.
+"""
 
 _FORMS = 3
 """How many words a form is read as, at most; those in the lexicon come first."""
@@ -167,7 +179,8 @@ def understand(
     """
     reads = reader(language, types or packaged_types())
     found: list[Sentence] = []
-    plain = join_repairs(replace_lookalikes(text), word_lists(language))
+    plain = settle_spelling(replace_lookalikes(text))
+    plain = join_repairs(plain, word_lists(language))
     plain = _ABBREVIATION.sub(lambda it: it[0].replace(".", ""), plain)
     for part in _SENTENCE.findall(plain):
         if re.search(r"\w", part):
@@ -314,12 +327,22 @@ class Reader:
                 content=RecType @ content,
             )
             doubt = self._doubt(signs, content, text) if is_lesson else ""
+            intended = self._intended_signs(signs, content, partly) if is_lesson else ()
+            if intended and (doubt in ("", DOUBTFUL) or any(map(_is_noisy, signs))):
+                doubt = ""
+                heard = set_to(
+                    heard,
+                    intended=self._types.record_type("Intended")["intended"] @ intended,
+                )
             if move.rule == TELL_PART:
                 judged = self._doubt(signs, content, text)
                 doubt = judged if judged != PARTIAL else ""
             if any(it.rule == "material" for it in parts(move)):
                 doubt = PARTIAL if doubt == DOUBTFUL else doubt
                 doubt, partly = ("", partly) if partly == SAYING else (doubt, doubt)
+            for stance, rule in STANCES.items():
+                if any(it.rule == rule for it in parts(move)):
+                    heard = set_to(heard, stance=self._types["Text"] @ stance)
             doubt = SAYING if is_saying else doubt
             doubt = REMARK if doubt == DOUBTFUL and partly else doubt or partly
             if doubt == QUALIFIED:
@@ -351,6 +374,27 @@ class Reader:
             if sign.kind == "adjective":
                 return self._lists.judge_quality(sign.form)
         return ""
+
+    def _intended_signs(
+        self, signs: Iterable[Record], content: RecordType, partly: str
+    ) -> tuple[Record, ...]:
+        """The common word that the one of a lesson may be a slip of, if any.
+
+        In a part of a sentence it may be a noun without an article: "this is teddy".
+        """
+        sign = next((it for it in signs if claims(content, it)), None)
+        if sign is None or sign.kind not in ("noun", "adjective"):
+            return ()
+        found = self._lists.intended_word(sign.form, sign.kind)
+        if partly and sign.kind == "adjective" and sign.form in self._lists.things:
+            found = (sign.form, "noun", "")
+        if found is None:
+            return ()
+        form, kind, article = found
+        main = self._lexicon.main_form(form)
+        means = "" if kind == "noun" else self._lexicon.means.get(main, "")
+        own = article or (sign.article if kind == "noun" else "")
+        return (self._types.sign(main, kind, own, means),)
 
     def _is_qualified(self, form: str) -> bool:
         """Whether a noun begins with a word for how things are: "lovely cup"."""
@@ -445,6 +489,11 @@ def _tokens(tree: Tree) -> Iterator[Token]:
             yield from _tokens(child)
         else:
             yield child
+
+
+def _is_noisy(sign: Record) -> bool:
+    """Whether a word is none of any language, as it was typed."""
+    return is_noise(sign.form)
 
 
 _CUT_OFF = re.compile(r"\b(\w{1,2})(?:\.\.+|…|-+)\s*$")

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 
-from kille.dialogue.typos import slip
+from kille.dialogue.typos import is_misspelling, slip
 from kille.dialogue.word_lists import WordLists
 
 _AGAIN = re.compile(
@@ -52,6 +52,31 @@ def join_repairs(text: str, lists: WordLists) -> str:
     if marked := _MARKED.fullmatch(text):
         return f"{lists.repair} {marked[1]}"
     return _join_again(_join_renewals(text, lists), lists)
+
+
+def settle_spelling(text: str) -> str:
+    """The text without a word that is spelled, or with it in one, and nothing like it.
+
+    >>> settle_spelling("It is a CUP. C-U-P.")
+    'It is a CUP. '
+    >>> settle_spelling("bannana. argh b a n a n a")
+    'argh banana'
+    """
+    found = _SPELLED.search(text)
+    if found is None:
+        return text
+    word = re.sub(r"[\W_]", "", found[0]).lower()
+    before, after = text[: found.start()], text[found.end() :]
+    if re.search(rf"\b{word}\b", before + after, re.I):
+        return before + after.lstrip(".!")
+    near = [it for it in re.findall(r"\w+", before) if is_misspelling(it.lower(), word)]
+    for it in near:
+        before = re.sub(rf"\b{it}\b[.,;!]*\s*", "", before)
+    return before + word + after
+
+
+_SPELLED = re.compile(r"(?<![\w'’-])(?:[^\W\d_][- ]){2,}[^\W\d_](?![\w'’-])")
+"""A word that is said letter by letter."""
 
 
 def _join_again(text: str, lists: WordLists) -> str:

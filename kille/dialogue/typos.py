@@ -12,6 +12,8 @@ errors" (1964).
 from __future__ import annotations
 
 import difflib
+import re
+import unicodedata
 from collections.abc import Iterable
 
 _ALIKE = 0.72
@@ -49,6 +51,39 @@ def is_slip(form: str, word: str) -> bool:
         case "another":
             return len(word) >= _LONGER
     return False
+
+
+def is_misspelling(form: str, word: str) -> bool:
+    """Whether a new form is likely a common word, badly typed.
+
+    Besides a slip it may lack the marks on letters, or repeat a letter. A letter too
+    many at the end may be an ending of the word: then it is none.
+
+    >>> is_misspelling("botle", "bottle"), is_misspelling("apple", "äpple")
+    (True, True)
+    >>> is_misspelling("cuuuup", "cup"), is_misspelling("cap", "cup")
+    (True, False)
+    >>> is_misspelling("spoons", "spoon")
+    False
+    """
+    if form == word or form[:-1] == word:
+        return False  # a letter more at the end may be an ending
+    if is_slip(form, word) or _without_marks(form) == _without_marks(word):
+        return True
+    return _REPEATED.search(form) is not None and word in {
+        _REPEATED.sub(r"\1", form),
+        _REPEATED.sub(r"\1\1", form),
+    }
+
+
+_REPEATED = re.compile(r"(.)\1\1+")
+"""A letter that is typed three times or more."""
+
+
+def _without_marks(form: str) -> str:
+    """The form without the marks on its letters: "apple" for *äpple*."""
+    apart = unicodedata.normalize("NFD", form)
+    return "".join(it for it in apart if not unicodedata.combining(it))
 
 
 def slip(form: str, word: str) -> str | None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from kille.dialogue.language_files import WORDS, last_change, read_table
+from kille.dialogue.typos import is_misspelling
 
 REMARK, DOUBTFUL, SAYING, PARTIAL = "remark", "doubtful", "saying", "partial"
 NAME, CUT_OFF = "name", "cut off"
@@ -33,6 +34,10 @@ class WordLists:
     abstract: frozenset[str] = frozenset()
     doubtful: frozenset[str] = frozenset()
     qualities: frozenset[str] = frozenset()
+    things: frozenset[str] = frozenset()
+    """Common nouns for things: new words may be slips of them."""
+    materials: frozenset[str] = frozenset()
+    """Nouns for what things are made of, which also say how these are."""
     evaluations: frozenset[str] = frozenset()
     """Words for how good or true it is what was said: no qualities of things."""
     endings: tuple[str, ...] = ()
@@ -59,6 +64,8 @@ class WordLists:
     """One of them, as it is written: "i mean"."""
     renewals: frozenset[tuple[str, ...]] = frozenset()
     """Those of them that may begin a sentence of their own: "I mean red!"."""
+    swapped: Mapping[str, str] = field(default_factory=dict)
+    """Small words with two letters changed about, and how they are written."""
     names: frozenset[str] = frozenset()
     """Names of persons, which are no words for kinds of things."""
     contents: frozenset[str] = frozenset()
@@ -77,6 +84,14 @@ class WordLists:
     """Forms that are written as they are spoken, and those of the grammar for them."""
     elliptic: Mapping[str, str] = field(default_factory=dict)
     """Forms that leave out a noun, and those with the noun in its place: {a_noun}."""
+    opposites: Mapping[str, str] = field(default_factory=dict)
+    """Relations, and how things stand that stand the other way round."""
+    reversing: str = ""
+    """The expression of who says that it is the other way round."""
+    reversed: str = ""
+    """That in full, where it is known how things stand."""
+    sides: Mapping[str, str] = field(default_factory=dict)
+    """Forms that only say on which side it is, and those in full: "No, left."."""
     elsewhere: Mapping[str, str] = field(default_factory=dict)
     """The same of forms that say which one it is instead: "No, the other one."."""
 
@@ -107,8 +122,26 @@ class WordLists:
 
         >>> word_lists("sv").write_out("va e dettahär?")
         'vad är det här?'
+        >>> word_lists("en").write_out("Thsi is a cup.")
+        'this is a cup.'
         """
-        return _replace_forms(text, self.spoken)
+        words = (self.swapped.get(it.lower(), it) for it in re.split(r"(\W+)", text))
+        return _replace_forms("".join(words), self.spoken)
+
+    def fill_side(self, text: str, relation: str = "") -> str:
+        """The text in full, where it only says on which side something is instead.
+
+        So it is if it says that it is the other way round, and how things stand.
+
+        >>> word_lists("en").fill_side("Nope, left.")
+        'no, to the left of it.'
+        >>> word_lists("en").fill_side("Other way round.", "behind")
+        'no, in front of it. '
+        """
+        if relation in self.opposites and self.reversing:
+            full = self.reversed.format(relation=self.opposites[relation])
+            text = re.sub(f"(?i:{self.reversing})", full, text)
+        return _replace_forms(text, self.sides)
 
     def fill_noun(
         self, text: str, noun: str, a_noun: str, *, is_elsewhere: bool = False
@@ -195,6 +228,52 @@ class WordLists:
         if is_noise(form):
             return REMARK
         return REMARK if words[-1] in self.abstract else DOUBTFUL
+
+    def intended_word(self, form: str, kind: str) -> tuple[str, str, str] | None:
+        """The common word that a new one may be a slip of: its form, kind and article.
+
+        None if there is not just one, or if the word is one of the lists itself.
+
+        >>> english = word_lists("en")
+        >>> [english.intended_word(it, "noun") for it in ("botle", "cpu", "cup", "wug")]
+        [('bottle', 'noun', ''), ('cup', 'noun', ''), None, None]
+        >>> english.intended_word("mettal", "adjective")
+        ('metal', 'adjective', '')
+        >>> english.intended_word("acap", "adjective")
+        ('cap', 'noun', 'a')
+        """
+        if " " in form or self._is_word(form):
+            return None
+        common = self.things if kind == "noun" else self.qualities | self.materials
+        found = [it for it in common if is_misspelling(form, it)]
+        if not found and kind == "adjective":
+            return self._run_together(form)
+        return (found[0], kind, "") if len(found) == 1 else None
+
+    def _run_together(self, form: str) -> tuple[str, str, str] | None:
+        """The noun and article of which a form is made: "acap"."""
+        for article in sorted(self.articles, key=len, reverse=True):
+            noun = form.removeprefix(article)
+            if noun != form and noun in self.things and len(noun) > len(article):
+                return noun, "noun", article
+        return None
+
+    def _is_word(self, form: str) -> bool:
+        """Whether a form is in one of the lists."""
+        lists = (
+            self.things,
+            self.materials,
+            self.qualities,
+            self.abstract,
+            self.doubtful,
+            self.parts,
+            self.aspects,
+            self.evaluations,
+            self.closed,
+            self.fillers,
+            self.names,
+        )
+        return any(form in it for it in lists)
 
     def _is_quality(self, word: str) -> bool:
         return any(it in self.qualities for it in (word, *word.split("-")[-1:]))
@@ -293,6 +372,8 @@ def _word_lists(language: str, _: int) -> WordLists:
         abstract=frozenset(data.get("abstract", "").split()),
         doubtful=frozenset(data.get("doubtful", "").split()),
         qualities=frozenset(data.get("qualities", "").split()),
+        things=frozenset(data.get("things", "").split()),
+        materials=frozenset(data.get("materials", "").split()),
         evaluations=frozenset(data.get("evaluations", "").split()),
         endings=tuple(data.get("abstract_endings", "").split()),
         parts=frozenset(data.get("parts", "").split()),
@@ -313,10 +394,29 @@ def _word_lists(language: str, _: int) -> WordLists:
         reasons=frozenset(data.get("reasons", "").split()),
         copulas=frozenset(data.get("copulas", "").split()),
         numbers=tuple(data.get("numbers", "").split()),
+        swapped=_swapped(data.get("small_words", "").split()),
         spoken=data.get("spoken", {}),
         elliptic=data.get("elliptic", {}),
+        opposites=data.get("opposites", {}),
+        reversing=data.get("reversing", ""),
+        reversed=data.get("reversed", ""),
+        sides=data.get("sides", {}),
         elsewhere=data.get("elsewhere", {}),
     )
+
+
+def _swapped(words: Sequence[str]) -> dict[str, str]:
+    """Each of the words as it is with two letters beside one another changed about.
+
+    >>> _swapped(["the"])
+    {'hte': 'the', 'teh': 'the'}
+    """
+    found = {
+        word[:n] + word[n + 1] + word[n] + word[n + 2 :]: word
+        for word in words
+        for n in range(len(word) - 1)
+    }
+    return {form: word for form, word in found.items() if form not in words}
 
 
 def _phrases(listed: str) -> frozenset[tuple[str, ...]]:

@@ -46,7 +46,8 @@ from kille.dialogue.games.misspelling import OFFER_ANSWERED, OFFERING
 from kille.dialogue.games.naming import NAMING
 from kille.dialogue.games.pairing import PAIR_ANSWERED, PAIRING
 from kille.dialogue.games.placing import BETWEEN, PLACING
-from kille.dialogue.games.referring import CHOOSING, REFERRING
+from kille.dialogue.games.presupposing import PRESUPPOSED, SUPPOSING
+from kille.dialogue.games.referring import CHOOSING, MISSING, REFERRING
 from kille.dialogue.games.second_noun import BOTH_ANSWERED, SECOND_NOUN
 from kille.dialogue.games.several_lessons import LESSONS_ANSWERED, SEVERAL_LESSONS
 from kille.dialogue.games.several_things import SEVERAL_THINGS, THINGS_ANSWERED
@@ -71,6 +72,7 @@ ANSWERING = first(
     PLACING,
     BETWEEN,
     COMPARING,
+    SUPPOSING,
     CHECKING,
     COLOURING,
     FINDING,
@@ -118,7 +120,7 @@ def games_with(*answers: Rule) -> Algorithm:
                 ),
             ),
             maybe(FRAME_OF_REFERENCE),
-            maybe(first(CHOOSING, REFERRING)),
+            maybe(first(CHOOSING, REFERRING, PRESUPPOSED, MISSING)),
             maybe(ASKING_FRAME),
             maybe(first(*ANSWERING.parts, *answers)),
             maybe(EXEMPLIFYING),

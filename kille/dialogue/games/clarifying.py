@@ -10,10 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from kille.dialogue.commitments import opposite_lesson_keys
 from kille.dialogue.games.continuing import NAMED_ALSO
 from kille.dialogue.games.referring import about, differing_things, plan_question
-from kille.dialogue.meanings import DialogueTypes
-from kille.dialogue.moves import content_of, plan
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    denial,
+    is_denial,
+    predicate_at,
+    values_at,
+)
+from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at
 from kille.dialogue.rules import reply, rule
 from ttr import Model, Record, replace
@@ -38,6 +46,44 @@ def take_only(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says yes to the only option there is."""
     options = _options(s)
     return take_option(s, options[0], types=types) if len(options) == 1 else None
+
+
+@rule(answers="DeniedOfAll")
+def reject_all(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says that none of these things is what a lesson is about."""
+    options = _options(s) if asks_which(s) else ()
+    sign = _word_of_all(options) if options else _word_missed(s)
+    if sign is None or not s.view.things:
+        return None
+    _, things = differing_things(options) if options else ("", s.view.things)
+    teaches = [denial(said_of(s, sign, x, types=types)) for x in things]
+    return plan(
+        _drop_issue(s) if options else s,
+        "RejectedSeveral",
+        sign.meaning,
+        signs=[sign],
+        teaches=teaches,
+        forgets=[
+            key for it in teaches for key in opposite_lesson_keys(s, it, types=types)
+        ],
+        types=types,
+    )
+
+
+def _word_of_all(options: Sequence[Record]) -> Record | None:
+    """The noun that all these moves say of their things."""
+    said = options[0]
+    if "c" not in said.content or is_denial(said.content):
+        return None
+    return next((it for it in said.signs if claims(said.content, it)), None)
+
+
+def _word_missed(s: Record) -> Record | None:
+    """The noun of which the robot has just said that it does not know it."""
+    for it in s.private.last[-1:]:
+        if predicate_at(it, "e").name == "unknown_noun":
+            return next(iter(values_at(it, "signs")), None)
+    return None
 
 
 @rule(answers="Deny")
@@ -127,6 +173,7 @@ def _drop_issue(s: Record) -> Record:
 CLARIFYING = first(
     take_described,
     take_only,
+    reject_all,
     take_none,
     ask_fewer,
     ask_once_more,

@@ -7,7 +7,7 @@ does not decide.
 
 from __future__ import annotations
 
-from kille.dialogue.commitments import kind_of
+from kille.dialogue.commitments import kind_of, plan_learning
 from kille.dialogue.games.placing import AMID, SIDE, name_thing
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -18,11 +18,11 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.moves import content_of, number_field, plan
-from kille.dialogue.reference import phrase_at, thing_at
+from kille.dialogue.reference import PARTS, across, phrase_at, thing_at
 from kille.dialogue.reference.comparing import COMPARATIVES, exceeds
 from kille.dialogue.rules import rule
-from ttr import Model, Record, RecordType
-from ttr.types import Singleton
+from ttr import Model, Record, RecordType, rectype
+from ttr.types import Singleton, TypeNode
 from ttr.updates import first
 
 SCALE = "scale"
@@ -36,6 +36,8 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     if SCALE not in content:
         return None
     sign = next(it for it in s.shared.latest.signs if claims(content, it))
+    if not _is_measured(sign, types=types):
+        return _learn_comparison(s, model, content, types=types)
     if word_of(sign) not in model.facts.functions:
         return plan(s, "UnknownRelation", sign.meaning, signs=[sign], types=types)
     x, y = (str(thing_at(content, it)) for it in ("target", "landmark"))
@@ -43,7 +45,7 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
         return plan(s, "NeedDepth", types=types)
     asks_which = types.has(s.shared.latest, "AskMore", model)
     more, sure = word_of(sign), s.private.strategy.bands.sure
-    called, signs = _with_names(s, model, content)
+    called, signs = _with_names(s, model, content, types=types)
     if exceeds(s, model, more, x, y) >= sure:
         act = "TellMore" if asks_which else "SayYes"
         return _plan(s, act, called, signs, x, types=types)
@@ -113,19 +115,65 @@ def _plan(
     return plan(s, act, shown, signs=signs, points=[x], types=types)
 
 
+def _is_measured(sign: Record, *, types: DialogueTypes) -> bool:
+    """Whether the theory has the relation, as one that is seen by measuring."""
+    return word_of(sign).name in types and types[word_of(sign).name] is word_of(sign)
+
+
+def _learn_comparison(
+    s: Record, model: Model, content: RecordType, *, types: DialogueTypes
+) -> Record | None:
+    """The plan to learn in what two things compare by a word that nothing measures.
+
+    "The one is thicker than the other." is how they stand to one another, here.
+    Where it is asked, it is answered as other relations are.
+    """
+    landmark = phrase_at(content, "landmark")
+    if "d" in landmark or not types.has(s.shared.latest, "Asserted", model):
+        return None
+    if not {str(thing_at(content, it)) for it in PARTS} <= {*s.view.placed}:
+        return plan(s, "NeedDepth", types=types)
+    told = rectype({label: T for label, T in content.fields if label != SCALE})
+    return plan_learning(s, told, types=types)
+
+
 def _with_names(
-    s: Record, model: Model, content: RecordType
+    s: Record, model: Model, content: RecordType, *, types: DialogueTypes
 ) -> tuple[RecordType, tuple[Record, ...]]:
     """The content with nouns for things that the tutor has not described.
 
-    The words in it are given as well, also those of the robot's own.
+    The words in it are given as well, also those of the robot's own. Things that would
+    be called by the same words are told apart by their places.
     """
     signs = s.shared.latest.signs
     for label in ("target", "landmark"):
         x = str(thing_at(content, label))
         phrase, called = name_thing(s, model, phrase_at(content, label), x)
         content, signs = set_to(content, **{label: phrase}), (*signs, *called)
+    content = _tell_apart(s, model, content, types=types)
     return content, tuple(dict.fromkeys(signs))
+
+
+def _tell_apart(
+    s: Record, model: Model, content: RecordType, *, types: DialogueTypes
+) -> RecordType:
+    """The content, where things that are called the same are the left and the right."""
+    target, landmark = (phrase_at(content, it) for it in PARTS)
+    if _words_in(target) != _words_in(landmark):
+        return content
+    things = {str(thing_at(content, it)): it for it in PARTS}
+    row = across(s, model, things, types=types)
+    sides = (types.record_type(it)["d"] for it in ("Leftmost", "Rightmost"))
+    placed = {
+        things[x]: set_to(phrase_at(content, things[x]), d=side)
+        for x, side in zip(row, sides, strict=True)
+    }
+    return set_to(content, **placed)
+
+
+def _words_in(phrase: RecordType) -> dict[str, TypeNode]:
+    """What a phrase says of its thing."""
+    return {label: T for label, T in phrase.fields if label not in ("x", "look")}
 
 
 def _is_called(content: RecordType, label: str) -> bool:

@@ -11,7 +11,7 @@ from kille.dialogue.commitments import (
     plan_learning,
     signs_for,
 )
-from kille.dialogue.games.forgetting import plan_forgetting
+from kille.dialogue.games.forgetting import plan_taking_back, taught_together
 from kille.dialogue.meanings import DialogueTypes, is_denial, predicate_at, values_at
 from kille.dialogue.moves import plan, words_in
 from kille.dialogue.rules import rule
@@ -76,7 +76,10 @@ def ask_again(s: Record, *, types: DialogueTypes) -> Record | None:
 
 @rule(answers="Deny")
 def take_back(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The robot has just learned something, and the tutor says no: it unlearns that."""
+    """The robot has just learned something, and the tutor says no: it unlearns that.
+
+    So it does with all that was learned at once.
+    """
     if s.shared.pending or not s.private.last or not s.private.lessons:
         return None
     said, lesson = s.private.last[-1], s.private.lessons[-1]
@@ -84,11 +87,25 @@ def take_back(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     if lesson.content not in values_at(said, "teaches"):
         return None
-    return plan_forgetting(s, lesson, types=types)
+    return plan_taking_back(s, taught_together(s, lesson), types=types)
 
 
-JUST_LEARNED = ("learned", "learned_quality", "learned_relation")
+JUST_LEARNED = ("learned", "learned_quality", "learned_relation", "learned_several")
 """What the robot says when it has learned what the tutor said, or confirmed."""
+
+
+@rule(answers="AgreePartly")
+def ask_rest(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor agrees in part with what it has claimed: it asks what is right."""
+    if not s.shared.pending:
+        return None
+    return plan(s, "AskRest", pending=s.shared.pending, types=types)
+
+
+@rule(answers="AgreePartly")
+def note_agreement(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor agrees in part, and it has claimed nothing."""
+    return plan(s, "Noted", types=types)
 
 
 @rule(answers="Deny")
@@ -104,5 +121,7 @@ CONFIRMING = first(
     learn_after_all,
     ask_again,
     take_back,
+    ask_rest,
+    note_agreement,
     wonder_why,
 )

@@ -17,11 +17,11 @@ from ttr import Model, Record, record
 from ttr.updates import first
 
 
-@rule(answers=("AskCount", "AskAll"))
+@rule(answers=("AskCount", "AskAll", "AskMoreOf"))
 def miss_counted(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks how many there are, or if all are, by a word never learned."""
     content = content_of(s)
-    asked = [phrase_at(content, it) for it in ("counted", "among") if it in content]
+    asked = [phrase_at(content, it) for it in COUNTED if it in content]
     said = s.shared.latest.signs
     signs = (sign for sign in said if any(mentions(it, sign) for it in asked))
     return plan_first_unknown(s, signs, types=types)
@@ -43,6 +43,25 @@ def count(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     likely = [it for it in fits if it.p < bands.sure]
     content = in_view(s, sure, likely, (), types=types)
     return plan(s, "TellCount", content, signs=s.shared.latest.signs, types=types)
+
+
+@rule(answers="AskMoreOf")
+def compare_counts(s: Record, *, model: Model, types: DialogueTypes) -> Record:
+    """The tutor asks if there are more of one sort: it says how many of each."""
+    bands, judge = s.private.strategy.bands, PhraseJudge(s, model, types=types)
+    seen: list[list[Record]] = []
+    for label in ("counted", "others"):
+        counted = phrase_at(content_of(s), label)
+        found = judge.fits(counted)
+        if any(bands.likely <= it.weakest < bands.sure for it in found.values()):
+            return plan(s, "AdmitWhether", types=types)
+        sign = record(meaning=counted)
+        sure = [x for x, fit in found.items() if fit.weakest >= bands.sure]
+        seen.append([record(sit=record(x=x), sign=sign, p=1.0) for x in sure])
+    own, other = (in_view(s, it, (), (), types=types) for it in seen)
+    more = len(seen[0]) - len(seen[1])
+    act = "SayMore" if more > 0 else "SayNotMore" if more < 0 else "SayAsMany"
+    return plan(s, act, own, other, signs=s.shared.latest.signs, types=types)
 
 
 @rule(answers="AskAll")
@@ -71,4 +90,7 @@ def count_all(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     return plan(s, act, told, points=sure[:1], types=types)
 
 
-COUNTING = first(miss_counted, count, count_all)
+COUNTED = ("counted", "among", "others")
+"""The labels of the phrases whose things are counted."""
+
+COUNTING = first(miss_counted, count, compare_counts, count_all)

@@ -17,6 +17,7 @@ from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
     is_denial,
+    replace_word,
     set_to,
     single_claims,
 )
@@ -46,22 +47,27 @@ MEANT = "AskMeant"
 MEANT_TOO = "AskMeantToo"
 """What it asks besides, of what the tutor has said in the same breath."""
 
+PRESUMED = "AskPresumed"
+"""The question whether a thing is called so by which the tutor has called one."""
+
 Update = tuple[Record, Model]
 
 
 @rule(answers="Doubted")
-def ask_meant(s: Record, *, types: DialogueTypes) -> Record | None:
+def ask_meant(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """Only a part of the sentence was understood: it asks whether that is meant."""
     said = s.shared.latest
     if said.doubt != PARTIAL or ("look" in said.content and not s.view.things):
         return None
+    said, model = _as_intended(s, said, model, types=types)
     part = said.content.get(COMPONENT)
     if part and any(it.content.get(COMPONENT) == part for it in s.private.criteria):
         return None
     told = single_claims(said.content)[0]
     content = in_view(s, told, types=types)
-    asked = issue(MEANT, [replace(said, content=content, doubt="")])
-    return plan(
+    undoubted = {"doubt": ""} if "doubt" in said else {}
+    asked = issue(MEANT, [replace(said, content=content, **undoubted)])
+    question = plan(
         s,
         MEANT,
         told,
@@ -70,6 +76,22 @@ def ask_meant(s: Record, *, types: DialogueTypes) -> Record | None:
         asks=[asked],
         types=types,
     )
+    return question, model
+
+
+def _as_intended(
+    s: Record, said: Record, model: Model, *, types: DialogueTypes
+) -> Update:
+    """The move with the common word of which its new one may be a slip."""
+    sign = next((it for it in said.signs if claims(said.content, it)), None)
+    if "intended" not in said or sign is None or knows_word(s, sign):
+        return said, model
+    [common] = said.intended
+    if common.kind != sign.kind:
+        return as_naming(said, sign, common, model, types=types)
+    signs = [common if it == sign else it for it in said.signs]
+    content = replace_word(said.content, sign, common)
+    return replace(said, content=content, signs=signs), model
 
 
 @rule(answers="Doubted")
@@ -146,7 +168,8 @@ def ask_kind(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     content = in_view(s, content_of(s), types=types)
     options = [replace(s.shared.latest, content=content, doubt="")]
     if sign.kind == "adjective":
-        named, model = _as_naming(options[0], sign, model, types=types)
+        noun = types.sign(sign.form, "noun")
+        named, model = as_naming(options[0], sign, noun, model, types=types)
         options = [named, *options]
         if any("c" in it for it in s.shared.pending):
             return _ask_name(s, named, types=types), model
@@ -203,7 +226,7 @@ def ask_how(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Deny")
 def let_be(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor did not mean it as a word: nothing is learned."""
-    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, MEANT):
+    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, MEANT, PRESUMED):
         return None
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
 
@@ -211,7 +234,13 @@ def let_be(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers=("ForgetThat", "ForgetLast"))
 def let_go(s: Record, *, types: DialogueTypes) -> Record | None:
     """What the tutor takes back has not been learned yet: the robot lets it be."""
-    if not s.shared.qud or s.shared.qud[0].ask not in (KIND, HOW, BOTH, MEANT):
+    if not s.shared.qud or s.shared.qud[0].ask not in (
+        KIND,
+        HOW,
+        BOTH,
+        MEANT,
+        PRESUMED,
+    ):
         return None
     if kind_of(content_of(s)) is not None:
         return None
@@ -232,11 +261,10 @@ def _doubted_sign(s: Record) -> Record | None:
     return new[0] if new else None
 
 
-def _as_naming(
-    said: Record, sign: Record, model: Model, *, types: DialogueTypes
+def as_naming(
+    said: Record, sign: Record, noun: Record, model: Model, *, types: DialogueTypes
 ) -> Update:
-    """The move with a word taken as a noun that was said as an adjective."""
-    noun = types.sign(sign.form, "noun")
+    """The move with a noun in the place of what was said as an adjective."""
     claim = types.meaning_at(noun, "Naming")["c"]
     content = rectype(
         {

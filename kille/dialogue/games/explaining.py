@@ -59,6 +59,15 @@ def tell_certainty(s: Record, *, model: Model, types: DialogueTypes) -> Update |
     return None if claim is None else _plan_certainty(s, model, claim, types=types)
 
 
+@rule(answers="AskSo")
+def tell_conviction(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
+    """The tutor asks back if it is so: it says of what it is how certain."""
+    claim = claim_in_question(s)
+    if claim is None:
+        return None
+    return _plan_certainty(s, model, claim, "TellConviction", types=types)
+
+
 @rule(answers="AskWhy")
 def miss_explained(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks why something is so in a word that was never learned."""
@@ -139,7 +148,7 @@ IGNORANCE = ("admit_", "unknown_", "doubt_", "guess_")
 """How the names of the acts begin by which the robot says that it does not know."""
 
 
-@rule(answers="AskCertainty")
+@rule(answers=("AskCertainty", "AskSo"))
 def be_sure_of_nothing(s: Record, *, types: DialogueTypes) -> Record:
     """It has claimed nothing that it could be sure of."""
     return plan(s, "NoClaim", types=types)
@@ -179,7 +188,7 @@ def claim_in_question(s: Record) -> RecordType | None:
     judged: list[RecordType] = [
         value_at(move, "content")
         for move in s.private.last
-        if predicate_at(move, "e").name == "tell_certainty"
+        if predicate_at(move, "e").name in ("tell_certainty", "tell_conviction")
     ]
     return [_claim_of_criterion(s), *(told or judged)][-1]
 
@@ -202,7 +211,12 @@ def _still_claimed(s: Record, claim: RecordType) -> Sequence[RecordType]:
 
 
 def _plan_certainty(
-    s: Record, model: Model, claim: RecordType, *, types: DialogueTypes
+    s: Record,
+    model: Model,
+    claim: RecordType,
+    act: str = "TellCertainty",
+    *,
+    types: DialogueTypes,
 ) -> Update:
     """The plan to say how certain a claim is."""
     own, rival, model = _judge_claim(s, model, affirmation(claim))
@@ -211,7 +225,7 @@ def _plan_certainty(
     p, other = _with_rival(s, claim, own, rival, types=types)
     told = plan(
         s,
-        "TellCertainty",
+        act,
         claim,
         other,
         signs=signs_for(s, claim, other),
@@ -294,6 +308,7 @@ def _with_rival(
 EXPLAINING = first(
     miss_certain,
     tell_certainty,
+    tell_conviction,
     miss_explained,
     explain_kind,
     explain,

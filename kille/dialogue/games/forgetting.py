@@ -6,20 +6,27 @@ is no longer known.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from kille.dialogue.beliefs import knows
-from kille.dialogue.commitments import kind_of, lessons_in
+from kille.dialogue.commitments import kind_of, lessons_in, plan_learning
+from kille.dialogue.games.surveying import in_view
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
+    denial,
     is_denial,
+    mentions,
+    predicate_at,
+    values_at,
     word_of,
 )
-from kille.dialogue.moves import content_of, issue, plan
-from kille.dialogue.reference import things_in
+from kille.dialogue.moves import content_of, issue, plan, said_of
+from kille.dialogue.reference import thing_at, things_in
 from kille.dialogue.reference.salience import talked_about
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Record, replace
+from ttr import Record, RecordType, record, replace
 from ttr.updates import first
 
 FORGOT = {"c": "Forgot", "a": "ForgotQuality", "rel": "ForgotRelation"}
@@ -59,14 +66,65 @@ def forget_claim(s: Record, *, types: DialogueTypes) -> Record | None:
 
 @rule(answers="ForgetThat")
 def forget_that(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The latest lesson about the thing that is talked of is unlearned."""
+    """The latest lesson about the thing that is talked of is unlearned.
+
+    If it was one about several things, or said several things, all of it is.
+    """
     talked_of = set(talked_about(s))
     lessons = [
         it
         for it in s.private.lessons
         if it.content in s.shared.here and talked_of & set(things_in(it.content))
     ]
-    return plan_forgetting(s, lessons[-1], types=types) if lessons else None
+    if not lessons:
+        return None
+    return plan_taking_back(s, taught_together(s, lessons[-1]), types=types)
+
+
+@rule(answers="ForgetAbout")
+def forget_about(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor takes back what they said about a thing: the latest lesson about it.
+
+    That it is what they call it is taken back only where nothing else was said of it.
+    """
+    x, phrase = thing_at(content_of(s), "target"), content_of(s).get("target")
+    about = [
+        it
+        for it in s.private.lessons
+        if it.content in s.shared.here and x in things_in(it.content)
+    ]
+    own = [it for it in about if phrase and mentions(phrase, it.sign)]
+    others = [it for it in about if it not in own]
+    for lesson in (others or own)[-1:]:
+        return plan_taking_back(s, taught_together(s, lesson), types=types)
+    return None
+
+
+@rule(answers="CorrectThing")
+def move_lesson(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor has said it of the wrong thing: it is learned of the other instead."""
+    lesson, x = (
+        next(iter(s.private.lessons[-1:]), None),
+        thing_at(content_of(s), "target"),
+    )
+    if lesson is None or x is None or "rel" in lesson.content:
+        return None
+    taught = {content for it in s.private.last for content in values_at(it, "teaches")}
+    if lesson.content not in taught or thing_at(lesson.content, "target") == x:
+        return None
+    moved = said_of(s, lesson.sign, x, _SAID[lesson.sign.kind], types=types)
+    moved = denial(moved) if is_denial(lesson.content) else moved
+    return plan_learning(plan_forgetting(s, lesson, types=types), moved, types=types)
+
+
+@rule(answers="CorrectThing")
+def move_nothing(s: Record, *, types: DialogueTypes) -> Record:
+    """Nothing was just said of another thing."""
+    return plan(s, "WhatAbout", types=types)
+
+
+_SAID = {"noun": "Naming", "adjective": "Having"}
+"""As what words of a kind are said of a thing."""
 
 
 @rule(answers="ForgetThat")
@@ -177,7 +235,7 @@ def miss_forgotten(s: Record, *, types: DialogueTypes) -> Record:
     return plan(s, "UnknownWord", sign.meaning, signs=[sign], types=types)
 
 
-@rule(answers="ForgetThat")
+@rule(answers=("ForgetThat", "ForgetAbout"))
 def forget_no_such(s: Record, *, types: DialogueTypes) -> Record:
     """Nothing was taught about the thing that is talked of."""
     return plan(s, "ForgetNothing", types=types)
@@ -223,9 +281,62 @@ def plan_forgetting(s: Record, *lessons: Record, types: DialogueTypes) -> Record
     )
 
 
+def taught_together(s: Record, lesson: Record) -> list[Record]:
+    """The lessons that the robot has just acknowledged together with this one.
+
+    Only this one, if that was not just now.
+    """
+    moves = [it for it in s.private.last if _acknowledges(it)]
+    contents = {content for it in moves for content in values_at(it, "teaches")}
+    if lesson.content not in contents:
+        return [lesson]
+    return [it for it in s.private.lessons if it.content in contents]
+
+
+def _acknowledges(move: RecordType) -> bool:
+    """Whether a move says what the robot has learned, and corrects nothing."""
+    act: str = predicate_at(move, "e").name
+    return act.startswith("learned") or act == "rejected_several"
+
+
+def plan_taking_back(
+    s: Record, lessons: Iterable[Record], *, types: DialogueTypes
+) -> Record:
+    """The plan to unlearn lessons that need not say the same, word by word."""
+    alike: dict[object, list[Record]] = {}
+    for it in lessons:
+        alike.setdefault((it.sign, is_denial(it.content)), []).append(it)
+    for them in alike.values():
+        several = len({it.content for it in them}) > 1
+        plan_all = _plan_forgetting_several if several else plan_forgetting
+        s = plan_all(s, *them, types=types)
+    return s
+
+
+def _plan_forgetting_several(
+    s: Record, *lessons: Record, types: DialogueTypes
+) -> Record:
+    """The plan to unlearn that several things are so, or are not."""
+    sign, denies = lessons[0].sign, is_denial(lessons[0].content)
+    things = [x for it in lessons for x in things_in(it.content)]
+    seen = [record(sit=record(x=x), sign=sign) for x in things]
+    listed = sign.kind == "noun" and not denies
+    return plan(
+        s,
+        "ForgotNotSeveral" if denies else "ForgotSeveral",
+        in_view(s, seen, (), (), types=types) if listed else sign.meaning,
+        signs=[sign],
+        forgets=[it.key for it in lessons],
+        types=types,
+    )
+
+
 FORGETTING = first(
     forget_claim,
     forget_that,
+    forget_about,
+    move_lesson,
+    move_nothing,
     ask_forget,
     forget_that_earlier,
     forget_last,

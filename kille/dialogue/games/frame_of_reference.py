@@ -43,7 +43,7 @@ from kille.dialogue.reference import (
 )
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Model, Record, RecordType, RecType, rectype, replace
+from ttr import Model, Rec, Record, RecordType, RecType, rectype, replace
 from ttr.updates import first
 
 Update = tuple[Record, Model]
@@ -132,6 +132,22 @@ def learn_anew(s: Record, *, types: DialogueTypes) -> Record | None:
 def note_frame(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor says in whose perspective places will be talked about."""
     return plan(_in(s, _frame_in(content_of(s))), "Noted", types=types)
+
+
+@rule(answers="AskWhose")
+def tell_owner(s: Record, *, types: DialogueTypes) -> Record | None:
+    """Asked whose left it means, it says that it is that of what it spoke of."""
+    if s.shared.frame != LANDMARK:
+        return None
+    claims = (*s.shared.pending, *(it.content for it in s.private.lessons[::-1]))
+    placed = next((it for it in claims if "landmark" in it), Rec)
+    return plan(s, "TellOwner", placed, signs=words_in(words(s), placed), types=types)
+
+
+@rule(answers="AskWhose")
+def tell_viewer(s: Record, *, types: DialogueTypes) -> Record:
+    """Asked whose left it means, it says that it is its own."""
+    return plan(s, "TellViewer", pending=s.shared.pending, types=types)
 
 
 @rule(answers=OTHER_GAMES)
@@ -347,7 +363,14 @@ FRAME_ANSWERED = first(ask_front, settle_frame)
 """What answers the question whose perspective is meant."""
 
 FRAME_OF_REFERENCE = first(
-    ask_front, answer_anew, learn_anew, note_frame, leave_places, ask_frame_of_phrase
+    ask_front,
+    answer_anew,
+    learn_anew,
+    note_frame,
+    tell_owner,
+    tell_viewer,
+    leave_places,
+    ask_frame_of_phrase,
 )
 """What the tutor says of perspectives, and phrases that depend on them."""
 

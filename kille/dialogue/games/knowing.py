@@ -8,7 +8,7 @@ from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from kille.dialogue.unknown_words import plan_unknown_word
-from ttr import Record
+from ttr import Model, Record
 from ttr.updates import first
 
 TOLD = {
@@ -64,7 +64,7 @@ def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
     return None
 
 
-@rule(answers=("AskMeaning", "AskTaught"))
+@rule(answers=("AskMeaning", "AskTaught", "AskLessons"))
 def miss_meaning(s: Record, *, types: DialogueTypes) -> Record:
     """The word was never learned."""
     if not s.shared.latest.signs:
@@ -73,12 +73,15 @@ def miss_meaning(s: Record, *, types: DialogueTypes) -> Record:
     return plan_unknown_word(s, sign, pending=s.shared.pending, types=types)
 
 
-@rule(answers="AskTaught")
-def tell_taught(s: Record, *, types: DialogueTypes) -> Record | None:
+@rule(answers=("AskTaught", "AskLessons"))
+def tell_taught(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor asks if or when a word was taught: it recalls the latest lesson.
+
+    Asked how often, it says that.
 
     Of no word in particular, it is the word of the latest lesson of this dialogue.
     """
+    how_often = types.has(s.shared.latest, "AskLessons", model)
     known = {word_of(sign): sign for sign in words(s)}
     said = s.shared.latest.signs or [it.sign for it in s.private.lessons[-1:]]
     for sign in said:
@@ -87,7 +90,7 @@ def tell_taught(s: Record, *, types: DialogueTypes) -> Record | None:
         sign, claims = known[word_of(sign)], s.shared.pending
         return plan(
             s,
-            "TellTaught",
+            "TellLessons" if how_often else "TellTaught",
             sign.meaning,
             signs=[sign],
             recalls=[sign],

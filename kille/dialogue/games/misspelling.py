@@ -7,7 +7,8 @@ said, and so a new word is learned. Anything else drops the question.
 
 from __future__ import annotations
 
-from kille.dialogue.beliefs import knows
+from kille.dialogue.beliefs import knows, knows_word
+from kille.dialogue.games.doubting_words import as_naming
 from kille.dialogue.meanings import DialogueTypes, claims, replace_word, word_of
 from kille.dialogue.moves import issue, plan
 from kille.dialogue.reference import in_view
@@ -35,6 +36,35 @@ def offer_word(s: Record, *, model: Model, types: DialogueTypes) -> Record | Non
     return None
 
 
+@rule(answers="Intended")
+def offer_common_word(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> tuple[Record, Model] | None:
+    """A new word nearly is a common one that was never taught: is that meant?"""
+    said = s.shared.latest
+    sign = next((it for it in said.signs if claims(said.content, it)), None)
+    if sign is None or knows_word(s, sign) or not s.view.things:
+        return None
+    [common] = said.intended
+    seen = replace(said, content=in_view(s, said.content, types=types))
+    if common.kind == sign.kind:
+        options = [_with(seen, sign, common), seen]
+    else:
+        meant, model = as_naming(seen, sign, common, model, types=types)
+        options = [meant]
+    asks = [issue(OFFER, options)]
+    asked = plan(
+        s,
+        OFFER,
+        common.meaning,
+        signs=[common],
+        pending=s.shared.pending,
+        asks=asks,
+        types=types,
+    )
+    return asked, model
+
+
 @rule(answers="Affirm")
 def take_offered(s: Record) -> Record | None:
     """The tutor meant the known word: that is what was said."""
@@ -42,9 +72,17 @@ def take_offered(s: Record) -> Record | None:
 
 
 @rule(answers="Deny")
-def take_as_said(s: Record) -> Record | None:
-    """The tutor meant the new word: it was said as it was."""
-    return _choose_option(s, 1) if _is_offered(s) else None
+def take_as_said(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor meant the new word: it was said as it was.
+
+    Nothing is learned where it hardly is one, as in "That's acap.".
+    """
+    if not _is_offered(s):
+        return None
+    if len(s.shared.qud[0].options) == 1:
+        left = replace(s, {"shared.qud": s.shared.qud[1:]})
+        return plan(left, "LetBe", types=types)
+    return _choose_option(s, 1)
 
 
 def _intended_word(
@@ -81,5 +119,7 @@ def _choose_option(s: Record, chosen: int) -> Record:
     return replace(s, {"shared.qud": rest, "shared.latest": asked.options[chosen]})
 
 
-OFFERING = offer_word
+OFFERING = first(offer_word, offer_common_word)
+"""What asks whether a word was meant that nearly is the one that was said."""
+
 OFFER_ANSWERED = first(take_offered, take_as_said)

@@ -9,28 +9,33 @@ from kille.dialogue.beliefs import certainty, names_of
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import thing_at
+from kille.dialogue.reference.salience import talked_about
 from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, replace
 from ttr.updates import first, maybe, seq
 
 
-@rule(answers="AskName")
+@rule(answers=("AskName", "AskGuess"))
 def recognise(s: Record, *, model: Model) -> Record | None:
-    """The tutor asks what a thing is: judge every noun of it."""
-    x = thing_at(content_of(s), "target")
+    """The tutor asks what a thing is: judge every noun of it.
+
+    Without saying of which it is that which was talked about last.
+    """
+    talked_of = [it for it in talked_about(s) if it in s.view.things]
+    x = thing_at(content_of(s), "target") or next(iter(talked_of), None)
     if x is None or not s.private.nouns:
         return None
     beliefs = names_of(s, model, x)
     return replace(s, {"private.beliefs": beliefs})
 
 
-@rule(answers="AskName")
+@rule(answers=("AskName", "AskGuess"))
 def assert_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is sure, and no rival is near: it says what this is."""
     return _plan_naming(s, "Assert", types=types)
 
 
-@rule(answers="AskName")
+@rule(answers=("AskName", "AskGuess"))
 def hedge_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It has an opinion, but also a rival to it: it names both."""
     if certainty(s, s.private.beliefs) != "Hedge":
@@ -45,16 +50,38 @@ def hedge_name(s: Record, *, types: DialogueTypes) -> Record | None:
     )
 
 
-@rule(answers="AskName")
+@rule(answers=("AskName", "AskGuess"))
 def guess_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It thinks so, is not sure of it, and has no rival to it."""
     return _plan_naming(s, "Guess", types=types)
 
 
-@rule(answers="AskName")
+@rule(answers=("AskName", "AskGuess"))
 def doubt_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It has an opinion, and hardly more than that."""
     return _plan_naming(s, "Doubt", types=types)
+
+
+@rule(answers="AskGuess")
+def see_nothing(s: Record, *, types: DialogueTypes) -> Record | None:
+    """There is nothing that it could guess."""
+    return None if s.view.things else plan(s, "SeeNothing", types=types)
+
+
+@rule(answers="AskGuess")
+def guess_wildly(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It does not know, and says what is the likeliest of what it knows."""
+    if not s.private.beliefs:
+        return None
+    content, sign = _naming_by_rank(s, 0, types=types)
+    act = "GuessWildly"
+    return plan(s, act, content, signs=[sign], pending=[content], types=types)
+
+
+@rule(answers="AskGuess")
+def cannot_guess(s: Record, *, types: DialogueTypes) -> Record:
+    """It knows no word that it could guess."""
+    return plan(s, "CannotGuess", types=types)
 
 
 @rule(answers="AskName")
@@ -81,5 +108,14 @@ def _naming_by_rank(
 
 NAMING = seq(
     maybe(recognise),
-    first(assert_name, hedge_name, guess_name, doubt_name, admit_name),
+    first(
+        assert_name,
+        hedge_name,
+        guess_name,
+        doubt_name,
+        see_nothing,
+        guess_wildly,
+        cannot_guess,
+        admit_name,
+    ),
 )

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from kille.dialogue.answered_questions import NAMING_ACTS, last_act
 from kille.dialogue.beliefs import knows, names_of, thinks
 from kille.dialogue.commitments import (
     effects_of_rejection,
@@ -24,7 +25,7 @@ from kille.dialogue.moves import issue, plan, said_of
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.taxonomy import are_related
-from ttr import Model, Record, replace
+from ttr import Model, Rec, Record, RecType, replace
 from ttr.updates import first
 
 SWAPPED = "AskSwapped"
@@ -72,6 +73,30 @@ def ask_swapped(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
 def wonder_what_is_swapped(s: Record, *, types: DialogueTypes) -> Record:
     """It has not called two things by two names."""
     return plan(s, "Wonder", types=types)
+
+
+@rule(answers="Reversed")
+def take_as_swap(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> tuple[Record, Model] | None:
+    """It is the other way round, after it has named both things: they are mixed up."""
+    if s.shared.qud or last_act(s) not in NAMING_ACTS or len(s.view.things) != _PAIR:
+        return None
+    if _named_pair(s, model) is None:
+        return None
+    said = s.shared.latest
+    move = set_to(
+        types.move_type("Heard", "Swap"),
+        text=types["Text"] @ said.text,
+        signs=types.record_type("Heard")["signs"] @ (),
+        content=RecType @ Rec,
+    )
+    swapped, model = model.create(move)
+    return replace(s, {"shared.latest": swapped, "shared.pending": ()}), model
+
+
+_PAIR = 2
+"""So many things may have been called by one another's names."""
 
 
 @rule(answers="Affirm")
@@ -156,5 +181,5 @@ def _named_thing(s: Record, model: Model, x: str) -> NamedThing | None:
 
 
 PAIRING = first(ask_swapped, wonder_what_is_swapped, tell_same)
-PAIR_ANSWERED = first(learn_swapped, leave_swapped)
-"""What answers whether two things were mixed up."""
+PAIR_ANSWERED = first(learn_swapped, leave_swapped, take_as_swap)
+"""What answers whether two things were mixed up, and says that they were."""

@@ -353,6 +353,8 @@ def _unfitting_phrases(
 CHOOSING = first(cannot_choose)
 """What answers which thing is the biggest, where that cannot be seen."""
 
-REFERRING = first(
-    refer, ask_referent, trust_pointing, miss_word, miss_second, miss_thing
-)
+REFERRING = first(refer, ask_referent, trust_pointing)
+"""What settles of which things something is said, or asks."""
+
+MISSING = first(miss_word, miss_second, miss_thing)
+"""What says that nothing is in view of which it could be said."""

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 from kille.dialogue.commitments import plan_learning
 from kille.dialogue.games.distinguishing import say_where
-from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO
+from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO, PRESUMED
 from kille.dialogue.games.kinds_of_kinds import is_about_kinds, plan_kind
 from kille.dialogue.games.referring import about
 from kille.dialogue.meanings import (
@@ -66,10 +66,10 @@ def ask_together(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
 @rule(answers="Affirm")
 def learn_together(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor means all of it: all of it is learned."""
-    if not s.shared.qud or s.shared.qud[0].ask != MEANT:
+    if not s.shared.qud or s.shared.qud[0].ask not in (MEANT, PRESUMED):
         return None
     asked, *rest = s.shared.qud
-    if len(asked.options) < 2:
+    if asked.ask == MEANT and len(asked.options) < 2:
         return None
     learned = replace(s, {"shared.qud": rest})
     for option in asked.options:

@@ -23,7 +23,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from kille.dialogue.meanings import DialogueTypes, is_denial, packaged_types, value_at
+from kille.dialogue.meanings import DialogueTypes, is_denial, packaged_types
 from kille.dialogue.reference.comparing import COMPARATIVES, unexceeded_things
 from ttr import Model, Pred, Record, RecordType, record, replace
 from ttr.types import Meet, PType, TypeNode
@@ -296,8 +296,13 @@ def _remaining(
     s: Record, model: Model, things: Sequence[str], types: DialogueTypes
 ) -> Sequence[str]:
     """Those of which nobody has said what they are, or else what was not mentioned."""
-    said = [it for it in s.shared.here if "c" in it and not is_denial(it)]
-    named = {value_at(it["target"], "x") for it in said}
+    here = frozenset(s.shared.here)
+    named = {
+        str(target["x"].value)
+        for it in s.private.lessons
+        if it.sign.kind == "noun" and it.content in here and not is_denial(it.content)
+        for target in [it.content["target"]]
+    }
     if not named:
         return _other(s, model, things, types)
     return [x for x in things if x not in named]
@@ -349,8 +354,8 @@ def _middle(
 CHOICES: Mapping[str, Choice] = {
     "mentioned": _most_salient,
     "other": _other,
-    "middle": _middle,
     "remaining": _remaining,
+    "middle": _middle,
     "any_other": _any,
     "flank": _flanks,
     "leftmost": _nth(0),

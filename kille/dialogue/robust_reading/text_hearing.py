@@ -12,6 +12,7 @@ from kille.dialogue.language import Sentence, reader, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
     DialogueTypes,
+    claims,
     packaged_types,
     predicate_at,
     value_at,
@@ -69,6 +70,12 @@ TEACHING = NAMING | {"describe", "instruct_several", "relate"}
 
 _TAKING_BACK = frozenset({"correct", "reject"})
 """The lessons that take back what was said before in the same text."""
+
+_FORGETTING = frozenset({"forget_about", "forget_word", "forget_all"})
+"""What says which lessons are taken back."""
+
+_REGRETTING = frozenset({"deny", "okay", "forget_that", "forget_last"})
+"""What only says that something is, beside those: "No, forget cup, scratch that."."""
 
 _SEVERAL = 2
 """Things in view of which it may not be clear which one is meant."""
@@ -154,8 +161,12 @@ def fill_noun(text: str, s: Record, language: str = "en") -> str:
     """The text with the noun that was learned last, where it says so little.
 
     "That's another one." is "That's another cup." after "This is a cup.". Where the
-    robot has just pointed out a cup, "No, the other one." says which one is.
+    robot has just pointed out a cup, "No, the other one." says which one is. Where it
+    has said how two things stand, "No, left." says how they do.
     """
+    for claim in (it for it in s.shared.pending[:1] if "rel" in it):
+        stands = next((it.form for it in words(s) if claims(claim, it)), "")
+        text = word_lists(language).fill_side(text, stands)
     said = [predicate_at(it, "e").name for it in s.private.last[-1:]]
     is_elsewhere = "point_out" in said
     signs = [it.sign for it in s.private.lessons[-1:]]
@@ -237,6 +248,8 @@ def hear_in_parts(
     idle = HESITATING | {"okay"} if asked or remarks else HESITATING
     meant = [it for it in done if act_of(it) not in idle]
     done = meant if meant or asked or remarks or against else done
+    if any(act_of(it) in _FORGETTING for it in done):
+        done = [it for it in done if act_of(it) not in _REGRETTING]
     done = _keep_last_answer(without_early_answers(done))
     settled, open_ = _settle_lessons(done, asked, types)
     sayings = [it for it in open_ if is_saying(it)]

@@ -161,15 +161,23 @@ def test_it_has_no_name_for_what_it_is_asked_the_place_of(scene: Make) -> None:
     assert scene(things=2).acts("Where is this?") == ["admit_name"]
 
 
+def test_a_new_word_is_asked_about_if_one_thing_is_left(scene: Make) -> None:
+    one_noun = KNOWING | {"nouns": ("box",), "known": TWO}
+    assert scene(**one_noun).acts(ASKING) == ["unknown_noun"]
+    robot = scene(**one_noun)
+    assert robot.acts(SAYING) == ["ask_meant", "ask_meant_too"]
+    assert not robot.state.private.lessons
+    assert robot.acts("Yes.") == ["learned", "learned_relation"]
+
+
 @pytest.mark.parametrize("text", [SAYING, ASKING])
 @pytest.mark.parametrize(
     ("about", "act"),
     [
-        ({"nouns": ("box",), "known": TWO}, "unknown_noun"),
         ({"known": {("box", "o2"): 0.9}}, "see_no_such"),
         ({"known": TWO, "placed": 0}, "need_depth"),
     ],
-    ids=["a new word", "not in view", "no depth"],
+    ids=["not in view", "no depth"],
 )
 def test_a_place_that_cannot_be_talked_of(
     scene: Make, about: dict[str, Any], act: str, text: str

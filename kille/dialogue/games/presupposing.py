@@ -1,0 +1,169 @@
+"""What is said by a word that was never learned, where it can mean one thing only.
+
+"The ball is between the cup and the book." says of the one thing there that has no name
+yet that it is a ball, to who has learned the other two words. The robot asks whether it
+is, and learns that from a yes, with what was said of it. So it asks of what the tutor
+supposes in such a word: "I think this is a key?".
+
+Source: Lewis 1979, for accommodation; Markman and Wachtel 1988, for the new word that
+is taken for the thing without a name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from kille.dialogue.beliefs import is_sure, knows_word, names_of
+from kille.dialogue.commitments import kind_of
+from kille.dialogue.games.distinguishing import say_where
+from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO, PRESUMED
+from kille.dialogue.games.placing import AMID
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    is_denial,
+    set_to,
+    word_of,
+)
+from kille.dialogue.moves import content_of, issue, plan, said_of
+from kille.dialogue.reference import (
+    PARTS,
+    PhraseJudge,
+    fits_well,
+    intended_readings,
+    phrase_at,
+    phrases,
+    possible_readings,
+)
+from kille.dialogue.reference.resolving import taught_words
+from kille.dialogue.rules import rule
+from ttr import Model, Record, RecordType, rectype, replace
+from ttr.updates import first
+
+PRESUPPOSING = ("Relate", "Describe")
+"""The lessons that presuppose that there is what they call their things."""
+
+
+@rule(answers="Heard")
+def ask_presupposed(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """A thing is called by a new noun, and only one thing is left that has no name."""
+    said = s.shared.latest
+    is_lesson = any(types.has(said, it, model) for it in PRESUPPOSING)
+    if not is_lesson and not types.has(said, "Asserted", model):
+        return None
+    found = [*_new_nouns(s)]
+    if len(found) != 1:
+        return None
+    [(label, noun)] = found
+    left = _things_left(s, model, label, noun, types=types)
+    if len(left) != 1:
+        return None
+    naming = said_of(s, noun, left[0], types=types)
+    told = _with_thing(s, label, left[0], types=types) if is_lesson else []
+    readings = [
+        it
+        for content in told
+        for it in intended_readings(
+            s, possible_readings(s, model, content, types=types), types=types
+        )
+    ]
+    besides = [it.content for it in readings] if len(readings) == 1 else []
+    return _plan_question(s, model, [naming, *besides], types=types)
+
+
+def _new_nouns(s: Record) -> Iterator[tuple[str, Record]]:
+    """The phrases that call their things by a new noun, by their labels."""
+    said = s.shared.latest
+    for label in phrases(said.content):
+        phrase = phrase_at(said.content, label)
+        for sign in said.signs:
+            is_new = sign.kind == "noun" and not knows_word(s, sign)
+            if is_new and claims(phrase, sign):
+                yield label, sign
+
+
+def _things_left(
+    s: Record, model: Model, label: str, noun: Record, *, types: DialogueTypes
+) -> Sequence[str]:
+    """The things without a name that a phrase may mean, but for its new noun."""
+    content, judge = content_of(s), PhraseJudge(s, model, types=types)
+    phrase = phrase_at(content, label)
+    own = rectype({it: T for it, T in phrase.fields if it != "c"})
+    others = [phrase_at(content, it) for it in PARTS if it in content and it != label]
+    taken: set[str] = set()
+    for other in others:
+        meant = fits_well(s, judge.fits(other))
+        meant = [x for x in meant if _was_named(s, x)] or meant
+        if len(meant) != 1:
+            return ()
+        taken.update(meant)
+    left = fits_well(s, judge.fits(own))
+    if AMID in content:
+        amid = phrase_at(content, AMID)
+        flanks = rectype({it: T for it, T in amid.fields if it != "b"})
+        likely = s.private.strategy.bands.likely
+        fits = judge.fits(flanks, left)
+        left = [x for x in left if x in fits and fits[x].weakest >= likely]
+    return [x for x in left if x not in taken and not _has_name(s, model, x)]
+
+
+def _has_name(s: Record, model: Model, x: str) -> bool:
+    """Whether the robot was told what a thing is, or is sure of it."""
+    compares = len(s.private.nouns) > 1
+    return _was_named(s, x) or (compares and is_sure(s, names_of(s, model, x)))
+
+
+def _was_named(s: Record, x: str) -> bool:
+    """Whether the tutor has said what a thing is, since it came."""
+    told = taught_words(s)
+    return any(told.get((word_of(it), x)) for it in s.private.nouns)
+
+
+def _with_thing(
+    s: Record, label: str, x: str, *, types: DialogueTypes
+) -> list[RecordType]:
+    """The lesson about a thing, called by nothing; none if it says no word of it."""
+    content = content_of(s)
+    if kind_of(content) is None:
+        return []
+    look = types["Look"] @ s.view.look
+    phrase = set_to(types.record_type("Phrase"), x=types["Ind"] @ x)
+    return [set_to(content, look=look, **{label: set_to(phrase, look=look)})]
+
+
+@rule(answers="Supposed")
+def ask_supposed(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """The tutor supposes something in a word that was never learned: is it so?"""
+    said, content = s.shared.latest, content_of(s)
+    if kind_of(content) is None or phrases(content) or is_denial(content):
+        return None
+    asked = next((it for it in said.signs if claims(content, it)), None)
+    if asked is None or knows_word(s, asked) or "scale" in content:
+        return None
+    return _plan_question(s, model, [content], types=types)
+
+
+def _plan_question(
+    s: Record, model: Model, told: Sequence[RecordType], *, types: DialogueTypes
+) -> Record:
+    """The plan to ask whether all of this is so."""
+    said, asked = s.shared.latest, s
+    options = [replace(said, content=it) for it in told]
+    for n, content in enumerate(told):
+        where = say_where(s, model, content, types=types)
+        asked = plan(
+            asked,
+            MEANT_TOO if n else MEANT,
+            set_to(content, **where),
+            signs=said.signs,
+            asks=() if n else [issue(PRESUMED, options)],
+            types=types,
+        )
+    return asked
+
+
+PRESUPPOSED = first(ask_presupposed)
+"""What answers a new noun for a thing that is spoken of."""
+
+SUPPOSING = first(ask_supposed)
+"""What answers a claim in a new word that is said as a question."""
