@@ -1,6 +1,6 @@
 """What a text says and takes back: "It's a mug, and it's also not a mug.".
 
-Nothing is learned of what is both claimed and denied in one breath. Who wavers, "This
+Nothing is learned of what is both claimed and denied in one sentence. Who wavers, "This
 is a cup. No, it isn't. Yes, it is.", is asked what is meant; and who says the same word
 with another article corrects the article, not the word.
 """
@@ -35,13 +35,17 @@ def settle_contradictions(
 ) -> list[Sentence]:
     """The moves of a text, where what contradicts itself is one that is doubted.
 
-    Where several things are in view, "this" may be another one the second time.
+    Of two sentences the latter holds. Where several things are in view, "this" may be
+    another one the second time.
 
+    >>> from dataclasses import replace
     >>> from kille.dialogue.language import understand
     >>> from kille.dialogue.meanings import packaged_types
     >>> types = packaged_types()
-    >>> moves = understand("It is a mug. It is not a mug.")
-    >>> [one] = settle_contradictions(moves, types=types)
+    >>> [one] = understand("It is a mug.")
+    >>> [other] = understand("It is not a mug.")
+    >>> both = [one, replace(other, text=one.text)]  # in one sentence
+    >>> [one] = settle_contradictions(both, types=types)
     >>> one.readings[0].type["doubt"].value
     'contradictory'
     >>> moves = understand("It is a mug. No, it isn't. Yes, it is.")
@@ -53,8 +57,10 @@ def settle_contradictions(
     for n, first in enumerate(said):
         for other in said[n + 1 :]:
             if first in left and other in left and _contradict(first, other, things):
-                left.remove(other)
-                if not _differ_in_article(first, other):
+                if _differ_in_article(first, other):
+                    left.remove(other)
+                elif first.text == other.text:
+                    left.remove(other)
                     at = left.index(first)
                     left[at] = doubt_lesson(
                         first, CONTRADICTORY, anew=True, types=types
