@@ -66,7 +66,16 @@ NONSENSE = (
 )
 """What means nothing in any grammar."""
 
-IN_PARTS = ("ask_deed", "ask_self", "remark")
+IN_PARTS = (
+    "ask_deed",
+    "ask_self",
+    "remark",
+    "ask_guess",
+    "ask_whose",
+    "agree_partly",
+    "forget_about",
+    "correct_thing",
+)
 """The moves that are understood in a part of a sentence only."""
 
 OTHERS = 5

@@ -131,7 +131,7 @@ TOLD_BESIDES = {
 SIDES = ("OnTheLeft", "InTheMiddle", "OnTheRight")
 """Which of several things is meant, as the types that say it."""
 
-IN_VIEW = {"things", "count", "maybe_count"}
+IN_VIEW = {"things", "count", "maybe_count", "rival_count"}
 """Slots of what a content has a part for each of: only how it is said is recovered."""
 
 
@@ -264,6 +264,7 @@ TOLD_OF = {
     "take_frame": "ByLandmark",
     "ask_meaning": "Word",
     "ask_taught": "Word",
+    "ask_lessons": "Word",
     "forget_word": "Word",
 }
 """What else the content of a tutor's move says; Word: that the word itself is meant."""
@@ -354,12 +355,23 @@ SAID = [
     if style == "paper" or wordings != lexicon(language).says[act]
 ]
 
-IN_PARTS = ("ask_deed", "ask_self", "remark")
+IN_PARTS = (
+    "ask_deed",
+    "ask_self",
+    "remark",
+    "ask_guess",
+    "ask_whose",
+    "agree_partly",
+    "forget_about",
+    "correct_thing",
+)
 """The moves that are understood in a part of a sentence only."""
 
 LESS = {
     ("ask_count", "How many things are there?"),
     ("ask_count", "Hur många saker finns det?"),
+    ("ask_more_of", "Are there more red things than blue things?"),
+    ("ask_more_of", "Finns det fler röda saker än blå saker?"),
 }
 """Wordings that say "things" of what the content says nothing of."""
 
@@ -384,10 +396,11 @@ def test_what_the_robot_says_is_understood(
     move = a_move(chance, language, wording)
     details = besides(chance, wording, move.signs)
     parts = in_view(chance, wording)
+    others = in_view(chance, "{count}" if "{rival_count}" in wording else "")
     shown = record(
         details,
         content=merge(move.content, rectype(parts)),
-        rival=move.rival,
+        rival=merge(move.rival, rectype(others)),
         signs=list(dict.fromkeys(WORDS)),
     )
     text = say(lexicon(language, style), act, shown)
