@@ -115,7 +115,15 @@ class Articles:
         'a pair of'
         """
         knows = " " in article or (article and word.startswith(self.open_))
-        return article if knows else self.of(word)
+        return article if knows and not self.has(word) else self.of(word)
+
+    def has(self, word: str) -> bool:
+        """Whether the article of a word is settled: it is listed as a whole.
+
+        >>> Articles({}, {"ett": ["bord"]}).has("bord")
+        True
+        """
+        return any(word in parts for parts in self.endings.values())
 
     def of(self, word: str) -> str:
         """The article of a word."""

@@ -320,6 +320,8 @@ class Reader:
         is_lesson = move.rule in LESSONS
         is_saying = is_lesson and self._lexicon.is_saying(plain_text(text))
         for signs, content in self._together(move):
+            if any(is_over_break(it.form, text) for it in signs if it.kind == "noun"):
+                continue
             heard = set_to(
                 self._types.move_type("Heard", _type_name(move.rule)),
                 text=self._types["Text"] @ text,
@@ -344,6 +346,8 @@ class Reader:
                 if any(it.rule == rule for it in parts(move)):
                     heard = set_to(heard, stance=self._types["Text"] @ stance)
             doubt = SAYING if is_saying else doubt
+            if move.rule == "reject" and self._denies_article(signs):
+                doubt = SAYING
             doubt = REMARK if doubt == DOUBTFUL and partly else doubt or partly
             if doubt == QUALIFIED:
                 doubt = partly or DOUBTFUL
@@ -370,6 +374,8 @@ class Reader:
                 return self._lists.judge_part(sign.form, self._lexicon.complements)
             if sign.kind == "noun":
                 judged = self._lists.judge_noun(sign.form, self._lexicon.complements)
+                if not judged and is_written_apart(sign.form, text):
+                    return PARTIAL
                 return judged or (QUALIFIED if self._is_qualified(sign.form) else "")
             if sign.kind == "adjective":
                 return self._lists.judge_quality(sign.form)
@@ -399,16 +405,47 @@ class Reader:
     def _is_qualified(self, form: str) -> bool:
         """Whether a noun begins with a word for how things are: "lovely cup"."""
         first, *others = form.split()
-        return bool(others) and first in self._lists.qualities
+        return bool(others) and self._says_how(first)
+
+    def _denies_article(self, signs: Iterable[Record]) -> bool:
+        """Whether a noun has an article that is not its own: *inte en bord*."""
+        nouns = (it for it in signs if it.kind == "noun" and it.article)
+        return any(it.article != self._lexicon.article(it) for it in nouns)
+
+    def _says_how(self, form: str) -> bool:
+        """Whether a word is an adjective, by the lists or by how it ends."""
+        inflected = (
+            word
+            for name in ("WEAK", "NEUTER")
+            for inflection in self._lexicon.inflections.get(name, ())
+            for word in inflection.words(form)
+        )
+        if not self._lists.qualities.isdisjoint((form, *inflected)):
+            return True
+        return form in self._lexicon.means or bool(
+            self._lexicon.adjectives and re.search(self._lexicon.adjectives, form)
+        )
 
     def _is_definite_noun(self, found: list[Token]) -> bool:
-        """Whether a form is that of a noun of the lexicon: *örat* is no adjective."""
+        """Whether a form is that of a noun, known or not: *örat* is no adjective."""
         form = " ".join(it.text.lower() for it in found)
-        return any(
+        if any(
             word in self._lexicon.vocabulary
             for inflection in self._lexicon.inflections.get("DEFINITE", ())
             for word in inflection.words(form)
-        )
+        ):
+            return True
+        forms = [it for it, _ in self._forms(found)]
+        if not self._lists.qualities.isdisjoint((form, *forms)):
+            return False
+        return re.search(self._lexicon.definite_nouns or r"(?!)", form) is not None
+
+    def _is_adjective(self, found: list[Token]) -> bool:
+        """Whether what ends like a definite noun is an adjective: *vit*, *grön*."""
+        if not any("DEFINITE" in it.terminal for it in found):
+            return False
+        form = " ".join(it.text.lower() for it in found)
+        return form in self._lists.qualities or form in self._lexicon.means
 
     def said_types(self, move: Tree) -> Iterator[RecordType]:
         """The types of the event of the robot's saying this."""
@@ -460,7 +497,10 @@ class Reader:
         rest = [it for it in found if it.terminal != "A"]
         if kind == "adjective" and self._is_definite_noun(rest):
             return
+        if kind == "noun" and self._is_adjective(rest):
+            return
         for form, article in self._forms(rest):
+            form = self._as_compound(form) if kind == "noun" else form
             main = self._lexicon.main_form(form)
             means = "" if kind == "noun" else self._lexicon.means.get(main, "")
             yield self._types.sign(main, kind, said or article, means)
@@ -477,9 +517,35 @@ class Reader:
             (form, inflection.article)
             for inflection in inflections[name]
             for form in inflection.words(text)
+            if self._may_have(form, inflection.article)
         ]
         known = self._lexicon.vocabulary
+        is_new = known.isdisjoint(it for it, _ in found_forms)
+        if is_new and "DEFINITE" in name and self._is_known_otherwise(text):
+            return
         yield from sorted(found_forms, key=lambda it: it[0] not in known)[:_FORMS]
+
+    def _is_known_otherwise(self, text: str) -> bool:
+        """Whether a form is a noun of the lexicon, or its plural: *äpplen*."""
+        return text in self._lexicon.vocabulary or any(
+            word in self._lexicon.vocabulary and self._may_have(word, it.article)
+            for it in self._lexicon.inflections.get("PLURAL", ())
+            for word in it.words(text)
+        )
+
+    def _may_have(self, form: str, article: str) -> bool:
+        """Whether a noun may have the article that a form shows: *boket* is none."""
+        articles = self._lexicon.articles
+        return not article or not articles.has(form) or articles.of(form) == article
+
+    def _as_compound(self, text: str) -> str:
+        """Two nouns that are written apart as the one that they are: *färg burk*."""
+        first, *others = text.split()
+        if not self._lexicon.joins_compounds or len(others) != 1:
+            return text
+        if self._says_how(first) or any(map(self._lists.is_closed, (first, *others))):
+            return text
+        return first + others[0]
 
 
 def _tokens(tree: Tree) -> Iterator[Token]:
@@ -494,6 +560,34 @@ def _tokens(tree: Tree) -> Iterator[Token]:
 def _is_noisy(sign: Record) -> bool:
     """Whether a word is none of any language, as it was typed."""
     return is_noise(sign.form)
+
+
+def is_written_apart(form: str, text: str) -> bool:
+    """Whether a text has the parts of a word as two words.
+
+    >>> is_written_apart("färgburk", "En färg burk."), is_written_apart("bil", "En bil")
+    (True, False)
+    """
+    plain = plain_text(text)
+    return any(
+        re.search(rf"\b{re.escape(form[:at])} {re.escape(form[at:])}\b", plain)
+        for at in range(1, len(form))
+    )
+
+
+def is_over_break(form: str, text: str) -> bool:
+    """Whether the parts of one word are apart by a comma: *en kopp, dumbom*.
+
+    >>> is_over_break("koppdumbom", "En kopp, dumbom."), is_over_break("bil", "Bil, i")
+    (True, False)
+    """
+    if " " in form or "," not in text:
+        return False
+    plain = " ".join(text.lower().split())
+    return any(
+        re.search(rf"\b{re.escape(form[:at])}, {re.escape(form[at:])}\b", plain)
+        for at in range(1, len(form))
+    )
 
 
 _CUT_OFF = re.compile(r"\b(\w{1,2})(?:\.\.+|…|-+)\s*$")

@@ -68,6 +68,12 @@ class Lexicon:
     marking: Mapping[str, str]
     common_gender: str
     """An expression for what an adjective beside it is not neuter of, if any."""
+    adjectives: str
+    """An expression for words that are adjectives by how they end, if any."""
+    definite_nouns: str
+    """An expression for words that are definite nouns if they are no adjectives."""
+    joins_compounds: bool
+    """Whether two nouns that are written apart are one word."""
     styles: Mapping[str, Style]
     vocabulary: frozenset[str]
     """The words in the lexicon itself."""
@@ -189,10 +195,13 @@ def _lexicon(language: str, wording: str, _: int) -> Lexicon:
         sayings=_any_of(data.get("sayings", {}).get("patterns", ())),
         marking=phrases["marking"],
         common_gender=phrases.get("common_gender", ""),
+        adjectives=phrases.get("adjectives", ""),
+        definite_nouns=phrases.get("definite_nouns", ""),
+        joins_compounds=phrases.get("joins_compounds", False),
         styles={
             name: Style(table)
             for name, table in phrases.items()
-            if name not in ("referring", "marking", "complements", "common_gender")
+            if isinstance(table, dict) and name not in ("referring", "marking")
         },
         vocabulary=frozenset(
             chain(

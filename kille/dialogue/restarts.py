@@ -22,6 +22,20 @@ _AGAIN = re.compile(
 )
 """A word, a pause, and perhaps the same word again, at the end of a sentence."""
 
+_ARTICLE_FIRST = re.compile(
+    r"(?P<right>\b(?P<one>\w+) (?P<noun>\w+))\W+"
+    r"(?:\w+ )??(?P<no>\w+) (?P<other>\w+) (?P=noun)\b",
+    re.IGNORECASE,
+)
+"""A noun, and then the same noun with an article that it does not have."""
+
+_ARTICLE_LAST = re.compile(
+    r"\b(?P<no>\w+) (?P<other>\w+) (?P<noun>\w+)\W+"
+    r"(?:\w+ )??(?P<right>(?P<one>\w+) (?P=noun))\b",
+    re.IGNORECASE,
+)
+"""The same the other way round: "not a apple, an apple"."""
+
 _MARKED = re.compile(r"\s*\*\s*([^\W\d_][^*.!?]*?)\*?[.!…]*\s*")
 """A text that is all a repair of what was said in the turn before: "*ball"."""
 
@@ -46,9 +60,15 @@ def join_repairs(text: str, lists: WordLists) -> str:
     "It's green, I mean red! The mug is blue."
     >>> join_repairs("This is a cup. Thanks.", english)
     'This is a cup. Thanks.'
+
+    That a noun has one article and not another is said of the word, and of no thing.
+
+    >>> join_repairs("Förlåt, ett äpple. Inte en äpple.", word_lists("sv"))
+    'Förlåt, ett äpple.'
     """
     if not lists.repair:
         return text
+    text = _settle_article(text, lists)
     if marked := _MARKED.fullmatch(text):
         return f"{lists.repair} {marked[1]}"
     return _join_again(_join_renewals(text, lists), lists)
@@ -77,6 +97,21 @@ def settle_spelling(text: str) -> str:
 
 _SPELLED = re.compile(r"(?<![\w'’-])(?:[^\W\d_][- ]){2,}[^\W\d_](?![\w'’-])")
 """A word that is said letter by letter."""
+
+
+def _settle_article(text: str, lists: WordLists) -> str:
+    """The text with the right article of a noun only, where a wrong one is denied."""
+
+    def settle(found: re.Match[str]) -> str:
+        one, other = found["one"].lower(), found["other"].lower()
+        both = one != other and {one, other} <= lists.articles
+        return (
+            found["right"]
+            if both and found["no"].lower() in lists.negations
+            else found[0]
+        )
+
+    return _ARTICLE_FIRST.sub(settle, _ARTICLE_LAST.sub(settle, text))
 
 
 def _join_again(text: str, lists: WordLists) -> str:

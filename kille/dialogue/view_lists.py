@@ -8,11 +8,11 @@ A question which thing was meant has choice01, choice02 … for the candidates.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from kille.dialogue.lexicon import Lexicon
-from kille.dialogue.phrases import Words, phrase
+from kille.dialogue.phrases import Words, claimed_predicates, phrase
 from ttr import RecordType
 
 Section = Mapping[str, Any]
@@ -53,7 +53,8 @@ def list_slots(
         yield "choices", either(lexicon, list(_choices(lexicon, seen["choice"], words)))
     for slot, label in (("count", "thing"), ("maybe_count", "maybe")):
         if count[label]:
-            yield slot, _number(data, count[label])
+            article = _article(lexicon, seen[label], words)
+            yield slot, _number(data, count[label], article)
 
 
 def either(lexicon: Lexicon, parts: Sequence[str]) -> str:
@@ -119,7 +120,23 @@ def _join(data: Section, parts: list[str]) -> str:
     return wording.format(data["between"].join(before), last)
 
 
-def _number(data: Section, count: int) -> str:
-    """A number in words, if the language has a word for it."""
+def _article(lexicon: Lexicon, parts: Iterable[RecordType], words: Words) -> str:
+    """The article of the nouns of some things, if it is the same of all of them."""
+    found = {
+        lexicon.article(words[it])
+        for part in parts
+        for it in claimed_predicates(part.get("c"))
+        if it in words
+    }
+    return found.pop() if len(found) == 1 else ""
+
+
+def _number(data: Section, count: int, article: str = "") -> str:
+    """A number in words, if the language has a word for it.
+
+    Where the number one agrees with a noun, it goes by the article.
+    """
     numbers = data["numbers"]
+    if count == 1 and article in data.get("one", {}):
+        return str(data["one"][article])
     return str(numbers[count - 1] if count <= len(numbers) else count)

@@ -38,6 +38,8 @@ class WordLists:
     """Common nouns for things: new words may be slips of them."""
     materials: frozenset[str] = frozenset()
     """Nouns for what things are made of, which also say how these are."""
+    quality_endings: tuple[str, ...] = ()
+    """How words end that say how things are, whatever stands before: "-coloured"."""
     evaluations: frozenset[str] = frozenset()
     """Words for how good or true it is what was said: no qualities of things."""
     endings: tuple[str, ...] = ()
@@ -276,6 +278,8 @@ class WordLists:
         return any(form in it for it in lists)
 
     def _is_quality(self, word: str) -> bool:
+        if self.quality_endings and word.endswith(self.quality_endings):
+            return True
         return any(it in self.qualities for it in (word, *word.split("-")[-1:]))
 
 
@@ -374,6 +378,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         qualities=frozenset(data.get("qualities", "").split()),
         things=frozenset(data.get("things", "").split()),
         materials=frozenset(data.get("materials", "").split()),
+        quality_endings=tuple(data.get("quality_endings", "").split()),
         evaluations=frozenset(data.get("evaluations", "").split()),
         endings=tuple(data.get("abstract_endings", "").split()),
         parts=frozenset(data.get("parts", "").split()),

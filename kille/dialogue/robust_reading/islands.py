@@ -28,7 +28,19 @@ BLANKED = 0.9
 """The factor for an island that leaves out harmless words within."""
 
 OPEN = frozenset(
-    {"WORD", "PLURAL", "DEFINITE", "NEUTER", "WEAK", "PLAIN_PLURAL", "BARE", "MASS"}
+    {
+        "WORD",
+        "NEW_PREP",
+        "PLURAL",
+        "DEFINITE",
+        "SURELY_DEFINITE",
+        "NEUTER",
+        "WEAK",
+        "PLAIN_PLURAL",
+        "ZERO_PLURAL",
+        "BARE",
+        "MASS",
+    }
 )
 """The terminals that find any word; others than these find the words they list."""
 

@@ -73,9 +73,9 @@ def test_what_is_understood(
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_class_has_ten_utterances(language: str) -> None:
-    assert {it["name"] for it in classes(language)} == {
-        it["name"] for it in classes("en")
-    }
+    names = [it["name"] for it in classes(language)]
+    english = [it["name"] for it in classes("en")]
+    assert [it for it in names if it in english] == english
     assert all(len(it["said"]) >= 10 for it in classes(language))
 
 
