@@ -122,12 +122,14 @@ def _was_named(s: Record, x: str) -> bool:
 def _with_thing(
     s: Record, label: str, x: str, *, types: DialogueTypes
 ) -> list[RecordType]:
-    """The lesson about a thing, called by nothing; none if it says no word of it."""
+    """The lesson about a thing; none if it says no word of it."""
     content = content_of(s)
     if kind_of(content) is None:
         return []
     look = types["Look"] @ s.view.look
-    phrase = set_to(types.record_type("Phrase"), x=types["Ind"] @ x)
+    called = phrase_at(content, label)
+    phrase = types.record_type("Phrase") if label == "target" else called
+    phrase = set_to(phrase, x=types["Ind"] @ x)
     return [set_to(content, look=look, **{label: set_to(phrase, look=look)})]
 
 
