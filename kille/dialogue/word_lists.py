@@ -78,6 +78,8 @@ class WordLists:
     """Verbs of which the words before them are the subject: "a real bear would"."""
     reasons: frozenset[str] = frozenset()
     """Words before a reason: "it is not a bottle because it is green"."""
+    addressees: frozenset[str] = frozenset()
+    """The words for whom one speaks to: what is said of the robot is no lesson."""
     copulas: frozenset[str] = frozenset()
     """The forms of "be" that say something of a subject, also as endings: "'s"."""
     numbers: tuple[str, ...] = ()
@@ -397,6 +399,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         negations=frozenset(data.get("negations", "").split()),
         auxiliaries=frozenset(data.get("auxiliaries", "").split()),
         reasons=frozenset(data.get("reasons", "").split()),
+        addressees=frozenset(data.get("addressees", "").split()),
         copulas=frozenset(data.get("copulas", "").split()),
         numbers=tuple(data.get("numbers", "").split()),
         swapped=_swapped(data.get("small_words", "").split()),

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from itertools import count
 from typing import NamedTuple
 
+from kille.dialogue.parsing import parts
 from kille.dialogue.robust_reading.clause_words import Word, are_harmless
 from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import (
@@ -20,6 +21,7 @@ from kille.dialogue.robust_reading.island_kinds import (
     FALLBACK,
     FOLLOWS,
     GAPPED,
+    SINGLE,
 )
 from kille.dialogue.robust_reading.islands import Island
 from kille.dialogue.robust_reading.lessons_together import MOST
@@ -47,9 +49,6 @@ STRICT = frozenset(
     }
 )
 """The moves beside which nothing of the sentence may be left out."""
-
-SINGLE = frozenset({"placed", "identity", "quality_alone"})
-"""The claims that have to be all that is said."""
 
 ANYWHERE = frozenset(
     {"greet", "thank", "okay", "affirm", "deny", "mention", "take_frame"}
@@ -218,11 +217,19 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
             return False
         case "instruct" | "alone" if island.is_bare and _is_subject(place):
             return False
+        case "correct" if _is_contrast(island) and not (place.begins and place.ends):
+            return False
         case "ask_deed" if place.follows_missed:
             return False
         case rule if rule.startswith("ask_") and len(place.near) > len(place.inside):
             return False
     return None
+
+
+def _is_contrast(island: Island) -> bool:
+    """Whether a correction only opposes two bare words: "whistle, not thistle"."""
+    found = [it.rule for it in parts(parts(island.trees[0])[0])]
+    return found in (["naming", "denied"], ["having", "denied"])
 
 
 def _is_subject(place: _Place) -> bool:

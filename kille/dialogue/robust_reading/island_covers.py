@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from kille.dialogue.parsing import Grammar
 from kille.dialogue.robust_reading.clause_words import Word
-from kille.dialogue.robust_reading.island_kinds import FALLBACK
+from kille.dialogue.robust_reading.island_kinds import FALLBACK, SINGLE
 from kille.dialogue.robust_reading.islands import Island, Weigh, find_islands
 from kille.dialogue.word_lists import WordLists
 
@@ -120,6 +120,6 @@ def _covers_from(
 
 def _may_precede(island: Island, other: Island, follows: Follows) -> bool:
     """Whether an island may stand before another: a remark is all that is said."""
-    if {island.rule, other.rule} & FALLBACK:
+    if {island.rule, other.rule} & (FALLBACK | SINGLE):
         return False
     return island.rule in follows.get(other.rule, (island.rule,))

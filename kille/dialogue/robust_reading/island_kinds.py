@@ -7,6 +7,9 @@ from kille.dialogue.language import LESSONS
 FALLBACK = frozenset({"remark", "other_deed", "presumed"})
 """What is taken so only where nothing else is understood."""
 
+SINGLE = frozenset({"placed", "identity", "quality_alone"})
+"""The claims that have to be all that is said."""
+
 INDIRECT = frozenset(
     {
         "named",

@@ -115,14 +115,14 @@ def _fit_of_contrast(move: Tree, situation: Situation, lists: WordLists) -> floa
     if [it.rule for it in others] != ["denied"]:
         return 1.0
     denied = [*_new_words(others[0])]
-    if all(_says_how(it, situation, lists) for it in denied):
+    new = [*_new_words(said)]
+    opposed = any(it in situation.qualities for it in (*denied, *new))
+    if opposed or all(_says_how(it, situation, lists) for it in denied):
         how = True
     elif any(it in situation.known for it in denied):
         how = False
     else:
-        how = all(
-            _says_how(it, situation, lists) for it in (*denied, *_new_words(said))
-        )
+        how = all(_says_how(it, situation, lists) for it in (*denied, *new))
     is_how = said.rule == "having"
     return 1.0 if how == is_how or _has_article(move) else 0.2
 

@@ -80,6 +80,7 @@ def join_lessons(
         it
         for it in others
         if _may_be_joined(it)
+        and _may_stand_beside(first, it)
         and (it.adds or _says_how(it) or _form(it.readings[0]) not in qualities)
     ]
     joined = joined if _may_be_joined(first) else []
@@ -151,6 +152,13 @@ def _form(reading: Utterance) -> str:
 def _may_be_joined(said: Sentence) -> bool:
     best = said.readings[0]
     return _may_be_meant(best) and predicate_at(best.type, "e").name in TOGETHER
+
+
+def _may_stand_beside(first: Sentence, other: Sentence) -> bool:
+    """Whether two lessons are asked about alike: doubtful words only of two things."""
+    one, two = first.readings[0], other.readings[0]
+    is_apart = one.content.get("target") != two.content.get("target")
+    return is_apart or (_is_partial(one) and _is_partial(two))
 
 
 def _may_be_meant(reading: Utterance) -> bool:

@@ -200,29 +200,37 @@ def _dropped_clauses(
 ) -> tuple[str, ...]:
     """The clauses of a sentence that a cover leaves out, and that claim something.
 
-    Such a clause has a copula, and a word that may be a noun or an adjective: "the long
-    one isn't", but not "I found it in the attic".
+    Such a clause has a copula, and says a word that the cover does not: "the long one
+    isn't", but not "I found it in the attic". What is said of the robot, or of what was
+    said, is no claim about things: "you are clever", "both are correct".
     """
     words = sentence.words
+    taken = {words[at].form for it in cover.islands for at in range(it.first, it.after)}
     clauses = dict.fromkeys(it.clause for it in cover.missed)
     found = []
     for clause in clauses:
         inside = [it for it in words if it.clause == clause]
         said = [it for it in inside if not it.is_harmless]
-        if set(said) <= set(cover.missed) and _claims_anything(said, lists):
+        if not set(said) <= set(cover.missed):
+            continue
+        subject = [it.form for it in inside if not it.joins][:2]
+        if not lists.addressees.isdisjoint(subject):
+            continue
+        if _claimed_words(said, lists) - taken:
             first, last = words.index(said[0]), words.index(said[-1])
             found.append(sentence.text_of(first, last + 1))
     return tuple(found)
 
 
-def _claims_anything(words: Sequence[Word], lists: WordLists) -> bool:
-    """Whether words say something of something: they have a copula, and a content."""
+def _claimed_words(words: Sequence[Word], lists: WordLists) -> set[str]:
+    """What a clause says of something; nothing without a copula, or of itself."""
     forms = [it.form for it in words]
     copulas = [it for it in forms if lists.has_copula(it)]
-    said = [it for it in forms if it not in copulas and not lists.is_closed(it)]
-    if said and {it.partition("'")[0] for it in copulas} >= {*said} - lists.articles:
-        return False  # "A cup's a cup."
-    return bool(copulas) and bool(said)
+    said = {it for it in forms if it not in copulas and not lists.is_closed(it)}
+    said -= lists.articles | lists.evaluations
+    if not copulas or {it.partition("'")[0] for it in copulas} >= said:
+        return set()  # "A cup's a cup."
+    return said
 
 
 def _phrases(sentence: RepairedSentence, found: Sequence[Cover]) -> Understanding:

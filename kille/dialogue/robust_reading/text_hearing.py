@@ -255,7 +255,7 @@ def hear_in_parts(
     sayings = [it for it in open_ if is_saying(it)]
     if len(sayings) < len(open_):
         open_ = [it for it in open_ if it not in sayings]
-        missed += [_dropped(it.part) for it in sayings if it.part]
+        missed += [_dropped(it.part) for it in sayings if _is_clause(it.part, lists)]
     joined, rest = join_lessons(open_, lists.qualities, types=types)
     missed += [_dropped(it.part) for it in rest if _is_clause(it.part, lists)]
     heard = (*against, *_without_repetitions(settled), *joined) or tuple(remarks[:1])
