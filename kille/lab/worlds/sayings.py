@@ -16,7 +16,7 @@ from string import Formatter
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes, denial, merge_of
 from kille.dialogue.reference import meant_by
-from kille.dialogue.taxonomy import LOWER, UPPER
+from kille.dialogue.taxonomy import HEADWORD, LOWER, SYNONYM, UPPER
 from kille.dialogue.wording import tell
 from kille.lab.worlds.vocabulary import Vocabulary
 from kille.lab.worlds.worlds import World
@@ -270,6 +270,9 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
         case ["a_subkind", "superkind"]:
             pairs = islice(permutations(nouns, 2), PAIRS)
             return (subsumption_matter(lower, upper) for lower, upper in pairs)
+        case ["headword", "synonym"]:
+            pairs = islice(permutations(nouns, 2), PAIRS)
+            return (synonymy_matter(one, other) for one, other in pairs)
         case ["cue", "matters", "plural_subject"]:
             return (
                 cue_matter(noun, cue, matters)
@@ -369,6 +372,11 @@ def perspective_matter(side: str, phrase: Phrase | None = None) -> Matter:
 def subsumption_matter(lower: Record, upper: Record) -> Matter:
     """That one kind of thing is a kind of another."""
     return Matter("", ((LOWER, lower), (UPPER, upper)))
+
+
+def synonymy_matter(synonym: Record, headword: Record) -> Matter:
+    """That one noun means the same as another."""
+    return Matter("", ((SYNONYM, synonym), (HEADWORD, headword)))
 
 
 def cue_matter(noun: Record, cue: str, matters: bool) -> Matter:

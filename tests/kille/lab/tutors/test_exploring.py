@@ -40,7 +40,9 @@ def test_every_move_is_said_and_understood(language):
         for one in said[::7]:
             heard = understand(one.text, language)
             if act in IN_PARTS:
-                heard = hear_in_parts(heard, Situation(things=1), language).moves
+                known = frozenset(it.form for it in vocabulary(language).nouns.values())
+                situation = Situation(things=1, known=known)
+                heard = hear_in_parts(heard, situation, language).moves
             found = {
                 predicate_at(it.type, "e").name
                 for sentence in heard
