@@ -11,7 +11,7 @@ finite-state automata" (2000), for the register of states.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache, reduce
 from itertools import zip_longest
 from weakref import WeakValueDictionary
@@ -22,7 +22,7 @@ class State:
     """Where one is in a sentence; made by the functions of this module only."""
 
     ends: bool
-    after: tuple[tuple[str, State], ...]
+    after: tuple[tuple[str, State], ...] = field(repr=False)
     """The words that may come next, in order, and where each leads."""
 
 

@@ -14,6 +14,7 @@ DIALOGUES = 150
 
 RARE = {
     "tutoring-never-guesses": 600,
+    "tutoring-unpacks-nothing": 600,
     "fetch-skips-a-move": 600,
     "travel-no-is-yes": 300,
 }

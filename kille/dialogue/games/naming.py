@@ -17,10 +17,7 @@ from ttr.updates import first, maybe, seq
 
 @rule(answers=("AskName", "AskGuess"))
 def recognise(s: Record, *, model: Model) -> Record | None:
-    """The tutor asks what a thing is: judge every noun of it.
-
-    Without saying of which it is that which was talked about last.
-    """
+    """The tutor asks what a thing is: judge every noun of it."""
     talked_of = [it for it in talked_about(s) if it in s.view.things]
     x = thing_at(content_of(s), "target") or next(iter(talked_of), None)
     if x is None or not s.private.nouns:

@@ -118,7 +118,8 @@ def without_rules(algorithm: Algorithm, names: Collection[str]) -> Algorithm | N
     """The algorithm in which these rules never apply; None if nothing is left.
 
     >>> from kille.dialogue.games.naming import NAMING
-    >>> print(without_rules(NAMING, ["recognise", "hedge_name", "guess_name"]))
+    >>> wild = ["see_nothing", "guess_wildly", "cannot_guess"]
+    >>> print(without_rules(NAMING, ["recognise", "hedge_name", "guess_name", *wild]))
     seq(first(assert_name, doubt_name, admit_name))
     """
     match algorithm:

@@ -132,7 +132,7 @@ def test_what_is_confirmed_is_the_look_that_was_asked_about(looks: int) -> None:
         assert robot.hear("That is correct.") == "OK, I learned a cup."
         *_, lesson = robot.memory.objects()
         assert lesson.seen.time == asked_about
-        assert lesson.turn.text == "That is correct."
+        assert lesson.turn.text == "This is a cup."
 
 
 def test_every_turn_is_kept_with_its_judgement() -> None:

@@ -51,11 +51,11 @@ def test_a_lesson_learned_from_a_yes_is_what_was_said_first(robot: Agent) -> Non
     assert '("I have brought you a mug today.")' in robot.hear("Why is this a mug?")
 
 
-def test_a_lesson_that_confirms_a_claim_is_the_yes(robot: Agent) -> None:
+def test_a_lesson_that_confirms_a_claim_is_the_claim(robot: Agent) -> None:
     robot.hear("What is this?")
     robot.hear("Yes.")
     [lesson] = robot.memory.lessons()[-1:]
-    assert lesson.turn.text == "Yes."
+    assert lesson.turn.text == "This is a cup."
 
 
 def test_a_reason_goes_back_to_its_lesson(robot: Agent, clock: Clock) -> None:

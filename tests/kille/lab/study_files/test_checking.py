@@ -233,7 +233,7 @@ def test_a_rule_that_can_never_fire_is_told_where_it_is_written(tmp_path: Path) 
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ("Sign := [", "Sing := [", "own.ttr:133: nothing is called Sign here"),
+        ("Sign := [", "Sing := [", "own.ttr:147: nothing is called Sign here"),
         ("Teaching   :=", "Teachings :=", "study.toml:4: tried out, it fails at"),
         ("State := [", "Sate := [", "own.ttr:1: the games cannot be made of it"),
         ("State := [", "check Cue <= Ind\nState := [", "check Cue <= Ind does not"),
@@ -248,7 +248,7 @@ def test_meanings_that_the_games_cannot_be_made_of_are_told(
     fault, *more = found(tmp_path, "[theories.one]\nmeanings = 'own.ttr'\n")
     assert told in fault
     assert "\n" not in fault
-    assert len(more) == (7 if new == "Sing := [" else 0)
+    assert len(more) == (8 if new == "Sing := [" else 0)
 
 
 def test_people_may_type_to_a_theory_with_meanings(tmp_path: Path) -> None:

@@ -87,12 +87,18 @@ def packaged(name: str) -> str:
     return files("kille.grammars").joinpath(name).read_text(encoding="utf-8")
 
 
-def dialogue(game: Game, said: Iterable[str | int]) -> list[str]:
-    """What the robot says to texts; a number points at the thing."""
+def dialogue(game: Game, said: Iterable[str | int | None]) -> list[str]:
+    """What the robot says to texts; a number points at the thing.
+
+    None puts all there anew, so that nothing has been said of it yet.
+    """
     assert game.say is not None
     assert game.hear is not None
     now, world, answers = game.begin(), WORLD, []
     for one in said:
+        if one is None:
+            now = game.take(now, glance_event(world, World())).run
+            continue
         if isinstance(one, int):
             event, world = glance_event(world.point_at(one), world), world.point_at(one)
             now = game.take(now, event).run
@@ -103,7 +109,9 @@ def dialogue(game: Game, said: Iterable[str | int]) -> list[str]:
     return answers
 
 
-NAMING = (1, "This is a cup.", 2, "This is a car.", "What is this?")
+LESSONS = (1, "This is a cup.", 2, "This is a car.")
+NAMING = (*LESSONS, "What is this?")
+NAMING_ANEW = (*LESSONS, None, "What is this?")
 
 
 # --- what is changed ------------------------------------------------------------------
@@ -119,7 +127,8 @@ def test_a_theory_of_nothing_else_plays_the_games_as_they_are() -> None:
 def test_bands_are_those_of_the_strategy() -> None:
     shy = Theory("shy", strategy={"bands": {"sure": 0.95, "margin": 0}})
     assert strategy_of(shy).bands.margin == 0.0
-    assert dialogue(game_of(shy, WORLD), NAMING)[-1].endswith("but I am not sure.")
+    said = dialogue(game_of(shy, WORLD), NAMING_ANEW)
+    assert said[-1].endswith("but I am not sure.")
 
 
 def test_a_wording_and_a_mode_are_those_of_the_file() -> None:
@@ -352,7 +361,7 @@ def test_a_learner_of_ones_own_judges_all_words_of_a_kind(tmp_path: Path) -> Non
     (tmp_path / "own.py").write_text(OWN)
     own = f"{tmp_path / 'own.py'}:Latest"
     game = game_of(Theory("latest", learners={"noun": own}), WORLD)
-    said = dialogue(game, (*NAMING, 1, "What is this?", "Forget that.", "Hello."))
+    said = dialogue(game, (*NAMING_ANEW, 1, "What is this?", "Forget that.", "Hello."))
     assert said[2:4] == ["This is a car.", "This is a car."]
 
 
