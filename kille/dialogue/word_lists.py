@@ -402,7 +402,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         addressees=frozenset(data.get("addressees", "").split()),
         copulas=frozenset(data.get("copulas", "").split()),
         numbers=tuple(data.get("numbers", "").split()),
-        swapped=_swapped(data.get("small_words", "").split()),
+        swapped=_transpositions(data.get("small_words", "").split()),
         spoken=data.get("spoken", {}),
         elliptic=data.get("elliptic", {}),
         opposites=data.get("opposites", {}),
@@ -413,10 +413,10 @@ def _word_lists(language: str, _: int) -> WordLists:
     )
 
 
-def _swapped(words: Sequence[str]) -> dict[str, str]:
+def _transpositions(words: Sequence[str]) -> dict[str, str]:
     """Each of the words as it is with two letters beside one another changed about.
 
-    >>> _swapped(["the"])
+    >>> _transpositions(["the"])
     {'hte': 'the', 'teh': 'the'}
     """
     found = {

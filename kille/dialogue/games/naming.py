@@ -6,6 +6,7 @@ Source: Dobnik and de Graaf 2017, section 3.
 from __future__ import annotations
 
 from kille.dialogue.beliefs import certainty, names_of
+from kille.dialogue.games.surveying import see_nothing
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import thing_at
@@ -57,12 +58,6 @@ def guess_name(s: Record, *, types: DialogueTypes) -> Record | None:
 def doubt_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It has an opinion, and hardly more than that."""
     return _plan_naming(s, "Doubt", types=types)
-
-
-@rule(answers="AskGuess")
-def see_nothing(s: Record, *, types: DialogueTypes) -> Record | None:
-    """There is nothing that it could guess."""
-    return None if s.view.things else plan(s, "SeeNothing", types=types)
 
 
 @rule(answers="AskGuess")

@@ -15,7 +15,7 @@ SURE, LIKELY, UNKNOWN = "thing", "maybe", "unknown"
 """How the parts of what is seen are labelled, with a number after it."""
 
 
-@rule(answers="AskView")
+@rule(answers=("AskView", "AskGuess"))
 def see_nothing(s: Record, *, types: DialogueTypes) -> Record | None:
     """Nothing is in view."""
     return None if s.view.things else plan(s, "SeeNothing", types=types)

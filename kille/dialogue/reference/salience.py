@@ -292,7 +292,7 @@ def _other(
     return [x for x in things if x != latest]
 
 
-def _remaining(
+def _things_without_name(
     s: Record, model: Model, things: Sequence[str], types: DialogueTypes
 ) -> Sequence[str]:
     """Those of which nobody has said what they are, or else what was not mentioned."""
@@ -354,7 +354,7 @@ def _middle(
 CHOICES: Mapping[str, Choice] = {
     "mentioned": _most_salient,
     "other": _other,
-    "remaining": _remaining,
+    "remaining": _things_without_name,
     "middle": _middle,
     "any_other": _any,
     "flank": _flanks,

@@ -112,7 +112,7 @@ def read_robustly(
                 tuple(sentence.text_of(it.first, it.after) for it in best.islands),
                 tuple(sentence.plain[it.begin : it.end] for it in best.missed),
                 _is_fallback(best),
-                _dropped_clauses(best, sentence, lists),
+                _clauses_left_out(best, sentence, lists),
             )
     return _phrases(sentence, found)
 
@@ -195,7 +195,7 @@ def _is_fallback(cover: Cover) -> bool:
     return all(it.rule in FALLBACK for it in cover.islands)
 
 
-def _dropped_clauses(
+def _clauses_left_out(
     cover: Cover, sentence: RepairedSentence, lists: WordLists
 ) -> tuple[str, ...]:
     """The clauses of a sentence that a cover leaves out, and that claim something.

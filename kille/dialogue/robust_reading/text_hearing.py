@@ -228,7 +228,7 @@ def hear_in_parts(
         if not found.moves:
             missed.append((said, found))
         elif not found.is_remark:
-            missed += [_dropped(it) for it in found.dropped]
+            missed += [_miss_clause(it) for it in found.dropped]
         if (not moves or found.is_remark) and _says_no(said, lists):
             lessons = [it for it in done if _teaches(it)]
             asked += [doubt_lesson(it, PARTIAL, types=types) for it in lessons]
@@ -255,9 +255,11 @@ def hear_in_parts(
     sayings = [it for it in open_ if is_saying(it)]
     if len(sayings) < len(open_):
         open_ = [it for it in open_ if it not in sayings]
-        missed += [_dropped(it.part) for it in sayings if _is_clause(it.part, lists)]
+        missed += [
+            _miss_clause(it.part) for it in sayings if _is_clause(it.part, lists)
+        ]
     joined, rest = join_lessons(open_, lists.qualities, types=types)
-    missed += [_dropped(it.part) for it in rest if _is_clause(it.part, lists)]
+    missed += [_miss_clause(it.part) for it in rest if _is_clause(it.part, lists)]
     heard = (*against, *_without_repetitions(settled), *joined) or tuple(remarks[:1])
     if heard:
         missed = [it for it in missed if len(it[1].missed) > 1]
@@ -270,7 +272,7 @@ def _is_clause(part: str, lists: WordLists) -> bool:
     return any(map(lists.has_copula, forms))
 
 
-def _dropped(clause: str) -> tuple[Sentence, Understanding]:
+def _miss_clause(clause: str) -> tuple[Sentence, Understanding]:
     """A clause of which nothing is understood, beside others that are."""
     return Sentence(clause, ()), Understanding((), (), tuple(clause.split()))
 

@@ -28,6 +28,7 @@ from kille.dialogue.meanings import (
     theory,
 )
 from kille.dialogue.wording import say, tell
+from kille.lab.tutors.exploring import IN_PARTS
 from ttr import Rec, Record, RecordType, merge, record, rectype
 
 NOUNS = {
@@ -354,18 +355,6 @@ SAID = [
     for wording in wordings
     if style == "paper" or wordings != lexicon(language).says[act]
 ]
-
-IN_PARTS = (
-    "ask_deed",
-    "ask_self",
-    "remark",
-    "ask_guess",
-    "ask_whose",
-    "agree_partly",
-    "forget_about",
-    "correct_thing",
-)
-"""The moves that are understood in a part of a sentence only."""
 
 LESS = {
     ("ask_count", "How many things are there?"),
