@@ -29,7 +29,7 @@ from kille.dialogue.meanings import word_of
 from kille.dialogue.phrases import phrase
 from kille.scene import Frame, Percept
 from kille.sensors.synthetic import catalogue
-from kille.sensors.synthetic.faults import FAULTS, degrade_colour, degrade_depth
+from kille.sensors.synthetic.faults import FAULTS, FaultyView
 from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, RenderedScene, render_scene
 from kille.sensors.synthetic.specimens import specimen
@@ -64,18 +64,20 @@ class Table:
         self.put({})
 
     def put(self, bodies: Bodies) -> None:
-        self._image: RenderedScene = render_scene(self._camera, bodies)
+        image: RenderedScene = render_scene(self._camera, bodies)
+        lens = self._camera.intrinsics
+        self._outlines = image.outlines
+        self._view = FaultyView(image.colour, image.depth, lens.fx, frozenset(FAULTS))
 
     def frame(self) -> Frame:
         self._frames += 1
-        image, seed = self._image, (7, 1, self._frames)
-        intrinsics = self._camera.intrinsics
+        seed = (7, 1, self._frames)
         return Frame(
-            colour=degrade_colour(image.colour, frozenset(FAULTS), seed),
-            depth=degrade_depth(image.depth, intrinsics.fx, frozenset(FAULTS), seed),
-            intrinsics=intrinsics,
+            colour=self._view.colour(seed),
+            depth=self._view.depth(seed),
+            intrinsics=self._camera.intrinsics,
             time=self._frames / 30,
-            outlines=image.outlines,
+            outlines=self._outlines,
         )
 
     def close(self) -> None: ...

@@ -6,6 +6,7 @@ import gc
 import os
 from collections import Counter
 from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import pytest
 from hypothesis import settings
 
 from browsers import CHROMIUM, PATIENCE, Tab
+from kille.sensors.synthetic import faults
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -42,6 +44,25 @@ def data() -> Path:
     if not folder.is_dir():
         pytest.skip(f"no real captures in {folder}: set KILLE_DATA to their folder")
     return folder
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _noise_of_frames_drawn_once() -> Iterator[None]:
+    """Draws the noise of a frame once for all tests of a process.
+
+    The noise of the n-th frame of a seed is the same in every scene, and to draw it
+    takes two thirds of the time of a frame.
+    """
+    drawn = lru_cache(maxsize=120)(faults.standard_noise)  # up to 150 MB
+
+    def noise(shape: tuple[int, ...], seed: tuple[int, ...]) -> Any:
+        found = drawn(shape, seed)
+        found.flags.writeable = False
+        return found
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(faults, "standard_noise", noise)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import threading
 from collections.abc import Callable
 
@@ -162,6 +163,25 @@ def test_what_is_too_large_is_unknown(name):
     assert answer.why.startswith(
         f"too large: it takes more than {FEW:,} steps, and ended in "
     )
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_a_step_stands_for_a_bounded_piece_of_work(name):
+    """Else a budget of steps would not be one of seconds."""
+    calls = 0
+
+    def count(frame: object, event: str, argument: object) -> None:
+        nonlocal calls
+        calls += event == "call"
+
+    before = sys.getprofile()
+    with ttr.budget(steps=FEW):
+        sys.setprofile(count)
+        try:
+            UNKNOWN[name]()
+        finally:
+            sys.setprofile(before)
+    assert calls <= 30 * FEW
 
 
 def test_degrees_are_unknown_where_the_budget_ends():

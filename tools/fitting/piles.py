@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from kille.scene import Depth, Frame
 from kille.sensors.synthetic import catalogue, obj_files
-from kille.sensors.synthetic.faults import infrared_shadow, lost_edges
+from kille.sensors.synthetic.faults import depth_jumps, infrared_shadow, lost_edges
 from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.specimens import specimen
@@ -442,5 +442,5 @@ def _measure(depth: Depth, camera: SimulatedCamera, chance: Chance) -> Depth:
     inverse = np.maximum(np.rint(inverse / _STEP), 1) * np.float32(_STEP)
     lost = infrared_shadow(depth, camera.intrinsics.fx)
     if chance.random() < 0.5:
-        lost |= lost_edges(depth, chance)
+        lost |= lost_edges(depth_jumps(depth), chance)
     return np.where(lost, np.float32(np.nan), 1 / inverse).astype(np.float32)

@@ -142,6 +142,7 @@ class GenericWitness:
         written = []
         for term, T in assumed:
             if isinstance(term, Path):
+                spend()  # what is assumed is classified anew for each witness
                 self._claim(term, T)
             else:
                 written.append((term, T))

@@ -7,6 +7,7 @@ bits: raw = A - B / z. So errors that are even in raw grow with z squared in met
 from __future__ import annotations
 
 from collections.abc import Collection
+from functools import cached_property
 
 import cv2
 import numpy as np
@@ -47,36 +48,65 @@ def depth_of(raw: NDArray[np.floating]) -> NDArray[np.float32]:
     return (_RAW_SCALE / (_RAW_AT_INFINITY - raw)).astype(np.float32)
 
 
-def degrade_depth(
-    depth: Depth, focal: float, faults: Collection[str], seed: tuple[int, ...]
-) -> Depth:
-    """The depth (H, W) with the faults among `noise steps shadow edges`.
+class FaultyView:
+    """An unchanging view as a Kinect has it: its frames differ by chance alone.
 
-    `focal` in pixels; every fault has a random stream of its own, so that switching
-    one changes nothing in another.
+    `focal` in pixels. Of the faults, what chance does not change is found once. Each
+    has a random stream of its own, so that switching one changes nothing in another.
     """
-    seen = depth
-    if "noise" in faults:
-        seen = with_noise(seen, np.random.default_rng([*seed, 0]))
-    if "steps" in faults:
-        seen = with_steps(seen)
-    lost = [
-        *([infrared_shadow(depth, focal)] if "shadow" in faults else []),
-        *(
-            [lost_edges(depth, np.random.default_rng([*seed, 1]))]
-            if "edges" in faults
-            else []
-        ),
-    ]
-    if not lost:
-        return seen
-    return np.where(np.logical_or.reduce(lost), np.float32(np.nan), seen)
+
+    def __init__(
+        self, colour: Colour, depth: Depth, focal: float, faults: Collection[str]
+    ) -> None:
+        self._colour, self._depth = colour, depth
+        self._focal, self._faults = focal, faults
+
+    def colour(self, seed: tuple[int, ...]) -> Colour:
+        """The colour (H, W, 3) of the frame with this seed."""
+        if "bayer" not in self._faults:
+            return self._colour
+        noise = standard_noise(self._depth.shape, (*seed, 2))
+        return with_bayer(self._mosaic, noise)
+
+    def depth(self, seed: tuple[int, ...]) -> Depth:
+        """The depth (H, W) of the frame with this seed; NaN where it is lost."""
+        seen = self._depth
+        if "noise" in self._faults:
+            seen = with_noise(seen, standard_noise(seen.shape, (*seed, 0)))
+        if "steps" in self._faults:
+            seen = with_steps(seen)
+        lost = []
+        if "shadow" in self._faults:
+            lost.append(self._shadow)
+        if "edges" in self._faults:
+            lost.append(lost_edges(self._jumps, np.random.default_rng([*seed, 1])))
+        if not lost:
+            return seen
+        return np.where(np.logical_or.reduce(lost), np.float32(np.nan), seen)
+
+    @cached_property
+    def _mosaic(self) -> NDArray[np.uint8]:
+        return mosaic(self._colour)
+
+    @cached_property
+    def _shadow(self) -> Mask:
+        return infrared_shadow(self._depth, self._focal)
+
+    @cached_property
+    def _jumps(self) -> Mask:
+        return depth_jumps(self._depth)
 
 
-def with_noise(depth: Depth, rng: np.random.Generator) -> Depth:
+def standard_noise(
+    shape: tuple[int, ...], seed: tuple[int, ...]
+) -> NDArray[np.float32]:
+    """A standard normal number for each pixel, the same for the same seed."""
+    return np.random.default_rng(seed).standard_normal(shape, np.float32)
+
+
+def with_noise(depth: Depth, noise: NDArray[np.float32]) -> Depth:
     """Each depth z changed by about `NOISE` z², as an even error of 1 / z."""
-    error = rng.standard_normal(depth.shape, np.float32)
-    error *= np.float32(NOISE)
+    error = noise * np.float32(NOISE)
     error *= depth
     error += 1
     return depth / error
@@ -105,8 +135,8 @@ def infrared_shadow(depth: Depth, focal: float) -> Mask:
     return dark
 
 
-def lost_edges(depth: Depth, rng: np.random.Generator) -> Mask:
-    """Most pixels next to a jump of depth, others in every frame.
+def depth_jumps(depth: Depth) -> Mask:
+    """The pixels next to a jump of depth.
 
     A jump is measured in 1 / z, in which a plane has the same slope everywhere, so that
     no slanted table is taken for one.
@@ -114,7 +144,12 @@ def lost_edges(depth: Depth, rng: np.random.Generator) -> Mask:
     inverse = np.float32(1) / depth
     square = np.ones((3, 3), np.uint8)
     jump = cv2.dilate(inverse, square) - cv2.erode(inverse, square)
-    lost = jump > _EDGE
+    return jump > _EDGE
+
+
+def lost_edges(jumps: Mask, rng: np.random.Generator) -> Mask:
+    """Most of the pixels next to a jump, others in every frame."""
+    lost = jumps.copy()
     lost[lost] = rng.random(int(lost.sum())) > _KEPT_AT_EDGES
     return lost
 
@@ -127,18 +162,7 @@ def mosaic(colour: Colour) -> NDArray[np.uint8]:
     return seen
 
 
-def with_bayer(colour: Colour, rng: np.random.Generator) -> Colour:
-    """Colour seen through the mosaic with a little noise, and interpolated again."""
-    noise = rng.standard_normal(colour.shape[:2], np.float32)
-    noise *= np.float32(_COLOUR_NOISE)
-    seen = cv2.add(mosaic(colour), noise, dtype=cv2.CV_8U)
-    return cv2.cvtColor(seen, cv2.COLOR_BayerGRBG2RGB).astype(np.uint8, copy=False)
-
-
-def degrade_colour(
-    colour: Colour, faults: Collection[str], seed: tuple[int, ...]
-) -> Colour:
-    """The colour (H, W, 3) with the fault `bayer`, if it is among them."""
-    if "bayer" not in faults:
-        return colour
-    return with_bayer(colour, np.random.default_rng([*seed, 2]))
+def with_bayer(seen: NDArray[np.uint8], noise: NDArray[np.float32]) -> Colour:
+    """The colour interpolated from a mosaic (H, W) with a little noise."""
+    noisy = cv2.add(seen, noise * np.float32(_COLOUR_NOISE), dtype=cv2.CV_8U)
+    return cv2.cvtColor(noisy, cv2.COLOR_BayerGRBG2RGB).astype(np.uint8, copy=False)

@@ -14,7 +14,7 @@ from kille.sensors.sensor import At, Beside, Placed, SensorError, TablePlan
 from kille.sensors.stage_commands import RELATIONS
 from kille.sensors.synthetic import catalogue, obj_files, room
 from kille.sensors.synthetic.address import SceneAddress, parse_address
-from kille.sensors.synthetic.faults import degrade_colour, degrade_depth
+from kille.sensors.synthetic.faults import FaultyView
 from kille.sensors.synthetic.layout import SCENES, jitter_pose, objection, poses_beside
 from kille.sensors.synthetic.name_recognition import recognise_name
 from kille.sensors.synthetic.posed_camera import SimulatedCamera
@@ -57,7 +57,7 @@ class Synthetic:
         self._frames = 0
         self._changes = 0
         self._closed = False
-        self._image: RenderedScene | None = None
+        self._drawn: tuple[RenderedScene, FaultyView] | None = None
         rng = np.random.default_rng([address.seed, _POSES])
         self._bodies = {
             thing: PosedToy(self._model(thing), jitter_pose(pose, rng, 0.012, 6))
@@ -87,20 +87,25 @@ class Synthetic:
         """
         if self._closed:
             raise SensorError(f"{self._name} is closed: open it again")
-        if self._image is None:
-            self._image = render_scene(self._camera, self._bodies)
-        image, faults = self._image, self._address.faults
+        image, view = self._look()
         seed = (self._address.seed, _FAULTS, self._frames)
-        focal = self._camera.intrinsics.fx
         frame = Frame(
-            colour=degrade_colour(image.colour, faults, seed),
-            depth=degrade_depth(image.depth, focal, faults, seed),
+            colour=view.colour(seed),
+            depth=view.depth(seed),
             intrinsics=self._camera.intrinsics,
             time=self._frames / FRAMES_PER_SECOND,
             outlines=image.outlines,
         )
         self._frames += 1
         return frame
+
+    def _look(self) -> tuple[RenderedScene, FaultyView]:
+        """The scene as it is now, drawn once for all frames until it is changed."""
+        if self._drawn is None:
+            image = render_scene(self._camera, self._bodies)
+            focal, faults = self._camera.intrinsics.fx, self._address.faults
+            self._drawn = image, FaultyView(image.colour, image.depth, focal, faults)
+        return self._drawn
 
     def close(self) -> None:
         """Let go of the source; a second call does nothing."""
@@ -200,7 +205,7 @@ class Synthetic:
 
     def _change(self, bodies: dict[str, PosedToy]) -> None:
         self._bodies = bodies
-        self._image = None
+        self._drawn = None
         self._changes += 1
 
     def _chance(self, thing: str) -> np.random.Generator:

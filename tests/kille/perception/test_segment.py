@@ -24,7 +24,7 @@ from kille.scene import Frame, Intrinsics, Point
 from kille.sensors.recordings import open_recording
 from kille.sensors.synthetic import open_synthetic
 from kille.sensors.synthetic.catalogue import TOY_NAMES
-from kille.sensors.synthetic.faults import FAULTS, degrade_depth
+from kille.sensors.synthetic.faults import FAULTS, FaultyView
 from kille.sensors.synthetic.posed_camera import SimulatedCamera
 from kille.sensors.synthetic.render import Pose, PosedToy, render_scene
 from kille.sensors.synthetic.toy_model import ToyModel
@@ -373,7 +373,7 @@ def seen(*bodies: PosedToy, camera: SimulatedCamera = SimulatedCamera()) -> Fram
     """What a Kinect sees of these bodies; `outlines` are by number from 0."""
     image = render_scene(camera, {str(i): body for i, body in enumerate(bodies)})
     lens = camera.intrinsics
-    depth = degrade_depth(image.depth, lens.fx, FAULTS, (1,))
+    depth = FaultyView(image.colour, image.depth, lens.fx, FAULTS).depth((1,))
     return Frame(image.colour, depth, lens, 0.0, image.outlines)
 
 

@@ -12,11 +12,14 @@ from kille.sensors.synthetic import open_synthetic
 from kille.sensors.synthetic.faults import (
     FAULTS,
     NOISE,
+    FaultyView,
+    depth_jumps,
     depth_of,
     infrared_shadow,
     lost_edges,
     mosaic,
     raw_of,
+    standard_noise,
     with_bayer,
     with_noise,
     with_steps,
@@ -58,9 +61,9 @@ def test_steps_are_lost_beyond_the_last() -> None:
 
 
 def test_noise_grows_with_the_square_of_the_distance() -> None:
-    rng = np.random.default_rng(0)
     for z in (0.6, 1.0, 2.0, 3.0):
-        errors = with_noise(np.full((200, 200), z, np.float32), rng) - z
+        noise = standard_noise((200, 200), (int(10 * z),))
+        errors = with_noise(np.full((200, 200), z, np.float32), noise) - z
         assert errors.std() == pytest.approx(NOISE * z**2, rel=0.05)
         assert abs(errors.mean()) < 0.1 * NOISE * z**2 + 1e-4
 
@@ -79,16 +82,17 @@ def test_a_plain_table_has_no_shadow_and_no_edges() -> None:
     rows = np.linspace(0.6, 1.3, 480, dtype=np.float32)[::-1, None]
     table = np.ascontiguousarray(np.broadcast_to(rows, (480, 640)))
     assert not infrared_shadow(table, 525.0).any()
-    assert not lost_edges(table, np.random.default_rng(0)).any()
+    assert not depth_jumps(table).any()
 
 
 def test_edges_are_lost_at_jumps_only() -> None:
     scene = np.full((50, 60), 1.2, np.float32)
     scene[:, 30:] = 0.9
-    lost = lost_edges(scene, np.random.default_rng(0))
+    jumps = depth_jumps(scene)
+    lost = lost_edges(jumps, np.random.default_rng(0))
     assert set(np.nonzero(lost)[1]) == {29, 30}
     assert 0.6 < lost[:, 29:31].mean() < 0.9
-    again = lost_edges(scene, np.random.default_rng(1))
+    again = lost_edges(jumps, np.random.default_rng(1))
     assert (lost != again).any()
 
 
@@ -105,7 +109,8 @@ def test_the_mosaic_keeps_one_colour_a_pixel() -> None:
 def test_flat_colour_stays_but_for_the_noise() -> None:
     colour = np.empty((64, 64, 3), np.uint8)
     colour[:] = (200, 100, 40)
-    seen = with_bayer(colour, np.random.default_rng(0)).astype(float)
+    noise = standard_noise((64, 64), (0,))
+    seen = with_bayer(mosaic(colour), noise).astype(float)
     assert np.abs(seen.mean(axis=(0, 1)) - (200, 100, 40)).max() < 0.5
     assert 0.5 < seen.std(axis=(0, 1)).max() < 3
 
@@ -133,3 +138,18 @@ def test_switching_one_fault_off_leaves_the_others_as_they_were() -> None:
     kept = ~np.isnan(everything.depth)
     assert np.array_equal(everything.depth[kept], rest.depth[kept])
     assert (~kept).sum() > np.isnan(rest.depth).sum()
+
+
+def test_the_frames_of_a_view_are_those_of_a_view_seen_for_the_first_time() -> None:
+    clean = frame("none")
+    assert clean.depth is not None
+
+    def view() -> FaultyView:
+        assert clean.depth is not None
+        return FaultyView(clean.colour, clean.depth, clean.intrinsics.fx, FAULTS)
+
+    seen = view()
+    for number in (3, 1, 2):
+        seed = 5, number
+        assert np.array_equal(seen.colour(seed), view().colour(seed))
+        assert np.array_equal(seen.depth(seed), view().depth(seed), equal_nan=True)
