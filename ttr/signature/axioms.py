@@ -48,6 +48,8 @@ def subtypes(
 
 def supertype_set(T: Atom, theory: Signature) -> frozenset[Atom]:
     """The types that the axioms put above T."""
+    if not theory.axioms:
+        return frozenset()
     found = theory._memo.get(T)
     if found is None:
         found = frozenset(upper for _, upper in supertypes(T, theory.axioms))

@@ -104,10 +104,12 @@ def _from_the_start(
 def _continuations(dialogue: Dialogue, failure: Failure[Why]) -> Iterator[Dialogue]:
     """The dialogue with one more turn, for each event that may happen in it.
 
-    Events that print alike are taken for the same.
+    Events that print alike are taken for the same. Where a game reads words, an event
+    that is made of its type alone is none that anybody could say.
     """
     state, model, _ = dialogue.now
-    about = (variants(T, model, state) for T in heard_by(dialogue.game))
+    types = () if dialogue.game.hear else heard_by(dialogue.game)
+    about = (variants(T, model, state) for T in types)
     seen: set[str] = set()
     for event in chain(failure.dialogue.given, *about):
         if str(event) not in seen:

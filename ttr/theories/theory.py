@@ -162,9 +162,12 @@ class Theory(NotebookValue, Signature):
             objects=frozenset(said.objects),
         )
 
-    @property
+    @cached_property
     def signature(self) -> Signature:
-        """The theory without its names, rules and checks."""
+        """The theory without its names, rules and checks.
+
+        It is one for all models of the theory, with what was found out about it.
+        """
         return Signature(
             self.axioms,
             self.opened,

@@ -21,6 +21,8 @@ DROPPING = frozenset(
         "see",
         "glance",
         "take_described",
+        "take_either",
+        "correct_either",
         "ask_fewer",
         "ask_once_more",
         "ask_yes_to_which",
@@ -87,6 +89,7 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
                 | "AskForget"
                 | "AskForgetAll"
                 | "AskMeant"
+                | "AskPresumed"
                 | "AskEvery"
                 | "AskOnly"
                 | "AskSwapped"
@@ -95,6 +98,8 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
         ):
             return True
         case "AskEarlier", "prefer_now" | "prefer_earlier" | "affirm" | "deny":
+            return True
+        case "AskBoth" | "AskEither", "prefer_now" | "prefer_earlier":
             return True
         case "AskHeard", "affirm":
             return options == 1

@@ -5,7 +5,9 @@ ttr test kille.lab.tutors.tested_game:game
 
 from __future__ import annotations
 
+import re
 from functools import cache, lru_cache
+from string import Formatter
 
 from hypothesis import strategies as st
 
@@ -26,19 +28,28 @@ def words(event: Record) -> str | None:
 
     What is understood in a part only is no event that its words are read as.
     """
-    if "text" not in event or str(event.text) in _texts_in_parts():
+    if "text" not in event or _pattern_in_parts().fullmatch(str(event.text)):
         return None
     return str(event.text)
 
 
 @cache
-def _texts_in_parts() -> frozenset[str]:
+def _pattern_in_parts() -> re.Pattern[str]:
     """What is said to the robot of which it understands a part only."""
-    return frozenset(
-        text
+    wordings = {
+        wording
         for language in LANGUAGES
         for act in IN_PARTS
-        for text in lexicon(language).tells[act]
+        for wording in lexicon(language).tells[act]
+    }
+    return re.compile("|".join(map(_pattern_of, sorted(wordings))))
+
+
+def _pattern_of(wording: str) -> str:
+    """A regular expression for what a wording is with anything in its slots."""
+    parts = Formatter().parse(wording)
+    return "".join(
+        re.escape(text) + ("" if slot is None else ".+") for text, slot, _, _ in parts
     )
 
 

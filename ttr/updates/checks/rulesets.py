@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TypeAlias
+from weakref import WeakKeyDictionary
 
 from ttr.computing.case_analysis import cases_or_whole
 from ttr.computing.prover import Prover
@@ -212,10 +213,6 @@ class RuleSet:
         for rule in self.rules:
             yield from (rule.when, rule.where)
 
-    @cached_property
-    def _memory(self) -> dict[object, bool]:
-        return {}
-
     def excludes(self, found: View, T: TypeNode) -> bool:
         """Is something with this view surely not of a type?"""
         if free_paths(T) or found is T:
@@ -264,10 +261,15 @@ class RuleSet:
         )
 
     def remember(self, question: object, answer: Callable[[], bool]) -> bool:
-        """The answer to a question, computed when it is asked for the first time."""
-        if question not in self._memory:
-            self._memory[question] = answer()
-        return self._memory[question]
+        """The answer to a question, computed when it is first asked in a theory."""
+        memory = _ANSWERS.setdefault(self.model.theory, {})
+        if question not in memory:
+            memory[question] = answer()
+        return memory[question]
+
+
+_ANSWERS: WeakKeyDictionary[Signature, dict[object, bool]] = WeakKeyDictionary()
+"""What was found out about types in a theory, for all rule sets that are in it."""
 
 
 def _is_impossible(T: TypeNode, theory: Signature) -> bool:
