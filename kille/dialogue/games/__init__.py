@@ -14,7 +14,7 @@ from __future__ import annotations
 from kille.dialogue.games.abstaining import ACKNOWLEDGING, EXEMPLIFYING
 from kille.dialogue.games.breaking_silence import BREAKING_SILENCE
 from kille.dialogue.games.checking import CHECKING
-from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
+from kille.dialogue.games.clarifying import CLARIFYING, EXCLUDED, MENTIONED
 from kille.dialogue.games.colouring import COLOURING
 from kille.dialogue.games.comparing import COMPARING, MEASURING
 from kille.dialogue.games.confirming import CONFIRMING
@@ -100,6 +100,7 @@ def games_with(*answers: Rule) -> Algorithm:
     return first(
         seq(
             LISTENING,
+            maybe(EXCLUDED),
             first(
                 REPEATING,
                 HOLDING_FLOOR,

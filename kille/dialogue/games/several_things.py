@@ -46,7 +46,9 @@ def need_two(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """Of both is spoken where more than two things may be meant."""
     if EXACTLY not in content_of(s):
         return None
-    things = _unlike(s, model, _fitting_things(s, model, types=types), _claimed_word(s))
+    things = without_others(
+        s, model, _fitting_things(s, model, types=types), _claimed_word(s)
+    )
     return None if len(things) == 2 else plan(s, "NeedSingle", types=types)
 
 
@@ -54,16 +56,18 @@ def need_two(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
 def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says what the things in view are: it is a lesson about each of them."""
     sign = _claimed_word(s)
-    things = _unlike(s, model, _fitting_things(s, model, types=types), sign)
-    return None if len(things) < 2 else _plan_several(s, things, sign, types=types)
+    things = without_others(s, model, _fitting_things(s, model, types=types), sign)
+    return None if len(things) < 2 else plan_several(s, things, sign, types=types)
 
 
-def _unlike(s: Record, model: Model, things: Sequence[str], noun: Record) -> list[str]:
+def without_others(
+    s: Record, model: Model, things: Sequence[str], noun: Record
+) -> list[str]:
     """Those of some things that are not known to be something else."""
     return [x for x in things if not _is_other(s, model, x, noun)]
 
 
-def _plan_several(
+def plan_several(
     s: Record, things: Sequence[str], sign: Record, *, types: DialogueTypes
 ) -> Record:
     """The plan to learn that each of these things is so."""
@@ -122,7 +126,7 @@ def learn_every(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what everything here is: it is a lesson about each thing."""
     if not s.view.things:
         return None
-    return _plan_several(s, s.view.things, _claimed_word(s), types=types)
+    return plan_several(s, s.view.things, _claimed_word(s), types=types)
 
 
 @rule(answers="InstructOnly")
@@ -152,7 +156,7 @@ def learn_anyway(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     if s.shared.qud[0].ask == ONLY:
         return _plan_only(said, types=types)
-    return _plan_several(said, s.view.things, _claimed_word(said), types=types)
+    return plan_several(said, s.view.things, _claimed_word(said), types=types)
 
 
 @rule(answers="Deny")
@@ -162,8 +166,8 @@ def learn_others(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
     if said is None or s.shared.qud[0].ask != EVERY:
         return None
     noun = _claimed_word(said)
-    things = _unlike(said, model, s.view.things, noun)
-    return _plan_several(said, things, noun, types=types) if things else None
+    things = without_others(said, model, s.view.things, noun)
+    return plan_several(said, things, noun, types=types) if things else None
 
 
 @rule(answers=("Deny", "ForgetThat", "ForgetLast"))
