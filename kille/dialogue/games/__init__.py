@@ -28,7 +28,11 @@ from kille.dialogue.games.distinguishing import DISTINGUISHING
 from kille.dialogue.games.doubting_words import DOUBT_ANSWERED, DOUBTING_WORDS
 from kille.dialogue.games.explaining import EXPLAINING
 from kille.dialogue.games.finding import FINDING
-from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
+from kille.dialogue.games.forgetting import (
+    FORGET_ANSWERED,
+    FORGETTING,
+    RETHINKING,
+)
 from kille.dialogue.games.frame_of_reference import (
     ASKING_FRAME,
     FRAME_ANSWERED,
@@ -100,7 +104,7 @@ def games_with(*answers: Rule) -> Algorithm:
     return first(
         seq(
             LISTENING,
-            maybe(EXCLUDED),
+            maybe(first(EXCLUDED, RETHINKING)),
             first(
                 REPEATING,
                 HOLDING_FLOOR,
