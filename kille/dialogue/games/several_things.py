@@ -26,6 +26,7 @@ from kille.dialogue.meanings import (
     is_denial,
     set_at,
     set_to,
+    value_at,
 )
 from kille.dialogue.moves import content_of, issue, number_field, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at, thing_at
@@ -40,16 +41,20 @@ EVERY, ONLY = "AskEvery", "AskOnly"
 EXACTLY = "exactly"
 """The label of how many things there have to be: "both are cups"."""
 
+NUMBERS = {"two": 2, "three": 3, "four": 4, "five": 5}
+"""How many that is."""
+
 
 @rule(answers="InstructSeveral")
-def need_two(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
-    """Of both is spoken where more than two things may be meant."""
+def need_as_many(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """Of both, or all three, is spoken where more or fewer things may be meant."""
     if EXACTLY not in content_of(s):
         return None
+    number = NUMBERS[str(value_at(content_of(s), EXACTLY))]
     things = without_others(
         s, model, _fitting_things(s, model, types=types), _claimed_word(s)
     )
-    return None if len(things) == 2 else plan(s, "NeedSingle", types=types)
+    return None if len(things) == number else plan(s, "NeedSingle", types=types)
 
 
 @rule(answers="InstructSeveral")
@@ -353,7 +358,7 @@ THINGS_ANSWERED = first(learn_anyway, learn_others, leave_several)
 """What answers whether it is so of something of which something else was said."""
 
 SEVERAL_THINGS = first(
-    need_two,
+    need_as_many,
     learn_several,
     reject_several,
     ask_every,
