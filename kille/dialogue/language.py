@@ -99,10 +99,12 @@ STANCES = {
     "supposed": "supposed_stance",
     "reversed": "reversed_stance",
     "of all": "of_all_stance",
+    "other than": "other_than_stance",
 }
 """How somebody says a thing that can be said in several ways, and the rules for it.
 
-As a claim or as a question; a no, that it is the other way round, or so of all things.
+As a claim or as a question; a no, that it is the other way round; a yes or no, that it
+is so of all things; and a phrase, that it says what is not meant.
 """
 
 _FORMS = 3

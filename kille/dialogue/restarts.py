@@ -121,6 +121,9 @@ def _join_again(text: str, lists: WordLists) -> str:
         first, again, article = found["first"], found["again"], found["article"]
         if article and article.lower() not in lists.articles:
             return found[0]
+        said = re.findall(r"\w+", text[: found.start()].lower())
+        if not lists.negations.isdisjoint(said[-2:]):
+            return found[0]  # "Not a mug, a jug."
         marked = found["star"] or found["mark"]
         if marked or _is_again(first.lower(), again.lower(), found["pause"], lists):
             return f"{first}, {lists.repair}, {again}"

@@ -14,7 +14,7 @@ from __future__ import annotations
 from kille.dialogue.games.abstaining import ACKNOWLEDGING, EXEMPLIFYING
 from kille.dialogue.games.breaking_silence import BREAKING_SILENCE
 from kille.dialogue.games.checking import CHECKING
-from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
+from kille.dialogue.games.clarifying import CLARIFYING, EXCLUDED, MENTIONED
 from kille.dialogue.games.colouring import COLOURING
 from kille.dialogue.games.comparing import COMPARING, MEASURING
 from kille.dialogue.games.confirming import CONFIRMING
@@ -28,7 +28,11 @@ from kille.dialogue.games.distinguishing import DISTINGUISHING
 from kille.dialogue.games.doubting_words import DOUBT_ANSWERED, DOUBTING_WORDS
 from kille.dialogue.games.explaining import EXPLAINING
 from kille.dialogue.games.finding import FINDING
-from kille.dialogue.games.forgetting import FORGET_ANSWERED, FORGETTING
+from kille.dialogue.games.forgetting import (
+    FORGET_ANSWERED,
+    FORGETTING,
+    RETHINKING,
+)
 from kille.dialogue.games.frame_of_reference import (
     ASKING_FRAME,
     FRAME_ANSWERED,
@@ -100,6 +104,7 @@ def games_with(*answers: Rule) -> Algorithm:
     return first(
         seq(
             LISTENING,
+            maybe(first(EXCLUDED, RETHINKING)),
             first(
                 REPEATING,
                 HOLDING_FLOOR,

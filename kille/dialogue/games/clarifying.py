@@ -13,18 +13,20 @@ from collections.abc import Sequence
 from kille.dialogue.commitments import opposite_lesson_keys
 from kille.dialogue.games.continuing import NAMED_ALSO
 from kille.dialogue.games.referring import about, differing_things, plan_question
+from kille.dialogue.games.several_things import plan_several, without_others
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
     denial,
     is_denial,
     predicate_at,
+    set_to,
     values_at,
 )
 from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at
 from kille.dialogue.rules import reply, rule
-from ttr import Model, Record, replace
+from ttr import Model, Rec, Record, RecType, replace
 from ttr.updates import first, maybe, seq
 
 AGAIN = {"AskReferent": "AskReferentAgain"}
@@ -39,6 +41,64 @@ def take_described(s: Record, *, model: Model, types: DialogueTypes) -> Record |
     """The tutor says which one: "the red one", "the second", "this one"."""
     options = _fitting_options(s, model, types=types)
     return take_option(s, options[0], types=types) if len(options) == 1 else None
+
+
+@rule(answers="Excluded")
+def take_rest(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """The tutor says which one is not meant: the one that is left, or else it asks."""
+    if not asks_which(s):
+        return None
+    options = _options(s)
+    _, things = differing_things(options)
+    phrase = phrase_at(content_of(s), "target")
+    gone = fits_well(s, PhraseJudge(s, model, types=types).fits(phrase))
+    left = [it for x, it in zip(things, options, strict=True) if x not in gone]
+    if not 0 < len(left) < len(options):
+        return _ask_again(s, model, types=types)
+    if len(left) == 1:
+        return take_option(s, left[0], types=types)
+    ask = s.shared.qud[0].ask
+    return plan_question(_drop_issue(s), model, left, ask, types=types)
+
+
+@rule(answers="Excluded")
+def take_as_no(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> tuple[Record, Model] | None:
+    """Nobody has asked which one is meant: it is a no to what was said of this one."""
+    if asks_which(s):
+        return None
+    said = s.shared.latest
+    deny, model = model.create(
+        set_to(
+            types.move_type("Heard", "Deny"),
+            text=types["Text"] @ said.text,
+            signs=types.record_type("Heard")["signs"] @ (),
+            content=RecType @ Rec,
+        )
+    )
+    return replace(s, {"shared.latest": deny}), model
+
+
+@rule(answers="AffirmedOfAll")
+def learn_all(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """A lesson is about all of these things: it is one about each.
+
+    Not where one of them is known to be something else: then it asks again.
+    """
+    options = _options(s) if asks_which(s) else ()
+    if not options or not any(
+        types.has(options[0], it, model) for it in ("Instruct", "Describe")
+    ):
+        return None
+    said = options[0]
+    sign = next((it for it in said.signs if claims(said.content, it)), None)
+    label, things = differing_things(options)
+    if sign is None or label != "target":
+        return None
+    if len(without_others(s, model, things, sign)) < len(things):
+        return None
+    return plan_several(_drop_issue(s), things, sign, types=types)
 
 
 @rule(answers="Affirm")
@@ -171,7 +231,9 @@ def _drop_issue(s: Record) -> Record:
 
 
 CLARIFYING = first(
+    take_rest,
     take_described,
+    learn_all,
     take_only,
     reject_all,
     take_none,
@@ -182,5 +244,6 @@ CLARIFYING = first(
     NAMED_ALSO,
     wonder_at_mention,
 )
+EXCLUDED = take_as_no
 MENTIONED = wonder_at_mention
 """What answers a phrase that turns out to have been said, when it was hardly heard."""

@@ -18,6 +18,7 @@ from kille.dialogue.meanings import (
     is_denial,
     mentions,
     predicate_at,
+    set_to,
     values_at,
     word_of,
 )
@@ -26,7 +27,7 @@ from kille.dialogue.reference import thing_at, things_in
 from kille.dialogue.reference.salience import talked_about
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Record, RecordType, record, replace
+from ttr import Model, Record, RecordType, RecType, record, replace
 from ttr.updates import first
 
 FORGOT = {"c": "Forgot", "a": "ForgotQuality", "rel": "ForgotRelation"}
@@ -109,12 +110,34 @@ def move_lesson(s: Record, *, types: DialogueTypes) -> Record | None:
     )
     if lesson is None or x is None or "rel" in lesson.content:
         return None
+    if kind_of(content_of(s)) is not None and not claims(content_of(s), lesson.sign):
+        return None
     taught = {content for it in s.private.last for content in values_at(it, "teaches")}
     if lesson.content not in taught or thing_at(lesson.content, "target") == x:
         return None
     moved = said_of(s, lesson.sign, x, _SAID[lesson.sign.kind], types=types)
     moved = denial(moved) if is_denial(lesson.content) else moved
     return plan_learning(plan_forgetting(s, lesson, types=types), moved, types=types)
+
+
+@rule(answers="CorrectThing")
+def take_as_correction(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> tuple[Record, Model] | None:
+    """It says what another thing is, but that was not just said of one: it corrects."""
+    said = s.shared.latest
+    sign = next((it for it in said.signs if claims(said.content, it)), None)
+    taught = [it for move in s.private.last for it in values_at(move, "teaches")]
+    if sign is None or any(claims(it, sign) for it in taught):
+        return None
+    corrects = set_to(
+        types.move_type("Heard", "Correct"),
+        text=types["Text"] @ said.text,
+        signs=types.record_type("Heard")["signs"] @ said.signs,
+        content=RecType @ said.content,
+    )
+    move, model = model.create(corrects)
+    return replace(s, {"shared.latest": move}), model
 
 
 @rule(answers="CorrectThing")
@@ -346,6 +369,9 @@ FORGETTING = first(
     forget_no_such,
     forget_earlier,
 )
+
+RETHINKING = take_as_correction
+"""What takes what is said of another thing for a correction."""
 
 FORGET_ANSWERED = first(forget_all, forget_none, forget_asked, keep_asked)
 """What answers whether a word, or everything, is to be forgotten."""

@@ -8,9 +8,10 @@ said, and so a new word is learned. Anything else drops the question.
 from __future__ import annotations
 
 from kille.dialogue.beliefs import knows, knows_word
+from kille.dialogue.commitments import kind_of
 from kille.dialogue.games.doubting_words import as_naming
 from kille.dialogue.meanings import DialogueTypes, claims, replace_word, word_of
-from kille.dialogue.moves import issue, plan
+from kille.dialogue.moves import content_of, issue, plan
 from kille.dialogue.reference import in_view
 from kille.dialogue.rules import rule
 from kille.dialogue.typos import is_slip, slip
@@ -102,6 +103,14 @@ def _intended_word(
     return found[0] if len(found) == 1 else None
 
 
+@rule(answers=("ForgetThat", "ForgetLast"))
+def drop_offered(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor takes back what has not been learned yet: neither word is."""
+    if not _is_offered(s) or kind_of(content_of(s)) is not None:
+        return None
+    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
+
+
 def _with(said: Record, sign: Record, known: Record) -> Record:
     """A move with one word in place of another."""
     signs = [known if it == sign else it for it in said.signs]
@@ -122,4 +131,4 @@ def _choose_option(s: Record, chosen: int) -> Record:
 OFFERING = first(offer_word, offer_common_word)
 """What asks whether a word was meant that nearly is the one that was said."""
 
-OFFER_ANSWERED = first(take_offered, take_as_said)
+OFFER_ANSWERED = first(take_offered, take_as_said, drop_offered)

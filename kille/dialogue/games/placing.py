@@ -166,6 +166,11 @@ def tell_between(s: Record, *, model: Model, types: DialogueTypes) -> Record:
 
     That is no lesson, and is measured. In between it says that it does not know.
     """
+    return plan_between(s, model, types=types)
+
+
+def plan_between(s: Record, model: Model, *, types: DialogueTypes) -> Record:
+    """The plan to say if a thing is between two others, as the latest move asks."""
     content, signs = content_of(s), s.shared.latest.signs
     x = str(thing_at(content, "target"))
     if x not in s.view.placed:

@@ -23,6 +23,7 @@ from kille.dialogue.meanings import (
     claims,
     is_denial,
     set_to,
+    single_claims,
     word_of,
 )
 from kille.dialogue.moves import content_of, issue, plan, said_of
@@ -59,16 +60,30 @@ def ask_presupposed(s: Record, *, model: Model, types: DialogueTypes) -> Record 
     if len(left) != 1:
         return None
     naming = said_of(s, noun, left[0], types=types)
-    told = _with_thing(s, label, left[0], types=types) if is_lesson else []
-    readings = [
+    besides = [
         it
-        for content in told
-        for it in intended_readings(
-            s, possible_readings(s, model, content, types=types), types=types
-        )
+        for content in single_claims(content_of(s))
+        for it in _meant_besides(s, model, content, label, left[0], types=types)
     ]
-    besides = [it.content for it in readings] if len(readings) == 1 else []
     return _plan_question(s, model, [naming, *besides], types=types)
+
+
+def _meant_besides(
+    s: Record,
+    model: Model,
+    content: RecordType,
+    label: str,
+    x: str,
+    *,
+    types: DialogueTypes,
+) -> list[RecordType]:
+    """What is said of a thing besides its name, if it is plain of which things."""
+    told = _with_thing(s, content, label, x, types=types)
+    if told is None or not phrases(told):
+        return [] if told is None else [told]
+    found = possible_readings(s, model, told, types=types)
+    meant = intended_readings(s, found, types=types)
+    return [meant[0].content] if len(meant) == 1 else []
 
 
 def _new_nouns(s: Record) -> Iterator[tuple[str, Record]]:
@@ -120,17 +135,17 @@ def _was_named(s: Record, x: str) -> bool:
 
 
 def _with_thing(
-    s: Record, label: str, x: str, *, types: DialogueTypes
-) -> list[RecordType]:
-    """The lesson about a thing; none if it says no word of it."""
-    content = content_of(s)
-    if kind_of(content) is None:
-        return []
+    s: Record, content: RecordType, label: str, x: str, *, types: DialogueTypes
+) -> RecordType | None:
+    """What is said about a thing; None if it is no lesson, and not where it is."""
+    between = AMID in content and label == "target"
+    if not between and (kind_of(content) is None or "scale" in content):
+        return None
     look = types["Look"] @ s.view.look
     called = phrase_at(content, label)
     phrase = types.record_type("Phrase") if label == "target" else called
     phrase = set_to(phrase, x=types["Ind"] @ x)
-    return [set_to(content, look=look, **{label: set_to(phrase, look=look)})]
+    return set_to(content, look=look, **{label: set_to(phrase, look=look)})
 
 
 @rule(answers="Supposed")

@@ -164,9 +164,9 @@ def _plan_either(s: Record, *, types: DialogueTypes) -> Record | None:
     asked, *rest = s.shared.qud
     new, old = (it.content for it in asked.options)
     left = replace(s, {"shared.qud": rest})
-    if _says(s, old):
+    if _says(s, old, types=types):
         return plan_learning(left, in_view(s, old, types=types), types=types)
-    if not _says(s, new):
+    if not _says(s, new, types=types):
         return None
     new = in_view(s, new, types=types)
     before = [it.key for it in s.private.lessons if same(it.content, old)]
@@ -188,14 +188,21 @@ def _asks(s: Record, question: str) -> bool:
     return bool(s.shared.qud) and s.shared.qud[0].ask == question
 
 
-def _says(s: Record, content: RecordType) -> bool:
+def _says(s: Record, content: RecordType, *, types: DialogueTypes) -> bool:
     """Whether the latest move says the same noun, and not of another thing."""
     said, x = content_of(s), thing_at(content, "target")
     if "c" not in said or said["c"] != content["c"]:
         return False
-    if "target" in said and not set(phrase_at(said, "target").labels) <= THIS:
+    if "target" in said and not _points_to_it(said, types=types):
         return False
     return not s.view.pointed or x in s.view.pointed
+
+
+def _points_to_it(said: RecordType, *, types: DialogueTypes) -> bool:
+    """Whether a claim calls its thing no more than "this", "that" or "it"."""
+    phrase = phrase_at(said, "target")
+    words = [types.record_type(it)["d"] for it in ("This", "That", "It")]
+    return set(phrase.labels) <= THIS and phrase.get("d") in (None, *words)
 
 
 def _other_name(s: Record, content: RecordType) -> RecordType | None:

@@ -14,6 +14,7 @@ from kille.dialogue.commitments import plan_learning
 from kille.dialogue.games.distinguishing import say_where
 from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO, PRESUMED
 from kille.dialogue.games.kinds_of_kinds import is_about_kinds, plan_kind
+from kille.dialogue.games.placing import AMID, plan_between
 from kille.dialogue.games.referring import about
 from kille.dialogue.meanings import (
     DialogueTypes,
@@ -64,7 +65,7 @@ def ask_together(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
 
 
 @rule(answers="Affirm")
-def learn_together(s: Record, *, types: DialogueTypes) -> Record | None:
+def learn_together(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor means all of it: all of it is learned."""
     if not s.shared.qud or s.shared.qud[0].ask not in (MEANT, PRESUMED):
         return None
@@ -78,6 +79,9 @@ def learn_together(s: Record, *, types: DialogueTypes) -> Record | None:
             learned = plan_kind(replace(learned, now), types=types)
             continue
         learned = about(replace(learned, now), option.content, types=types)
+        if AMID in option.content:
+            learned = plan_between(learned, model, types=types)
+            continue
         learned = plan_learning(learned, content_of(learned), types=types)
     return learned
 

@@ -26,6 +26,7 @@ from kille.dialogue.meanings import (
     is_denial,
     set_at,
     set_to,
+    value_at,
 )
 from kille.dialogue.moves import content_of, issue, number_field, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at, thing_at
@@ -40,30 +41,38 @@ EVERY, ONLY = "AskEvery", "AskOnly"
 EXACTLY = "exactly"
 """The label of how many things there have to be: "both are cups"."""
 
+NUMBERS = {"two": 2, "three": 3, "four": 4, "five": 5}
+"""How many that is."""
+
 
 @rule(answers="InstructSeveral")
-def need_two(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
-    """Of both is spoken where more than two things may be meant."""
+def need_as_many(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """Of both, or all three, is spoken where more or fewer things may be meant."""
     if EXACTLY not in content_of(s):
         return None
-    things = _unlike(s, model, _fitting_things(s, model, types=types), _claimed_word(s))
-    return None if len(things) == 2 else plan(s, "NeedSingle", types=types)
+    number = NUMBERS[str(value_at(content_of(s), EXACTLY))]
+    things = without_others(
+        s, model, _fitting_things(s, model, types=types), _claimed_word(s)
+    )
+    return None if len(things) == number else plan(s, "NeedSingle", types=types)
 
 
 @rule(answers="InstructSeveral")
 def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says what the things in view are: it is a lesson about each of them."""
     sign = _claimed_word(s)
-    things = _unlike(s, model, _fitting_things(s, model, types=types), sign)
-    return None if len(things) < 2 else _plan_several(s, things, sign, types=types)
+    things = without_others(s, model, _fitting_things(s, model, types=types), sign)
+    return None if len(things) < 2 else plan_several(s, things, sign, types=types)
 
 
-def _unlike(s: Record, model: Model, things: Sequence[str], noun: Record) -> list[str]:
+def without_others(
+    s: Record, model: Model, things: Sequence[str], noun: Record
+) -> list[str]:
     """Those of some things that are not known to be something else."""
     return [x for x in things if not _is_other(s, model, x, noun)]
 
 
-def _plan_several(
+def plan_several(
     s: Record, things: Sequence[str], sign: Record, *, types: DialogueTypes
 ) -> Record:
     """The plan to learn that each of these things is so."""
@@ -122,7 +131,7 @@ def learn_every(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what everything here is: it is a lesson about each thing."""
     if not s.view.things:
         return None
-    return _plan_several(s, s.view.things, _claimed_word(s), types=types)
+    return plan_several(s, s.view.things, _claimed_word(s), types=types)
 
 
 @rule(answers="InstructOnly")
@@ -152,7 +161,7 @@ def learn_anyway(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     if s.shared.qud[0].ask == ONLY:
         return _plan_only(said, types=types)
-    return _plan_several(said, s.view.things, _claimed_word(said), types=types)
+    return plan_several(said, s.view.things, _claimed_word(said), types=types)
 
 
 @rule(answers="Deny")
@@ -162,8 +171,8 @@ def learn_others(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
     if said is None or s.shared.qud[0].ask != EVERY:
         return None
     noun = _claimed_word(said)
-    things = _unlike(said, model, s.view.things, noun)
-    return _plan_several(said, things, noun, types=types) if things else None
+    things = without_others(said, model, s.view.things, noun)
+    return plan_several(said, things, noun, types=types) if things else None
 
 
 @rule(answers=("Deny", "ForgetThat", "ForgetLast"))
@@ -349,7 +358,7 @@ THINGS_ANSWERED = first(learn_anyway, learn_others, leave_several)
 """What answers whether it is so of something of which something else was said."""
 
 SEVERAL_THINGS = first(
-    need_two,
+    need_as_many,
     learn_several,
     reject_several,
     ask_every,

@@ -363,6 +363,8 @@ CHOICES: Mapping[str, Choice] = {
     "second": _nth(1),
     "third": _nth(2),
     "last": _nth(-1),
+    "second_last": _nth(-2),
+    "third_last": _nth(-3),
     "rightmost": _nth(-1),
     **{name: _most(comparative) for name, comparative in COMPARATIVES.items()},
 }

@@ -63,6 +63,9 @@ OVER_BREAKS = frozenset(
 )
 """The claims that may go on after a comma: "It is not a cup, it is a mug"."""
 
+TAKES_UP = CORRECTABLE | {"correct_thing"}
+"""What says a no that stands before it: "No, not that one, I meant the can."."""
+
 UNSOUND = 0.05
 """The factor for an island that cannot be taken as what it could be alone."""
 
@@ -316,8 +319,8 @@ def follows_no(island: Island, cover: Cover) -> bool:
 
 def is_taken_up(island: Island, cover: Cover) -> bool:
     """Whether an island is a no that is said by the correction after it."""
-    after = cover.after(island)
-    return island.rule == "deny" and bool(after) and after[0].rule in CORRECTABLE
+    after = [it.rule for it in cover.after(island)[:1]]
+    return island.rule == "deny" and not TAKES_UP.isdisjoint(after)
 
 
 def is_list_of_names(cover: Cover, sentence: RepairedSentence) -> bool:

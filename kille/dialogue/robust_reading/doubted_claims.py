@@ -37,12 +37,20 @@ def doubt_about(
         return SAYING
     if rule in ABOUT_KINDS:
         return ""
-    asks = sentence.is_question and are_harmless(words[island.after :])
+    asks = sentence.is_question and (
+        are_harmless(words[island.after :]) or _is_first_choice(island, cover)
+    )
     hedged = any(
         it.rule in HEDGING and not is_taken_up(it, cover) for it in cover.islands
     )
     left_out = bool(cover.missed) or not sentence.is_certain
     return PARTIAL if rule in INDIRECT or hedged or asks or left_out else ""
+
+
+def _is_first_choice(island: Island, cover: Cover) -> bool:
+    """Whether only other choices come after it: "Would it be a bowl or a plate?"."""
+    after = cover.after(island)
+    return bool(after) and all(it.rule == "ask_whether" for it in after)
 
 
 def _forms_left(

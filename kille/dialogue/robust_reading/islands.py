@@ -21,6 +21,9 @@ from kille.dialogue.word_lists import WordLists
 START = "island"
 """The rule of the grammar for what may be an island."""
 
+ALONE = "alone"
+"""The rule for a name that is all that is said: it never goes on after a comma."""
+
 ACROSS = 0.7
 """The factor for an island that goes on after a comma."""
 
@@ -111,10 +114,11 @@ def _islands(
                 if _is_sound(tree, lists):
                     by_rule.setdefault(rule_of(tree), []).append((weigh(tree), tree))
             inner = words[first:after]
-            across = ACROSS ** (inner[-1].clause - inner[0].clause)
+            breaks = inner[-1].clause - inner[0].clause
+            across = ACROSS**breaks
             for rule, fits in by_rule.items():
                 likely = max(fit for fit, _ in fits)
-                if likely <= 0.0:
+                if likely <= 0.0 or (breaks and rule == ALONE):
                     continue
                 best = tuple(tree for fit, tree in fits if fit > likely / 2)
                 found.append(Island(first, after, rule, best, likely * across))

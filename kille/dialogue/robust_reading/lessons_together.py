@@ -19,6 +19,7 @@ from kille.dialogue.meanings import (
     merge_of,
     predicate_at,
     set_to,
+    single_claims,
     value_at,
 )
 from kille.dialogue.taxonomy import LOWER, UPPER
@@ -109,6 +110,51 @@ def join_lessons(
         if _may_be_meant(it)
     )
     return (Sentence(text, readings),), tuple(rest)
+
+
+def join_descriptions(
+    said: Sequence[Sentence], known: Set[str], *, types: DialogueTypes
+) -> list[Sentence]:
+    """The moves, of which those about one thing that a new word names are one move.
+
+    "This cup is white and small." says of one thing that it is a cup, white and small;
+    who does not know cups has to ask about all of it.
+    """
+    joined: list[Sentence] = []
+    for it in said:
+        if joined and _describes_with(it, joined[-1], known):
+            joined[-1] = _join_readings(joined[-1], it, types)
+        else:
+            joined.append(it)
+    return joined
+
+
+def _describes_with(said: Sentence, before: Sentence, known: Set[str]) -> bool:
+    """Whether two moves say how one thing is, which both call by a new noun."""
+    both = [it.readings[0] for it in (before, said) if it.readings]
+    if len(both) < 2 or any(
+        predicate_at(it.type, "e").name != "describe" or "doubt" in it.type
+        for it in both
+    ):
+        return False
+    target = both[0].content.get("target")
+    if not isinstance(target, RecordType) or both[1].content.get("target") != target:
+        return False
+    return any(
+        it.kind == "noun" and it.form not in known and claims(target, it)
+        for it in both[0].signs
+    )
+
+
+def _join_readings(before: Sentence, said: Sentence, types: DialogueTypes) -> Sentence:
+    """The first of two moves, which says what the second one does as well."""
+    best = said.readings[0]
+    readings = []
+    for it in before.readings:
+        signs = tuple(dict.fromkeys((*it.signs, *best.signs)))
+        content = join_claims(*single_claims(it.content), best.content)
+        readings.append(_with_content(it, content, signs, types))
+    return replace(before, readings=tuple(readings))
 
 
 def _of_same_thing(reading: Utterance, types: DialogueTypes) -> Utterance:

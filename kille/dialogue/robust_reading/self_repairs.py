@@ -67,13 +67,22 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
     ('this is a bottle', False)
     >>> repair("Sorry, this is a cup.", english)
     ('Sorry, this is a cup.', True)
+
+    A mere no sets right what a thing is called, or how it is, and may do so again.
+
+    >>> repair("This is a hat, no, a beret, no - a cap!", english)
+    ('This is a cap!', True)
+    >>> repair("It's not a cup, I mean, a mug.", english)
+    ("It's not a cup, I mean, a mug.", True)
+    >>> repair("This is a cup, no, it isn't.", english)
+    ("This is a cup, no, it isn't.", True)
     """
     words = words_of(text, lists)
     for run in lists.repair_runs([it.form for it in words]):
         before, after = words[: run.start], words[run.stop :]
         if not after:
             before, after = _last_clause_apart(before)
-        if not before or not after:
+        if not before or not after or _denies(before, lists):
             continue
         between = min(words[run.start].begin, after[0].begin)
         is_apart = BREAK.search(text, before[-1].end, between)
@@ -89,9 +98,22 @@ def repair(text: str, lists: WordLists) -> tuple[str, bool]:
         alike = [n for n, it in enumerate(before) if it.form in same]
         kept = text[: before[alike[-1] if alike else -1].begin]
         are_qualities = {before[-1].form, after[0].form} <= lists.qualities
+        names = after[0].form in lists.articles and bool(alike)
+        if lists.negations.issuperset(sets_right) and not (names or are_qualities):
+            continue
         is_certain = bool(alike) or (are_qualities and len(after) == 1)
-        return kept + text[after[0].begin :], is_certain
+        again, is_again_certain = repair(kept + text[after[0].begin :], lists)
+        return again, is_certain and is_again_certain
     return text, True
+
+
+def _denies(words: Sequence[Word], lists: WordLists) -> bool:
+    """Whether the last clause of these words says what is not so.
+
+    What comes after it is so instead: "It's not a cup, I mean, it's a mug.".
+    """
+    last = [it.form for it in words if it.clause == words[-1].clause]
+    return not lists.negations.isdisjoint(last)
 
 
 def _is_last_word_anew(

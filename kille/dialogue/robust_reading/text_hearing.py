@@ -25,6 +25,7 @@ from kille.dialogue.robust_reading.lessons_together import (
     correct_lesson,
     doubt_lesson,
     is_about_unmarked_thing,
+    join_descriptions,
     join_lessons,
 )
 from kille.dialogue.robust_reading.sentence_reading import (
@@ -251,6 +252,7 @@ def hear_in_parts(
     if any(act_of(it) in _FORGETTING for it in done):
         done = [it for it in done if act_of(it) not in _REGRETTING]
     done = _keep_last_answer(without_early_answers(done))
+    done = join_descriptions(done, situation.known, types=types)
     settled, open_ = _settle_lessons(done, asked, types)
     sayings = [it for it in open_ if is_saying(it)]
     if len(sayings) < len(open_):
