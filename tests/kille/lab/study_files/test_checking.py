@@ -233,7 +233,7 @@ def test_a_rule_that_can_never_fire_is_told_where_it_is_written(tmp_path: Path) 
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ("Sign := [", "Sing := [", "own.ttr:147: nothing is called Sign here"),
+        ("Sign := [", "Sing := [", "own.ttr:{heard}: nothing is called Sign here"),
         ("Teaching   :=", "Teachings :=", "study.toml:4: tried out, it fails at"),
         ("State := [", "Sate := [", "own.ttr:1: the games cannot be made of it"),
         ("State := [", "check Cue <= Ind\nState := [", "check Cue <= Ind does not"),
@@ -246,7 +246,8 @@ def test_meanings_that_the_games_cannot_be_made_of_are_told(
     assert old in source
     (tmp_path / "own.ttr").write_text(source.replace(old, new), encoding="utf-8")
     fault, *more = found(tmp_path, "[theories.one]\nmeanings = 'own.ttr'\n")
-    assert told in fault
+    heard = source[: source.index(": list(Sign)")].count("\n") + 1
+    assert told.format(heard=heard) in fault
     assert "\n" not in fault
     assert len(more) == (8 if new == "Sing := [" else 0)
 
