@@ -13,7 +13,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo talk serve page test deep docs docs-serve playground bench mutants oracles clean
+.PHONY: help demo talk serve page test types imports deep docs docs-serve playground bench mutants oracles clean
 
 help: ## show these lines
 	@sed -n 's/^\([a-z-]*\):[^#]*## /\1\t/p' Makefile | expand -t 12
@@ -38,10 +38,15 @@ else
 test: $(SENSES) ## format, lint, types, import directions, then all tests; make test ROOM=memory: one room's, quickly
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
-	$(BIN)/mypy
-	$(BIN)/lint-imports
+	@$(MAKE) --no-print-directory --output-sync -j 2 types imports
 	$(SINGLE) $(BIN)/pytest -n auto --dist worksteal
 endif
+
+types: $(SENSES)
+	$(BIN)/mypy
+
+imports: $(SENSES)
+	$(BIN)/lint-imports
 
 deep: $(SENSES) ## the tests that take too long for every day; not a part of test
 	HYPOTHESIS_PROFILE=$${HYPOTHESIS_PROFILE:-deep} $(SINGLE) \
