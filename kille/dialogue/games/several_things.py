@@ -6,6 +6,8 @@ is not plain which ones are meant, and the robot asks to be shown one at a time;
 does where "both" is said of more than two. "None of these is a cup." is a lesson about
 each thing there, too.
 
+"All but the left one are cups." is a lesson about each of the others.
+
 "Everything here is a cup." is a lesson about each thing, and "Only this is a cup." one
 about this, and one about each other thing, that it is not. Where something else was
 said of such a thing before, the robot asks first.
@@ -120,7 +122,8 @@ def reject_several(s: Record, *, types: DialogueTypes) -> Record | None:
 def ask_every(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """Everything is said to be so, and something here is known to be something else."""
     noun = _claimed_word(s)
-    other = next((x for x in s.view.things if _is_other(s, model, x, noun)), None)
+    things = _things_meant(s)
+    other = next((x for x in things if _is_other(s, model, x, noun)), None)
     if other is None:
         return None
     return _plan_question(s, EVERY, noun, other, types=types)
@@ -129,9 +132,10 @@ def ask_every(s: Record, *, model: Model, types: DialogueTypes) -> Record | None
 @rule(answers="InstructEvery")
 def learn_every(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what everything here is: it is a lesson about each thing."""
-    if not s.view.things:
+    things = _things_meant(s)
+    if not things:
         return None
-    return plan_several(s, s.view.things, _claimed_word(s), types=types)
+    return plan_several(s, things, _claimed_word(s), types=types)
 
 
 @rule(answers="InstructOnly")
@@ -161,7 +165,7 @@ def learn_anyway(s: Record, *, types: DialogueTypes) -> Record | None:
         return None
     if s.shared.qud[0].ask == ONLY:
         return _plan_only(said, types=types)
-    return plan_several(said, s.view.things, _claimed_word(said), types=types)
+    return plan_several(said, _things_meant(said), _claimed_word(said), types=types)
 
 
 @rule(answers="Deny")
@@ -171,7 +175,7 @@ def learn_others(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
     if said is None or s.shared.qud[0].ask != EVERY:
         return None
     noun = _claimed_word(said)
-    things = without_others(said, model, s.view.things, noun)
+    things = without_others(said, model, _things_meant(said), noun)
     return plan_several(said, things, noun, types=types) if things else None
 
 
@@ -324,12 +328,19 @@ def _claimed_word(s: Record) -> Record:
 
 def _fitting_things(s: Record, model: Model, *, types: DialogueTypes) -> list[str]:
     """The things in view of which the adjectives are true: "These are red cups."."""
+    things = _things_meant(s)
     if _claimed_word(s).kind != "noun":
-        return [*s.view.things]
+        return things
     said = phrase_at(content_of(s), "counted")
     rest = rectype({label: T for label, T in said.fields if label != "c"})
     fits = fits_well(s, PhraseJudge(s, model, types=types).fits(rest))
-    return [x for x in s.view.things if x in fits]
+    return [x for x in things if x in fits]
+
+
+def _things_meant(s: Record) -> list[str]:
+    """The things in view but for an exception: "all but the left one"."""
+    excepted = thing_at(content_of(s), "target")
+    return [x for x in s.view.things if x != excepted]
 
 
 def _is_other(s: Record, model: Model, x: str, noun: Record) -> bool:

@@ -187,6 +187,8 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
     match island.rule:
         case "mention":
             return situation.asks_which
+        case "correct_thing" if any(it.rule in CLAIMS for it in place.earlier):
+            return False  # "They are all cups, but not the left one."
         case "presumed":
             seen = situation.things == 1 and not sentence.is_question
             return place.begins and seen

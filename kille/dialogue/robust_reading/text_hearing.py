@@ -5,16 +5,18 @@ A lesson that the robot asks about comes last, and others are asked about with i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import replace
 from typing import NamedTuple
 
-from kille.dialogue.language import Sentence, reader, understand
+from kille.dialogue.language import Sentence, Utterance, reader, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
     packaged_types,
     predicate_at,
+    set_to,
     value_at,
 )
 from kille.dialogue.moves import words_in
@@ -48,7 +50,7 @@ from kille.dialogue.word_lists import (
     plain_text,
     word_lists,
 )
-from ttr import Record
+from ttr import Record, RecType
 
 SELF_ANSWERED = frozenset({"ask_name", "ask_certainty", "ask_whether", "ask_repeat"})
 """The questions that a tutor who then says what it is has answered themselves."""
@@ -128,6 +130,58 @@ def hear_text(
     return Hearing(moves, (), in_parts=False)
 
 
+def converse_question(
+    said: Sentence, s: Record, language: str = "en", *, types: DialogueTypes
+) -> Sentence:
+    """The question how two things stand, in the converse of a relation not learned.
+
+    Who was told that the book is to the left of the cup can tell if the cup is to the
+    right of the book. So it is where both words are known, and only the one was said of
+    what is here.
+    """
+    known = {it.form: it for it in s.private.relations}
+    if not known or not said.readings or act_of(said) != "ask_whether":
+        return said
+    here = {it.sign.form for it in s.private.lessons if it.content in s.shared.here}
+    settled = here & set(known) or set(known)
+    opposites = word_lists(language).opposites
+    readings = [_converse(it, known, settled, opposites, types) for it in said.readings]
+    return replace(said, readings=tuple(readings))
+
+
+def _converse(
+    reading: Utterance,
+    known: Mapping[str, Record],
+    settled: Set[str],
+    opposites: Mapping[str, str],
+    types: DialogueTypes,
+) -> Utterance:
+    """A reading with the converse of its relation, unless that itself is settled."""
+    content = reading.content
+    said = next((it for it in reading.signs if it.kind == "relation"), None)
+    if said is None or said.form in settled or not claims(content, said):
+        return reading
+    opposite = opposites.get(said.form, "")
+    if said.form in known and opposite not in settled:
+        return reading
+    converse = known.get(opposite)
+    if converse is None or not {"target", "landmark"} <= set(content.labels):
+        return reading
+    turned = set_to(
+        content,
+        target=content["landmark"],
+        landmark=content["target"],
+        rel=converse.meaning["rel"],
+    )
+    signs = tuple(converse if it == said else it for it in reading.signs)
+    move = set_to(
+        reading.type,
+        signs=types.record_type("Heard")["signs"] @ signs,
+        content=RecType @ turned,
+    )
+    return Utterance(reading.text, move)
+
+
 def settle_moves(
     said: Sequence[Sentence], situation: Situation, *, types: DialogueTypes
 ) -> tuple[Sentence, ...]:
@@ -184,7 +238,11 @@ def fill_noun(text: str, s: Record, language: str = "en") -> str:
 def complete_answer(
     sentence: Sentence, s: Record, language: str = "en", *, types: DialogueTypes
 ) -> Sentence:
-    """The sentence; in full if it only says which thing is meant, as in "Red."."""
+    """The sentence; in full if it only says which thing is meant, as in "Red.".
+
+    What asks how things stand by a word that was not learned is asked by its converse.
+    """
+    sentence = converse_question(sentence, s, language, types=types)
     if sentence.readings or not situation_of(s).asks_which:
         return sentence
     text = lexicon(language).answering.replace("{text}", sentence.text)
