@@ -171,7 +171,9 @@ def is_sure(s: Record, beliefs: Beliefs) -> bool:
     if not beliefs:
         return False
     bands = s.private.strategy.bands
-    return bool(beliefs[0].p >= bands.sure and lead(beliefs) >= bands.margin)
+    is_name = beliefs[0].sign.kind == "noun"
+    ahead = bands.name_margin if is_name else bands.margin
+    return bool(beliefs[0].p >= bands.sure and lead(beliefs) >= ahead)
 
 
 def thinks(s: Record, beliefs: Beliefs) -> bool:

@@ -203,8 +203,12 @@ def _bands(words: Mapping[str, Any]) -> dict[str, float]:
     think = max(likely, threshold(stakes["think"], stakes["doubt"]))
     sure = max(think, threshold(stakes["assert"], stakes["think"]))
     set_ = ("margin", "might", "probable", "unlikely")
-    return {"sure": sure, "think": think, "likely": likely} | {
-        name: words[name] for name in set_
+    return {
+        "sure": sure,
+        "think": think,
+        "likely": likely,
+        "name_margin": words.get("name_margin", words["margin"]),
+        **{name: words[name] for name in set_},
     }
 
 

@@ -91,6 +91,7 @@ class ObjectMemory:
         self._examples: Comparison | None = None
         self._latest: Comparison | None = None
         self._calibrated: Weighing | None = None
+        self._known: tuple[bool, ...] = ()
         for view in denied:
             self.deny(view)
 
@@ -155,6 +156,20 @@ class ObjectMemory:
         self._said[key] = label, group, matters
         self._weigh_anew()
 
+    @property
+    def known(self) -> tuple[bool, ...]:
+        """Whether the things it was told about after it had answered were known."""
+        return self._known
+
+    def reckon_with(self, known: Iterable[bool]) -> None:
+        """Take it that of the things asked about so many are strange.
+
+        `known` is of each thing that it was told about after it had answered whether it
+        was known, the latest last, in the place of what it was told before. The more
+        were strange, the lower are all degrees.
+        """
+        self._known = tuple(known)
+
     def relevance(self, label: str) -> Relevance:
         """Which cues count for a word, by what was said."""
         return self._relevance.get(label, Relevance())
@@ -210,7 +225,7 @@ class ObjectMemory:
                 cast[column] *= relevance.votes**2
         heard = self._without_ignored_size(likeness, labels)
         weighing = self._calibrated_weighing() if heard.scores else self._weighing
-        return weighing.evidence(labels, heard, cast)
+        return weighing.reckon_with(self._known).evidence(labels, heard, cast)
 
     def _calibrated_weighing(self) -> Weighing:
         """How evidence is weighed, by what the lessons say of each other."""

@@ -45,7 +45,7 @@ from kille.lab.scenes.galleries import LOOKING, Gallery
 from kille.lab.scenes.stills import Lesson
 from kille.lab.theories.candidates import Methods
 
-SURE, MARGIN, LIKELY = 0.6, 0.3, 0.2
+SURE, MARGIN, LIKELY = 0.6, 0.6, 0.2
 """From which degree on a robot asserts, how far ahead of others, and when it speaks."""
 
 _Run = tuple[Sequence[ObjectAnswer], Sequence[ObjectAnswer]]
@@ -113,9 +113,9 @@ def _runs(
 def is_asserted(answer: ObjectAnswer) -> bool:
     """Would a robot assert the word that is said?
 
-    >>> is_asserted(ObjectAnswer("cup", {"cup": 0.7, "mug": 0.2}))
+    >>> is_asserted(ObjectAnswer("cup", {"cup": 0.8, "mug": 0.1}))
     True
-    >>> is_asserted(ObjectAnswer("cup", {"cup": 0.6, "mug": 0.4}))
+    >>> is_asserted(ObjectAnswer("cup", {"cup": 0.7, "mug": 0.3}))
     False
     """
     _, second, *_ = *sorted(answer.degrees.values(), reverse=True), 0.0, 0.0
