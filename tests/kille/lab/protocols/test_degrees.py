@@ -82,6 +82,30 @@ def test_the_seed_decides(gallery: Gallery, colour: Make) -> None:
     assert facts(gallery, colour) != facts(gallery, colour, seed=4)
 
 
+def test_who_can_reckon_with_strangers_is_told_of_them(
+    gallery: Gallery, colour: Make
+) -> None:
+    class Reckoning(colour):  # type: ignore[misc]
+        def reckon_with(self, known: list[bool]) -> None:
+            raise AssertionError
+
+        def predict_proba_one(self, x: Any) -> dict[str, float]:
+            found = super().predict_proba_one(x)
+            return {word: degree / 2 for word, degree in found.items()}
+
+    taking_part = candidates(["it"], {"it": Reckoning})
+    result = degrees(gallery, taking_part, seed=3)
+    assert len(result.tables) == 6
+    plain: Any = result.facts["methods"]
+    told: Any = result.facts["told"]
+    for number, found in told["it"].items():
+        before = plain["it"][number]
+        # All was taught, and that is told: what was too low by a half is less so.
+        assert found["error_taught"] < before["error_taught"]
+        assert np.mean(found["asserted_taught"]) > np.mean(before["asserted"])
+    assert degrees(gallery, taking_part, seed=3).facts == result.facts
+
+
 def test_its_tables_and_diagrams(gallery: Gallery, colour: Make) -> None:
     taking_part = candidates(["colour"], {"colour": colour})
     result = degrees(gallery, taking_part, seed=0)
