@@ -39,6 +39,7 @@ from kille.perception.learners import Key, own_key
 from kille.perception.likeness import SIZE, Examples, Kernel, Likeness
 from kille.perception.nearest_words import MANY, NearestWords
 from kille.perception.relevance import Relevance
+from kille.perception.strangers import share_of_strangers
 from kille.perception.votes import UNTAUGHT, beyond_chance, rivals, votes
 from kille.scene import Features, Percept, Traits
 
@@ -160,6 +161,11 @@ class ObjectMemory:
     def known(self) -> tuple[bool, ...]:
         """Whether the things it was told about after it had answered were known."""
         return self._known
+
+    @property
+    def strangers(self) -> float:
+        """The share of strangers that it reckons with among what it is asked about."""
+        return share_of_strangers(self._known)
 
     def reckon_with(self, known: Iterable[bool]) -> None:
         """Take it that of the things asked about so many are strange.

@@ -29,15 +29,24 @@ LATEST = 12
 _PRIOR = 0.5  # a
 
 
-def log_odds_of_strangers(known: Sequence[bool]) -> float:
-    """The logarithm of π / (1 - π); `known` is of each thing told, the latest last.
+def share_of_strangers(known: Sequence[bool]) -> float:
+    """π; `known` is of each thing told whether it was known, the latest last.
 
-    >>> log_odds_of_strangers([]), log_odds_of_strangers([False, False, True])
-    (0.0, 0.0)
-    >>> log_odds_of_strangers([True]) == -math.log(3)
-    True
+    >>> share_of_strangers([]), share_of_strangers([False, False, True])
+    (0.5, 0.5)
+    >>> share_of_strangers([True])
+    0.25
     """
     latest = known[-LATEST:]
-    familiar = sum(latest)
-    strange = len(latest) - familiar
-    return min(0.0, math.log((strange + _PRIOR) / (familiar + _PRIOR)))
+    strange = len(latest) - sum(latest)
+    return min(0.5, (strange + _PRIOR) / (len(latest) + 2 * _PRIOR))
+
+
+def log_odds_of_strangers(known: Sequence[bool]) -> float:
+    """The logarithm of π / (1 - π).
+
+    >>> log_odds_of_strangers([])
+    0.0
+    """
+    share = share_of_strangers(known)
+    return math.log(share / (1 - share))

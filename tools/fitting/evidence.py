@@ -38,6 +38,7 @@ from kille.perception.evidence import Weighing, unlike_in_size
 from kille.perception.features import features_of
 from kille.perception.likeness import SIZE, Examples, Kernel
 from kille.perception.segment import overlap, region_of, segment
+from kille.perception.strangers import share_of_strangers
 from kille.perception.votes import beyond_chance, votes
 from kille.scene import Frame, Region
 from kille.sensors.sensor import Stage
@@ -412,9 +413,10 @@ def _answer_all(
     thing was known, or does not."""
     said, known = [], list[bool]()
     for view, it in zip(asked, found, strict=True):
-        by = weighed.reckon_with(known) if tells else weighed
-        said.append(ObjectAnswer(view.label, _degrees_by(by, it, labels)))
-        known.append(it.column >= 0)
+        degrees = _degrees_by(weighed.reckon_with(known), it, labels)
+        said.append(ObjectAnswer(view.label, degrees, share_of_strangers(known)))
+        if tells:
+            known.append(it.column >= 0)
     return Degrees(
         [it for it in said if it.word in labels],
         [it for it in said if it.word not in labels],

@@ -28,8 +28,8 @@ COLOURS: dict[str, Any] = {
     ("cup", "mug", "answer"),
     [
         (0.9, 0.05, "Yes, this is a cup."),
-        (0.7, 0.1, "Yes, this is a cup."),
-        (0.7, 0.11, "Probably this is a cup."),
+        (0.6, 0.3, "Yes, this is a cup."),
+        (0.6, 0.31, "Probably this is a cup."),
         (0.5, 0.45, "Probably this is a cup."),
         (0.05, 0.9, "No, I think this is a mug."),
         (0.25, 0.9, "I do not know."),

@@ -15,7 +15,7 @@ from ttr import Record, RecordType, replace
 
 KNOWN = {
     ("cup", "o1"): 0.9,
-    ("mug", "o1"): 0.1,
+    ("mug", "o1"): 0.4,
     ("book", "o2"): 0.9,
     ("is_red", "o1"): 0.9,
     ("to_the_left_of", "o1", "o2"): 0.9,

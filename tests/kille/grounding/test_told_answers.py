@@ -8,12 +8,14 @@ from pathlib import Path
 import pytest
 
 from kille.agent.agent import Agent
+from kille.dialogue.beliefs import is_sure
 from kille.grounding.lessons_and_learners import Knowledge
 from kille.grounding.told_answers import told_whether_known
 from kille.memory import Memory
 from kille.perception.look import look
 from kille.perception.strangers import LATEST
 from kille.sensors.synthetic import open_synthetic
+from ttr import record, replace
 
 SAID = {
     "en": {
@@ -121,3 +123,19 @@ def test_what_fails_was_not_told(memory: Memory) -> None:
         fail()
     assert seen == [()]
     assert known.objects.known == told_whether_known(memory) == (True,)
+
+
+def test_the_fewer_strangers_the_farther_ahead_a_name_must_be(memory: Memory) -> None:
+    robot = Agent(sensor="synthetic:empty?seed=11", memory=memory)
+    play(robot, "@cup cup ask")
+    assert robot.state.private.strategy.strangers == 0.5
+    play(robot, "yes ask")
+    assert robot.state.private.strategy.strangers == 0.25
+    cup, *_ = robot.state.private.nouns
+    name, rival = (record(p=p, sign=cup) for p in (0.7, 0.27))
+    assert not is_sure(robot.state, [name, rival])  # .3 ahead does not do any more
+    nobody_told = replace(robot.state, {"private.strategy.strangers": 0.5})
+    assert is_sure(nobody_told, [name, rival])
+    robot.do("restart")
+    play(robot, "@cup ask")
+    assert robot.state.private.strategy.strangers == 0.25

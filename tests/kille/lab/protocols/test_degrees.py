@@ -10,7 +10,14 @@ import pytest
 
 from kille.dialogue.strategies import strategy
 from kille.lab.measures.statistics import calibration_error
-from kille.lab.protocols.degrees import LIKELY, MARGIN, SURE, degrees, is_asserted
+from kille.lab.protocols.degrees import (
+    LIKELY,
+    MARGIN,
+    NAME_MARGIN,
+    SURE,
+    degrees,
+    is_asserted,
+)
 from kille.lab.protocols.teaching import ObjectAnswer
 from kille.lab.scenes.galleries import Gallery
 from kille.lab.theories.candidates import candidates
@@ -26,20 +33,27 @@ def facts(gallery: Gallery, make: Make, seed: int = 3) -> dict[str, Any]:
 
 def test_the_bands_are_those_of_the_papers_wording() -> None:
     bands = strategy(wording="paper").bands
-    assert (bands.sure, bands.name_margin, bands.likely) == (SURE, MARGIN, LIKELY)
+    assert (bands.sure, bands.margin, bands.likely) == (SURE, MARGIN, LIKELY)
+    assert bands.name_margin == NAME_MARGIN
 
 
 @pytest.mark.parametrize(
     ("said", "asserted"),
     [
-        ({"cup": 0.7, "mug": 0.1}, True),
+        ({"cup": 0.6, "mug": 0.3}, True),
         ({"cup": 0.59}, False),
-        ({"cup": 0.7, "mug": 0.11}, False),
+        ({"cup": 0.61, "mug": 0.32}, False),
         ({}, False),
     ],
 )
 def test_what_is_asserted(said: dict[str, float], asserted: bool) -> None:
     assert is_asserted(ObjectAnswer("cup", said)) == asserted
+
+
+def test_the_fewer_strangers_the_farther_ahead_is_what_is_asserted() -> None:
+    said = {"cup": 0.7, "mug": 0.2}
+    assert is_asserted(ObjectAnswer("cup", said, 0.3))
+    assert not is_asserted(ObjectAnswer("cup", said, 0.1))
 
 
 def test_degrees_that_are_right_are_not_off() -> None:
