@@ -57,6 +57,7 @@ from kille.dialogue.robust_reading.text_hearing import (
 )
 from kille.dialogue.robust_reading.whole_sentences import needs_parts
 from kille.dialogue.state import blank_model, words
+from kille.dialogue.strategies import reckon_with_strangers
 from kille.dialogue.tutoring import hear_sentences, tutoring
 from kille.dialogue.wording import did_not_understand
 from kille.grounding.lessons_and_learners import Knowledge, Learners
@@ -730,11 +731,16 @@ class Agent(Closing, NotebookValue):
     def _play(self, now: Run, event: object) -> TurnResult:
         """Play an event, and what the robot says to it."""
         assert self.game.say is not None
-        turn = self.game.take(now, event)
+        turn = self.game.take(self._reckoning(now), event)
         said = tuple(RobotSentence(self.game.say(move), move) for move in turn.said)
         for it in said:
             self._log.record_said(it.text, str(it.judgement))
         return Exchange("", None, turn.trace, said, self._clock()), turn.run
+
+    def _reckoning(self, now: Run) -> Run:
+        """The same, where it reckons with as many strangers as it knows of now."""
+        share = self._knowledge.objects.strangers
+        return now._replace(state=reckon_with_strangers(now.state, share))
 
     def _sentences_with_numbers(self, text: str, words: str) -> tuple[Sentence, ...]:
         """The sentences of a text in which numbers name things: "Is #2 a cup?".

@@ -170,8 +170,22 @@ def is_sure(s: Record, beliefs: Beliefs) -> bool:
     """Whether the first belief is certain enough, and far enough from the second."""
     if not beliefs:
         return False
-    bands = s.private.strategy.bands
-    return bool(beliefs[0].p >= bands.sure and lead(beliefs) >= bands.margin)
+    sure = s.private.strategy.bands.sure
+    ahead = _needed_lead(s, beliefs[0].sign)
+    return bool(beliefs[0].p >= sure and lead(beliefs) >= ahead)
+
+
+def _needed_lead(s: Record, sign: Record) -> float:
+    """How far ahead of its rival a word must be to be asserted.
+
+    A name the farther, the fewer strangers the robot reckons with.
+    """
+    strategy = s.private.strategy
+    bands = strategy.bands
+    if sign.kind != "noun":
+        return float(bands.margin)
+    familiar = 1.0 - 2.0 * strategy.strangers
+    return float(bands.margin + (bands.name_margin - bands.margin) * familiar)
 
 
 def thinks(s: Record, beliefs: Beliefs) -> bool:

@@ -22,7 +22,7 @@ from kille.dialogue.language_files import (
     last_change,
     read_table,
 )
-from ttr import Record, record
+from ttr import Record, record, replace
 from ttr.aliases import former_names
 
 __getattr__ = former_names(__name__, {"expected": "expected_value"})
@@ -157,6 +157,18 @@ def strategy(
     return _strategy(mode, wording, turns, folder, changed)
 
 
+def reckon_with_strangers(s: Record, share: float) -> Record:
+    """The state where so many of the things that are asked about may be strange.
+
+    >>> from kille.dialogue.state import initial
+    >>> reckon_with_strangers(initial(), 0.25).private.strategy.strangers
+    0.25
+    """
+    if s.private.strategy.strangers == share:
+        return s
+    return replace(s, {"private.strategy.strangers": share})
+
+
 @lru_cache
 def _strategy(mode: str, wording: str, turns: str, folder: str, _: int) -> Record:
     data = _data(folder)
@@ -182,6 +194,7 @@ def _strategy(mode: str, wording: str, turns: str, folder: str, _: int) -> Recor
         ),
         turns=record(silences, name=turns),
         salience=record(_weights(data)),
+        strangers=0.5,
     )
 
 
@@ -203,8 +216,12 @@ def _bands(words: Mapping[str, Any]) -> dict[str, float]:
     think = max(likely, threshold(stakes["think"], stakes["doubt"]))
     sure = max(think, threshold(stakes["assert"], stakes["think"]))
     set_ = ("margin", "might", "probable", "unlikely")
-    return {"sure": sure, "think": think, "likely": likely} | {
-        name: words[name] for name in set_
+    return {
+        "sure": sure,
+        "think": think,
+        "likely": likely,
+        "name_margin": words.get("name_margin", words["margin"]),
+        **{name: words[name] for name in set_},
     }
 
 

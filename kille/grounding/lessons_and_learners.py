@@ -13,6 +13,7 @@ from kille.dialogue.meanings import predicate_name
 from kille.grounding.generics import Generic, Generics
 from kille.grounding.hindsight import PastLesson, was_right
 from kille.grounding.reasons import Reasons, Share, best_rival, shares_of
+from kille.grounding.told_answers import told_whether_known
 from kille.memory import (
     Arrangement,
     CriterionLesson,
@@ -115,6 +116,7 @@ class Knowledge:
         for known in memory.criteria():
             by, of, degree = known.seen.by, known.seen.name, known.seen.degree
             self._learn_criterion(known.key, known.word.name, by, of, degree)
+        self._reckon_with_strangers()
 
     @contextmanager
     def together(self) -> Iterator[None]:
@@ -153,6 +155,7 @@ class Knowledge:
             )
             learn(percept, name, key=key)
             self._undo(self.objects.forget, key)
+            self._reckon_with_strangers()
         return key
 
     def learn_attribute(
@@ -237,6 +240,7 @@ class Knowledge:
             lesson = self.memory.lesson(key)
             self.memory.forget(key)
             self._forget(lesson)
+            self._reckon_with_strangers()
 
     def forget_word(self, kind: Kind, name: str) -> tuple[int, ...]:
         """Forget a word with all its lessons; returns their keys.
@@ -248,6 +252,7 @@ class Knowledge:
             lessons = [self.memory.lesson(key) for key in keys]
             self.memory.forget_word(kind, name)
             self._forget(*lessons)
+            self._reckon_with_strangers()
         return keys
 
     def hindsight(self, name: str, latest: int) -> Iterator[bool]:
@@ -347,6 +352,11 @@ class Knowledge:
         """Register an undo, in case the enclosing `together` fails."""
         if self._undoing is not None:
             self._undoing.callback(undo, *given)
+
+    def _reckon_with_strangers(self) -> None:
+        """Reckon with as many strangers as there were among the things told about."""
+        self._undo(self.objects.reckon_with, self.objects.known)
+        self.objects.reckon_with(told_whether_known(self.memory))
 
     def _forget(self, *lessons: Lesson) -> None:
         """Have the learners forget lessons; undo restores them in order."""

@@ -122,6 +122,11 @@ class MemoryReader(Closing):
         with self._guard_reading():
             return reading.turns(self._connection)
 
+    def turns_before(self, turn: Turn, count: int) -> tuple[Turn, ...]:
+        """The last `count` turns before one of the same dialogue, in order."""
+        with self._guard_reading():
+            return reading.turns_before(self._connection, turn, count)
+
     def lessons(self) -> tuple[Lesson, ...]:
         """All lessons, oldest first, without what was seen in them."""
         with self._guard_reading():
@@ -141,6 +146,14 @@ class MemoryReader(Closing):
         return found
 
     told = Alias("lesson_without_sight")
+
+    def first_key_of(self, kind: Kind, name: str) -> int | None:
+        """The key of the oldest lesson in which a word was said to apply.
+
+        None for a word that is not known.
+        """
+        with self._guard_reading():
+            return reading.first_key_of(self._connection, kind, name)
 
     def keys_of(self, kind: Kind, name: str) -> tuple[int, ...]:
         """The keys of the lessons in a word, oldest first."""

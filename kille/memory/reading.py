@@ -103,7 +103,14 @@ TOLD = f"""
     WHERE lessons.id = ?
 """
 
+TURNS_BEFORE = """
+    SELECT dialogue, number, speaker, text, judgement, time FROM turns
+    WHERE dialogue = ? AND number < ? ORDER BY number DESC LIMIT ?
+"""
+
 COUNTS = "SELECT kind, name, count(*) FROM lessons WHERE holds GROUP BY kind, name"
+
+FIRST_KEY = "SELECT min(id) FROM lessons WHERE kind = ? AND name = ? AND holds"
 
 KEYS_OF_WORD = "SELECT id FROM lessons WHERE kind = ? AND name = ? ORDER BY id"
 
@@ -212,6 +219,15 @@ def turns(connection: sqlite3.Connection) -> tuple[Turn, ...]:
     return tuple(Turn(*row) for row in connection.execute(TURNS))
 
 
+def turns_before(
+    connection: sqlite3.Connection, turn: Turn, count: int
+) -> tuple[Turn, ...]:
+    """The last `count` turns before one of the same dialogue, in order."""
+    asked = turn.dialogue, turn.number, count
+    found = connection.execute(TURNS_BEFORE, asked).fetchall()
+    return tuple(Turn(*row) for row in reversed(found))
+
+
 def lessons(connection: sqlite3.Connection) -> tuple[Lesson, ...]:
     """All lessons, oldest first, without what was seen in them."""
     return tuple(_lesson(row) for row in connection.execute(LESSONS))
@@ -227,6 +243,12 @@ def lesson_without_sight(connection: sqlite3.Connection, key: int) -> Lesson | N
     """The lesson of this key without what was seen, or None."""
     row = connection.execute(TOLD, (key,)).fetchone()
     return None if row is None else _lesson(row)
+
+
+def first_key_of(connection: sqlite3.Connection, kind: Kind, name: str) -> int | None:
+    """The key of the oldest lesson in which a word was said to apply, or None."""
+    (key,) = connection.execute(FIRST_KEY, (kind, name)).fetchone()
+    return None if key is None else int(key)
 
 
 def keys_of(connection: sqlite3.Connection, kind: Kind, name: str) -> tuple[int, ...]:

@@ -25,13 +25,14 @@ among these very things (`kille.perception.calibration`): b and r become
 
 where u is what the votes of features add on the whole, since lessons that are left out
 are asked for their traits only. So degrees are right as often as they say, also where
-half of what is asked about was never taught.
+half of what is asked about was never taught. How much is strange of what is asked about
+a tutor may tell, and then b' is changed by that (`kille.perception.strangers`).
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
@@ -40,6 +41,7 @@ import numpy as np
 
 from kille.perception.calibration import LeftOut, calibrate
 from kille.perception.likeness import SIZE, Kernel, Likeness, Numbers
+from kille.perception.strangers import log_odds_of_strangers
 
 __all__ = ["Evidence", "Weighing", "weighing"]
 
@@ -76,6 +78,15 @@ class Weighing:
         by = calibrate(found, logits, apart)
         base = by.slope * traits + by.shift - self.usual
         return replace(self, base=base, score=by.slope * self.score)
+
+    def reckon_with(self, known: Sequence[bool]) -> Weighing:
+        """The same where so many strangers are to be reckoned with.
+
+        `known` is of each thing told about whether it was known, the latest last.
+        """
+        if not known:
+            return self
+        return replace(self, base=self.base - log_odds_of_strangers(known))
 
     def evidence(
         self, labels: tuple[str, ...], likeness: Likeness, votes: Numbers

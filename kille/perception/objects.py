@@ -39,6 +39,7 @@ from kille.perception.learners import Key, own_key
 from kille.perception.likeness import SIZE, Examples, Kernel, Likeness
 from kille.perception.nearest_words import MANY, NearestWords
 from kille.perception.relevance import Relevance
+from kille.perception.strangers import share_of_strangers
 from kille.perception.votes import UNTAUGHT, beyond_chance, rivals, votes
 from kille.scene import Features, Percept, Traits
 
@@ -91,6 +92,7 @@ class ObjectMemory:
         self._examples: Comparison | None = None
         self._latest: Comparison | None = None
         self._calibrated: Weighing | None = None
+        self._known: tuple[bool, ...] = ()
         for view in denied:
             self.deny(view)
 
@@ -155,6 +157,25 @@ class ObjectMemory:
         self._said[key] = label, group, matters
         self._weigh_anew()
 
+    @property
+    def known(self) -> tuple[bool, ...]:
+        """Whether the things it was told about after it had answered were known."""
+        return self._known
+
+    @property
+    def strangers(self) -> float:
+        """The share of strangers that it reckons with among what it is asked about."""
+        return share_of_strangers(self._known)
+
+    def reckon_with(self, known: Iterable[bool]) -> None:
+        """Take it that of the things asked about so many are strange.
+
+        `known` is of each thing that it was told about after it had answered whether it
+        was known, the latest last, in the place of what it was told before. The more
+        were strange, the lower are all degrees.
+        """
+        self._known = tuple(known)
+
     def relevance(self, label: str) -> Relevance:
         """Which cues count for a word, by what was said."""
         return self._relevance.get(label, Relevance())
@@ -210,7 +231,7 @@ class ObjectMemory:
                 cast[column] *= relevance.votes**2
         heard = self._without_ignored_size(likeness, labels)
         weighing = self._calibrated_weighing() if heard.scores else self._weighing
-        return weighing.evidence(labels, heard, cast)
+        return weighing.reckon_with(self._known).evidence(labels, heard, cast)
 
     def _calibrated_weighing(self) -> Weighing:
         """How evidence is weighed, by what the lessons say of each other."""

@@ -11,7 +11,8 @@ kernels are given: they were chosen by what tells categories of these pictures a
 With `--held-out` half of the words are fitted to and the other half asked, both ways:
 so much is to be expected of words that nothing was fitted to. `--degrees` prints
 whether degrees mean what they say, of categories that nothing was fitted to but the
-kernels' weights, before and after the lessons have calibrated them.
+kernels' weights, before and after the lessons have calibrated them, and where a tutor
+tells after each answer whether the thing was known.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ from kille.perception.evidence import Weighing, unlike_in_size
 from kille.perception.features import features_of
 from kille.perception.likeness import SIZE, Examples, Kernel
 from kille.perception.segment import overlap, region_of, segment
+from kille.perception.strangers import share_of_strangers
 from kille.perception.votes import beyond_chance, votes
 from kille.scene import Frame, Region
 from kille.sensors.sensor import Stage
@@ -56,6 +58,9 @@ FEW, MANY = 3, 12
 SEEDS = 8
 SHOTS, LAST = 5, 6
 """Pictures of a word that are taught, and asked, where degrees are measured."""
+
+ORDERS = 8
+"""In so many orders of chance a tutor asks, and tells whether the thing was known."""
 
 RIDGE = 1e-3  # on the numbers that are fitted
 WEIGHTS = {
@@ -387,21 +392,35 @@ def _ask_words(
     labels = sorted(taught)
     left_out = Examples(lessons, labels, weighed.kernels).left_out()
     found = list(answers(lessons, asked, weighed.kernels))
-    for name, by in (
-        ("as fitted", weighed),
-        ("calibrated", weighed.calibrate_by(left_out)),
-    ):
-        said = [
-            ObjectAnswer(view.label, _degrees_by(by, it, labels))
-            for view, it in zip(asked, found, strict=True)
-        ]
-        yield (
-            name,
-            Degrees(
-                [it for it in said if it.word in taught],
-                [it for it in said if it.word not in taught],
-            ),
-        )
+    calibrated = weighed.calibrate_by(left_out)
+    yield "as fitted", _answer_all(asked, found, labels, weighed)
+    yield "calibrated", _answer_all(asked, found, labels, calibrated)
+    for _ in range(ORDERS):
+        order = chance.permutation(len(asked)).tolist()
+        told = [asked[i] for i in order], [found[i] for i in order]
+        yield "calibrated and told", _answer_all(*told, labels, calibrated, tells=True)
+
+
+def _answer_all(
+    asked: Sequence[View],
+    found: Sequence[Asked],
+    labels: Sequence[str],
+    weighed: Weighing,
+    *,
+    tells: bool = False,
+) -> Degrees:
+    """The answers about all views in turn, where a tutor tells after each whether the
+    thing was known, or does not."""
+    said, known = [], list[bool]()
+    for view, it in zip(asked, found, strict=True):
+        degrees = _degrees_by(weighed.reckon_with(known), it, labels)
+        said.append(ObjectAnswer(view.label, degrees, share_of_strangers(known)))
+        if tells:
+            known.append(it.column >= 0)
+    return Degrees(
+        [it for it in said if it.word in labels],
+        [it for it in said if it.word not in labels],
+    )
 
 
 def _degrees_by(

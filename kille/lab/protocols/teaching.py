@@ -20,10 +20,14 @@ NOTHING = "nothing known"
 
 @dataclass(frozen=True)
 class ObjectAnswer:
-    """A learner's degrees of the words for a thing, and the right word for it."""
+    """A learner's degrees of the words for a thing, and the right word for it.
+
+    `strangers` is the share of strangers that it reckoned with.
+    """
 
     word: str
     degrees: Mapping[str, float]
+    strangers: float = 0.5
 
     @property
     def said(self) -> str:

@@ -102,6 +102,7 @@ def test_the_shipped_bands_are_those_of_the_papers() -> None:
         0.2,
         0.05,
     )
+    assert (paper.name_margin, four.name_margin) == (0.6, four.margin)
     assert (four.sure, four.think, four.likely) == (0.8, 0.5, 0.3)
 
 

@@ -103,7 +103,9 @@ def test_degrees_are_measured_of_words_that_nothing_was_fitted_to(
     assert [line.partition(":")[0] for line in once] == [
         "all taught, as fitted",
         "all taught, calibrated",
+        "all taught, calibrated and told",
         "half taught, as fitted",
         "half taught, calibrated",
+        "half taught, calibrated and told",
     ]
-    assert all("right 1.000" in line for line in once[:2])
+    assert all("right 1.000" in line for line in once[:3])

@@ -10,7 +10,14 @@ import pytest
 
 from kille.dialogue.strategies import strategy
 from kille.lab.measures.statistics import calibration_error
-from kille.lab.protocols.degrees import LIKELY, MARGIN, SURE, degrees, is_asserted
+from kille.lab.protocols.degrees import (
+    LIKELY,
+    MARGIN,
+    NAME_MARGIN,
+    SURE,
+    degrees,
+    is_asserted,
+)
 from kille.lab.protocols.teaching import ObjectAnswer
 from kille.lab.scenes.galleries import Gallery
 from kille.lab.theories.candidates import candidates
@@ -27,6 +34,7 @@ def facts(gallery: Gallery, make: Make, seed: int = 3) -> dict[str, Any]:
 def test_the_bands_are_those_of_the_papers_wording() -> None:
     bands = strategy(wording="paper").bands
     assert (bands.sure, bands.margin, bands.likely) == (SURE, MARGIN, LIKELY)
+    assert bands.name_margin == NAME_MARGIN
 
 
 @pytest.mark.parametrize(
@@ -40,6 +48,12 @@ def test_the_bands_are_those_of_the_papers_wording() -> None:
 )
 def test_what_is_asserted(said: dict[str, float], asserted: bool) -> None:
     assert is_asserted(ObjectAnswer("cup", said)) == asserted
+
+
+def test_the_fewer_strangers_the_farther_ahead_is_what_is_asserted() -> None:
+    said = {"cup": 0.7, "mug": 0.2}
+    assert is_asserted(ObjectAnswer("cup", said, 0.3))
+    assert not is_asserted(ObjectAnswer("cup", said, 0.1))
 
 
 def test_degrees_that_are_right_are_not_off() -> None:
@@ -80,6 +94,30 @@ def test_who_says_nothing_asserts_nothing(gallery: Gallery, mute: Make) -> None:
 def test_the_seed_decides(gallery: Gallery, colour: Make) -> None:
     assert facts(gallery, colour) == facts(gallery, colour)
     assert facts(gallery, colour) != facts(gallery, colour, seed=4)
+
+
+def test_who_can_reckon_with_strangers_is_told_of_them(
+    gallery: Gallery, colour: Make
+) -> None:
+    class Reckoning(colour):  # type: ignore[misc]
+        def reckon_with(self, known: list[bool]) -> None:
+            raise AssertionError
+
+        def predict_proba_one(self, x: Any) -> dict[str, float]:
+            found = super().predict_proba_one(x)
+            return {word: degree / 2 for word, degree in found.items()}
+
+    taking_part = candidates(["it"], {"it": Reckoning})
+    result = degrees(gallery, taking_part, seed=3)
+    assert len(result.tables) == 6
+    plain: Any = result.facts["methods"]
+    told: Any = result.facts["told"]
+    for number, found in told["it"].items():
+        before = plain["it"][number]
+        # All was taught, and that is told: what was too low by a half is less so.
+        assert found["error_taught"] < before["error_taught"]
+        assert np.mean(found["asserted_taught"]) > np.mean(before["asserted"])
+    assert degrees(gallery, taking_part, seed=3).facts == result.facts
 
 
 def test_its_tables_and_diagrams(gallery: Gallery, colour: Make) -> None:
