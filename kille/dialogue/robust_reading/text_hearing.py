@@ -353,7 +353,14 @@ def _turns_away(
     if not moves:
         forms = plain_text(lists.write_out(said.text)).split()
         return not lists.negations.isdisjoint(forms)
-    return not situation.asks_which and any(act_of(it) == "mention" for it in moves)
+    return not situation.asks_which and any(map(_says_which_only, moves))
+
+
+def _says_which_only(it: Sentence) -> bool:
+    """Whether a move only says which thing is meant, and by no noun."""
+    if act_of(it) == "correct_thing":
+        return not it.readings[0].signs
+    return act_of(it) == "mention"
 
 
 def _says_no(said: Sentence, lists: WordLists) -> bool:
