@@ -239,8 +239,10 @@ class WordLists:
         >>> english = word_lists("en")
         >>> [english.names_quality(it) for it in ("soft", "leather", "cup", "wug")]
         [True, True, False, False]
+        >>> [english.names_quality(it) for it in ("good", "three")]
+        [False, False]
         """
-        if form in self.things:
+        if form in self.things or form in self.evaluations or form in self.numbers:
             return False
         return self._is_quality(form) or form in self.materials
 

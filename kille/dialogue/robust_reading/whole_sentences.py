@@ -71,13 +71,14 @@ def _is_odd(sign: Record, qualities: Set[str], lists: WordLists) -> bool:
         if parts[0] in lists.articles or not lists.fillers.isdisjoint(parts):
             return True
         return len(parts) == 1 and _is_no_relation(parts[0], qualities, lists)
-    return any(map(lists.is_closed, parts)) or _ends_with_aside(parts, lists)
+    if sign.kind == "noun" and _ends_with_aside(parts, lists):
+        return True
+    return any(map(lists.is_closed, parts))
 
 
 def _ends_with_aside(parts: Sequence[str], lists: WordLists) -> bool:
-    """Whether the last word of several may be left out: "a tool anyway"."""
-    last = parts[-1]
-    return len(parts) > 1 and (last,) in lists.harmless and last not in lists.things
+    """Whether the last word of a noun may be left out: "a tool anyway"."""
+    return (parts[-1],) in lists.harmless and parts[-1] not in lists.things
 
 
 def _is_no_relation(form: str, qualities: Set[str], lists: WordLists) -> bool:
@@ -112,7 +113,8 @@ def _has_closed_word(reading: Utterance, lists: WordLists) -> bool:
     """Whether a noun has a part that is none of a noun's: "a ladle then"."""
     nouns = (it.form.split() for it in reading.signs if it.kind == "noun")
     return any(
-        _ends_with_aside(parts, lists) or any(map(lists.is_closed, parts))
+        any(map(lists.is_closed, parts))
+        or (len(parts) > 1 and _ends_with_aside(parts, lists))
         for parts in nouns
     )
 
