@@ -348,6 +348,8 @@ class Reader:
                 if any(it.rule == rule for it in parts(move)):
                     heard = set_to(heard, stance=self._types["Text"] @ stance)
             doubt = SAYING if is_saying else doubt
+            if partly == SAYING and doubt == PARTIAL:
+                doubt = SAYING  # "I'd like a cup of coffee."
             if move.rule == "reject" and self._denies_article(signs):
                 doubt = SAYING
             doubt = REMARK if doubt == DOUBTFUL and partly else doubt or partly

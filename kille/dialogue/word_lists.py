@@ -233,6 +233,19 @@ class WordLists:
             return REMARK
         return REMARK if words[-1] in self.abstract else DOUBTFUL
 
+    def names_quality(self, form: str) -> bool:
+        """Whether a word by itself says how a thing is, or of what, and not what.
+
+        >>> english = word_lists("en")
+        >>> [english.names_quality(it) for it in ("soft", "leather", "cup", "wug")]
+        [True, True, False, False]
+        >>> [english.names_quality(it) for it in ("good", "three")]
+        [False, False]
+        """
+        if form in self.things or form in self.evaluations or form in self.numbers:
+            return False
+        return self._is_quality(form) or form in self.materials
+
     def intended_word(self, form: str, kind: str) -> tuple[str, str, str] | None:
         """The common word that a new one may be a slip of: its form, kind and article.
 
@@ -296,12 +309,16 @@ _ROWS = ("qwertyuiopå", "asdfghjklöä", "zxcvbnm")
 _VOWELS = frozenset("aeiouyåäöéèüæøáíóúêôàçñ")
 
 
+_MOST_VOWELS = 4
+"""How many vowels may stand in a word without any other letter."""
+
+
 def is_noise(form: str) -> bool:
     """Whether a word is none of any language: fingers on the keyboard, or no vowels.
 
-    >>> words = ("cup", "asdfgh", "rhythm", "hgfk", "aaargh", "wug")
+    >>> words = ("cup", "asdfgh", "rhythm", "hgfk", "aaargh", "wug", "öäåöä")
     >>> [it for it in words if is_noise(it)]
-    ['asdfgh', 'hgfk', 'aaargh']
+    ['asdfgh', 'hgfk', 'aaargh', 'öäåöä']
     """
     for word in form.split("_"):
         rows = [*_ROWS, *(it[::-1] for it in _ROWS)]
@@ -318,6 +335,8 @@ def is_noise(form: str) -> bool:
         if len(parts := word.split("-")) > 2 and all(len(it) == 1 for it in parts):
             return True  # "c-u-p"
         if any(a == b == c for a, b, c in zip(word, word[1:], word[2:], strict=False)):
+            return True
+        if len(word) > _MOST_VOWELS and _VOWELS.issuperset(word):
             return True
     return False
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from kille.dialogue.beliefs import knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.criteria import COMPONENT
-from kille.dialogue.games.second_noun import BOTH
+from kille.dialogue.games.second_noun import BOTH, EITHER
 from kille.dialogue.meanings import (
     CLAIMS,
     DialogueTypes,
@@ -171,7 +171,7 @@ def ask_kind(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
         noun = types.sign(sign.form, "noun")
         named, model = as_naming(options[0], sign, noun, model, types=types)
         options = [named, *options]
-        if any("c" in it for it in s.shared.pending):
+        if _is_said_for_name(s, model, types=types):
             return _ask_name(s, named, types=types), model
     asked = issue(KIND, options)
     question = plan(
@@ -184,6 +184,21 @@ def ask_kind(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
         types=types,
     )
     return question, model
+
+
+def _is_said_for_name(s: Record, model: Model, *, types: DialogueTypes) -> bool:
+    """Whether a word stands in the place of a name for a thing: "No, mug."
+
+    So it is after a claim what a thing is, after the question which of two names is
+    right, and after a lesson what it is, which the word corrects.
+    """
+    if any("c" in it for it in s.shared.pending):
+        return True
+    if s.shared.qud and s.shared.qud[0].ask in (BOTH, EITHER):
+        return True
+    taught = [it.content for it in s.private.lessons[-1:]]
+    corrects = types.has(s.shared.latest, "Correct", model)
+    return corrects and any("c" in it and it in s.shared.here for it in taught)
 
 
 def _ask_name(s: Record, named: Record, *, types: DialogueTypes) -> Record:

@@ -29,7 +29,16 @@ from kille.dialogue.robust_reading.self_repairs import RepairedSentence
 from kille.dialogue.robust_reading.situations import Situation
 
 WHOLE = frozenset(
-    {"affirm", "deny", "okay", "ask_repeat", "ask_help", "leave", "alone"}
+    {
+        "affirm",
+        "deny",
+        "okay",
+        "ask_repeat",
+        "ask_help",
+        "leave",
+        "alone",
+        "release_floor",
+    }
 )
 """The moves beside which nothing of their clause may be left out."""
 
@@ -220,7 +229,9 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
             it.is_bare for it in place.other_claims
         ):
             return False
-        case "instruct" | "alone" if island.is_bare and _is_subject(place):
+        case "instruct" | "alone" if island.is_bare and (
+            _is_subject(place) or _is_of_robot(place)
+        ):
             return False
         case "correct" if _is_contrast(island) and not (place.begins and place.ends):
             return False
@@ -241,6 +252,12 @@ def _is_subject(place: _Place) -> bool:
     """Whether a verb follows in the same clause: "a real bear would eat you"."""
     after = [it for it in place.near if it > place.inside[-1]]
     return any(it.is_auxiliary for it in after)
+
+
+def _is_of_robot(place: _Place) -> bool:
+    """Whether it says what the robot is: "you are a gem"."""
+    before = [it for it in place.near if it < place.inside[0]]
+    return any(it.is_of_robot for it in before)
 
 
 def _begins_clause(place: _Place) -> bool:

@@ -27,6 +27,8 @@ class Word(NamedTuple):
     """How many words the harmless phrase has in which it stands: "no problem"."""
     is_auxiliary: bool = False
     """Whether the words before it are its subject: "a real bear would eat you"."""
+    is_of_robot: bool = False
+    """Whether it says what the robot is: the verb in "you are a gem"."""
 
 
 def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
@@ -61,7 +63,11 @@ def words_of(text: str, lists: WordLists) -> tuple[Word, ...]:
         clause += at > 0 and (joins or at in breaks)
         is_harmless, phrase = joins or at in harmless, harmless.get(at, 1)
         verb = form in lists.auxiliaries
-        words.append(Word(begin, end, form, clause, is_harmless, joins, phrase, verb))
+        beside = {form, *forms[max(at - 1, 0) : at + 2]}
+        of_robot = lists.has_copula(form) and not lists.addressees.isdisjoint(beside)
+        words.append(
+            Word(begin, end, form, clause, is_harmless, joins, phrase, verb, of_robot)
+        )
     return tuple(words)
 
 

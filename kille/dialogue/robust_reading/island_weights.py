@@ -41,11 +41,15 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             return 1.0 if situation.asks_which else 0.02
         case "take_frame" | "remark":
             return 0.02
+        case "alone" if all(map(lists.names_quality, _new_words(move))):
+            return 0.0  # "Half-full."
         case "alone":
             return 0.5 if situation.asks_name else 0.25
         case "quality_alone":
             known = all(it in situation.qualities for it in _new_words(move))
-            return 0.5 if known or situation.asked == "AskQuality" else 0.0
+            if known or situation.asked == "AskQuality":
+                return 0.5
+            return 0.25 if all(map(lists.names_quality, _new_words(move))) else 0.0
         case "presumed":
             new = any(it not in situation.known for it in _new_words(move))
             return 0.05 if new else 0.0
@@ -144,7 +148,11 @@ def _fit_of_several(move: Tree, situation: Situation, lists: WordLists) -> float
     """How well it fits to say of several things what they are, or how they are."""
     kinds = [*_words_of(move, "noun")]
     hows = kinds or _words_of(move, "adjective")
-    says_how = all(_says_how_of_all(it, situation, lists) for it in hows)
+    says_how = all(
+        _says_how_of_all(it, situation, lists)
+        or (not kinds and it in lists.materials)  # "All of them are made of glass."
+        for it in hows
+    )
     if kinds:
         return 0.1 if says_how else 1.0
     return 0.5 if says_how else 0.0

@@ -7,7 +7,7 @@ correction, and "This is, uh, a cup." as how two things stand.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Set
+from collections.abc import Iterable, Sequence, Set
 
 from kille.dialogue.language import Sentence, Utterance
 from kille.dialogue.meanings import predicate_at
@@ -71,7 +71,14 @@ def _is_odd(sign: Record, qualities: Set[str], lists: WordLists) -> bool:
         if parts[0] in lists.articles or not lists.fillers.isdisjoint(parts):
             return True
         return len(parts) == 1 and _is_no_relation(parts[0], qualities, lists)
+    if sign.kind == "noun" and _ends_with_aside(parts, lists):
+        return True
     return any(map(lists.is_closed, parts))
+
+
+def _ends_with_aside(parts: Sequence[str], lists: WordLists) -> bool:
+    """Whether the last word of a noun may be left out: "a tool anyway"."""
+    return (parts[-1],) in lists.harmless and parts[-1] not in lists.things
 
 
 def _is_no_relation(form: str, qualities: Set[str], lists: WordLists) -> bool:
@@ -86,8 +93,10 @@ def are_parts_better(
 
     `is_all` says that no word is missing in them.
     """
-    if not moves:
-        return False
+    if not moves:  # "None of them is a tool anyways."
+        return any(it.signs for it in whole.readings) and all(
+            _has_closed_word(it, lists) for it in whole.readings
+        )
     if is_all and any(_spans_break(it) for it in whole.readings):
         return True
     if whole.readings and _spans_break(whole.readings[0], ("noun",)):
@@ -103,7 +112,11 @@ def are_parts_better(
 def _has_closed_word(reading: Utterance, lists: WordLists) -> bool:
     """Whether a noun has a part that is none of a noun's: "a ladle then"."""
     nouns = (it.form.split() for it in reading.signs if it.kind == "noun")
-    return any(lists.is_closed(part) for parts in nouns for part in parts)
+    return any(
+        any(map(lists.is_closed, parts))
+        or (len(parts) > 1 and _ends_with_aside(parts, lists))
+        for parts in nouns
+    )
 
 
 def _spans_break(reading: Utterance, kinds: Iterable[str] = ()) -> bool:
