@@ -346,8 +346,14 @@ def _replace_forms(text: str, forms: Mapping[str, str]) -> str:
     if not _any_spoken(tuple(forms)).search(text):
         return text
     for said, written in forms.items():
-        text = re.sub(_spoken(said), written, text)
+        text = _expression_of(said).sub(written, text)
     return text
+
+
+@lru_cache(4096)
+def _expression_of(pattern: str) -> re.Pattern[str]:
+    """The compiled expression of a form; `re` itself keeps 512 of them, too few."""
+    return re.compile(_spoken(pattern))
 
 
 def _spoken(pattern: str) -> str:
