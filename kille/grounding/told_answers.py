@@ -1,8 +1,10 @@
 """What the tutor told after the robot had said what a thing is.
 
 "What is this?" - "This is a cup." - "Yes.", or "No, it is a mug.": so it is told
-whether the thing was one that the robot had a word for. Which lessons were given in
-this way follows from the turns that a memory keeps with them. So a robot that starts
+whether the thing was one that the robot had a word for. Who tries out what they have
+just taught says nothing of what else they will ask about: so it is not told by what was
+said of the same thing in the same dialogue before. Which lessons were given in this way
+follows from the turns that a memory keeps with them. So a robot that starts
 again knows it as before, and what is forgotten was never told.
 """
 
@@ -25,6 +27,7 @@ robot asks what the thing is, then."""
 
 _PASSED_OVER = frozenset({"deny", "ask_again"})
 _ACT = re.compile(r"\be : (\w+)\(")
+_THING = re.compile(r"\btarget : \[[^\]]*?\bx = (\w+) : ")
 
 
 def told_whether_known(memory: Memory) -> tuple[bool, ...]:
@@ -32,8 +35,9 @@ def told_whether_known(memory: Memory) -> tuple[bool, ...]:
     of, or did not know, and the tutor then told; the latest last.
     """
     found: list[bool] = []
-    for lesson in reversed(memory.latest(_LOOKED_THROUGH)):
-        if _is_told_of_answer(memory, lesson):
+    lessons = memory.latest(_LOOKED_THROUGH)
+    for lesson in reversed(lessons):
+        if _is_told_of_answer(memory, lesson) and not _is_said_again(lesson, lessons):
             word = lesson.word
             found.append(memory.first_key_of(word.kind, word.name) != lesson.key)
         if len(found) == LATEST:
@@ -49,6 +53,23 @@ def _is_told_of_answer(memory: Memory, lesson: Lesson) -> bool:
         return act_of(lesson.turn) in NAMING_ACTS
     before = memory.turns_before(lesson.turn, _BEFORE)
     return _last_act(before) in NAMING_ACTS
+
+
+def _is_said_again(lesson: Lesson, lessons: Sequence[Lesson]) -> bool:
+    """Was a thing called the same in the same dialogue before?"""
+    turn, thing = lesson.turn, _thing_of(lesson.turn)
+    return any(
+        it.word == lesson.word
+        and it.turn.dialogue == turn.dialogue
+        and it.turn.number < turn.number
+        and _thing_of(it.turn) == thing
+        for it in lessons
+    )
+
+
+def _thing_of(turn: Turn) -> str:
+    """The thing that a turn is about, as it was judged; nothing for none."""
+    return next(iter(_THING.findall(turn.judgement)), "")
 
 
 def _last_act(turns: Sequence[Turn]) -> str:
