@@ -731,13 +731,13 @@ class Agent(Closing, NotebookValue):
     def _play(self, now: Run, event: object) -> TurnResult:
         """Play an event, and what the robot says to it."""
         assert self.game.say is not None
-        turn = self.game.take(self._reckoning(now), event)
+        turn = self.game.take(self._update_strangers(now), event)
         said = tuple(RobotSentence(self.game.say(move), move) for move in turn.said)
         for it in said:
             self._log.record_said(it.text, str(it.judgement))
         return Exchange("", None, turn.trace, said, self._clock()), turn.run
 
-    def _reckoning(self, now: Run) -> Run:
+    def _update_strangers(self, now: Run) -> Run:
         """The same, where it reckons with as many strangers as it knows of now."""
         share = self._knowledge.objects.strangers
         return now._replace(state=reckon_with_strangers(now.state, share))

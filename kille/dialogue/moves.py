@@ -13,7 +13,7 @@ from kille.dialogue.meanings import (
     set_to,
 )
 from kille.dialogue.reference.perspectives import front_of
-from ttr import Rec, Record, RecordType, RecType, record, rectype, replace
+from ttr import Model, Rec, Record, RecordType, RecType, record, rectype, replace
 from ttr.aliases import former_names
 from ttr.types import TypeNode
 from ttr.types.objects import Object
@@ -32,6 +32,7 @@ __all__ = [
     "answering",
     "change_act",
     "content_of",
+    "hear_as",
     "instead",
     "issue",
     "nouns_said",
@@ -157,6 +158,27 @@ def content_of(s: Record) -> RecordType:
     """
     content: RecordType = s.shared.latest.content
     return content
+
+
+def hear_as(
+    s: Record,
+    model: Model,
+    act: str,
+    content: TypeNode = Rec,
+    signs: Iterable[Record] = (),
+    *,
+    types: DialogueTypes,
+    **more: TypeNode,
+) -> tuple[Record, Model]:
+    """What the tutor said last, taken for a move of this act, and the model with it."""
+    move = set_to(
+        types.move_type("Heard", act),
+        text=types["Text"] @ s.shared.latest.text,
+        signs=types.record_type("Heard")["signs"] @ tuple(signs),
+        content=RecType @ content,
+        **more,
+    )
+    return model.create(move)
 
 
 def nouns_said(said: Record, phrase: RecordType) -> list[Record]:

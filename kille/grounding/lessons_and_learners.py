@@ -13,7 +13,7 @@ from kille.dialogue.meanings import predicate_name
 from kille.grounding.generics import Generic, Generics
 from kille.grounding.hindsight import PastLesson, was_right
 from kille.grounding.reasons import Reasons, Share, best_rival, shares_of
-from kille.grounding.told_answers import told_whether_known
+from kille.grounding.told_answers import find_familiarity
 from kille.memory import (
     Arrangement,
     CriterionLesson,
@@ -355,8 +355,8 @@ class Knowledge:
 
     def _reckon_with_strangers(self) -> None:
         """Reckon with as many strangers as there were among the things told about."""
-        self._undo(self.objects.reckon_with, self.objects.known)
-        self.objects.reckon_with(told_whether_known(self.memory))
+        self._undo(self.objects.reckon_with, self.objects.familiarity)
+        self.objects.reckon_with(find_familiarity(self.memory))
 
     def _forget(self, *lessons: Lesson) -> None:
         """Have the learners forget lessons; undo restores them in order."""

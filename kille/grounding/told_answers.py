@@ -30,7 +30,7 @@ _ACT = re.compile(r"\be : (\w+)\(")
 _THING = re.compile(r"\btarget : \[[^\]]*?\bx = (\w+) : ")
 
 
-def told_whether_known(memory: Memory) -> tuple[bool, ...]:
+def find_familiarity(memory: Memory) -> tuple[bool, ...]:
     """Whether the robot had a word for each of the latest things that it said the name
     of, or did not know, and the tutor then told; the latest last.
     """

@@ -158,7 +158,7 @@ class ObjectMemory:
         self._weigh_anew()
 
     @property
-    def known(self) -> tuple[bool, ...]:
+    def familiarity(self) -> tuple[bool, ...]:
         """Whether the things it was told about after it had answered were known."""
         return self._known
 

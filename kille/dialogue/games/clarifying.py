@@ -20,13 +20,12 @@ from kille.dialogue.meanings import (
     denial,
     is_denial,
     predicate_at,
-    set_to,
     values_at,
 )
-from kille.dialogue.moves import content_of, plan, said_of
+from kille.dialogue.moves import content_of, hear_as, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at
 from kille.dialogue.rules import reply, rule
-from ttr import Model, Rec, Record, RecType, replace
+from ttr import Model, Record, replace
 from ttr.updates import first, maybe, seq
 
 AGAIN = {"AskReferent": "AskReferentAgain"}
@@ -68,15 +67,7 @@ def take_as_no(
     """Nobody has asked which one is meant: it is a no to what was said of this one."""
     if asks_which(s):
         return None
-    said = s.shared.latest
-    deny, model = model.create(
-        set_to(
-            types.move_type("Heard", "Deny"),
-            text=types["Text"] @ said.text,
-            signs=types.record_type("Heard")["signs"] @ (),
-            content=RecType @ Rec,
-        )
-    )
+    deny, model = hear_as(s, model, "Deny", types=types)
     return replace(s, {"shared.latest": deny}), model
 
 

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 from kille.dialogue.answered_questions import NAMING_ACTS, last_act, last_question
 from kille.dialogue.commitments import affirmation, kind_of
-from kille.dialogue.meanings import DialogueTypes, predicate_at, set_to, value_at
-from kille.dialogue.moves import content_of, words_in
+from kille.dialogue.meanings import DialogueTypes, predicate_at, value_at
+from kille.dialogue.moves import content_of, hear_as, words_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from kille.dialogue.word_lists import PARTIAL
-from ttr import Model, Record, RecordType, RecType, rectype, replace
+from ttr import Model, Record, RecordType, rectype, replace
 from ttr.types import TypeNode
 from ttr.updates import first
 
@@ -83,14 +83,7 @@ def _take_as(
     """The state in which what the tutor said is this act, with this content."""
     said = s.shared.latest
     signs = tuple(dict.fromkeys((*said.signs, *words_in(_words_at_hand(s), content))))
-    meant = set_to(
-        types.move_type("Heard", act),
-        text=types["Text"] @ said.text,
-        signs=types.record_type("Heard")["signs"] @ signs,
-        content=RecType @ content,
-        **more,
-    )
-    move, model = model.create(meant)
+    move, model = hear_as(s, model, act, content, signs, types=types, **more)
     return replace(s, {"shared.latest": move}), model
 
 

@@ -18,16 +18,15 @@ from kille.dialogue.meanings import (
     is_denial,
     mentions,
     predicate_at,
-    set_to,
     values_at,
     word_of,
 )
-from kille.dialogue.moves import content_of, issue, plan, said_of
+from kille.dialogue.moves import content_of, hear_as, issue, plan, said_of
 from kille.dialogue.reference import thing_at, things_in
 from kille.dialogue.reference.salience import talked_about
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Model, Record, RecordType, RecType, record, replace
+from ttr import Model, Record, RecordType, record, replace
 from ttr.updates import first
 
 FORGOT = {"c": "Forgot", "a": "ForgotQuality", "rel": "ForgotRelation"}
@@ -130,13 +129,7 @@ def take_as_correction(
     taught = [it for move in s.private.last for it in values_at(move, "teaches")]
     if sign is None or any(claims(it, sign) for it in taught):
         return None
-    corrects = set_to(
-        types.move_type("Heard", "Correct"),
-        text=types["Text"] @ said.text,
-        signs=types.record_type("Heard")["signs"] @ said.signs,
-        content=RecType @ said.content,
-    )
-    move, model = model.create(corrects)
+    move, model = hear_as(s, model, "Correct", said.content, said.signs, types=types)
     return replace(s, {"shared.latest": move}), model
 
 

@@ -24,7 +24,7 @@ from kille.dialogue.meanings import (
     set_to,
     value_at,
 )
-from kille.dialogue.moves import content_of, issue, plan, words_in
+from kille.dialogue.moves import content_of, hear_as, issue, plan, words_in
 from kille.dialogue.reference import (
     LANDMARK,
     OPEN,
@@ -43,7 +43,7 @@ from kille.dialogue.reference import (
 )
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Model, Rec, Record, RecordType, RecType, rectype, replace
+from ttr import Model, Rec, Record, RecordType, rectype, replace
 from ttr.updates import first
 
 Update = tuple[Record, Model]
@@ -94,13 +94,9 @@ def answer_anew(s: Record, *, model: Model, types: DialogueTypes) -> Update | No
     if asked is None:
         return None
     act, content = asked
-    question = set_to(
-        types.move_type("Heard", act),
-        text=types["Text"] @ s.shared.latest.text,
-        signs=types.record_type("Heard")["signs"] @ tuple(words_in(words(s), content)),
-        content=RecType @ in_view(settled, content, types=types),
-    )
-    move, model = model.create(question)
+    signs = words_in(words(s), content)
+    content = in_view(settled, content, types=types)
+    move, model = hear_as(s, model, act, content, signs, types=types)
     return replace(settled, {"shared.latest": move, "shared.pending": ()}), model
 
 

@@ -21,11 +21,11 @@ from kille.dialogue.commitments import (
 from kille.dialogue.games.distinguishing import say_where
 from kille.dialogue.games.kinds_of_kinds import plan_objection
 from kille.dialogue.meanings import DialogueTypes, denial, is_denial, set_to
-from kille.dialogue.moves import issue, plan, said_of
+from kille.dialogue.moves import hear_as, issue, plan, said_of
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.taxonomy import are_related
-from ttr import Model, Rec, Record, RecType, replace
+from ttr import Model, Record, replace
 from ttr.updates import first
 
 SWAPPED = "AskSwapped"
@@ -84,14 +84,7 @@ def take_as_swap(
         return None
     if _named_pair(s, model) is None:
         return None
-    said = s.shared.latest
-    move = set_to(
-        types.move_type("Heard", "Swap"),
-        text=types["Text"] @ said.text,
-        signs=types.record_type("Heard")["signs"] @ (),
-        content=RecType @ Rec,
-    )
-    swapped, model = model.create(move)
+    swapped, model = hear_as(s, model, "Swap", types=types)
     return replace(s, {"shared.latest": swapped, "shared.pending": ()}), model
 
 

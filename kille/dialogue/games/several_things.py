@@ -30,11 +30,11 @@ from kille.dialogue.meanings import (
     set_to,
     value_at,
 )
-from kille.dialogue.moves import content_of, issue, number_field, plan, said_of
+from kille.dialogue.moves import content_of, hear_as, issue, number_field, plan, said_of
 from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at, thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.unknown_words import plan_first_unknown
-from ttr import Model, Record, RecordType, RecType, record, rectype, replace
+from ttr import Model, Record, RecordType, record, rectype, replace
 from ttr.updates import first
 
 EVERY, ONLY = "AskEvery", "AskOnly"
@@ -259,14 +259,7 @@ def ask_single(
     if len(s.view.things) != 1 or " " not in sign.article:
         return None
     content = _said_of(s, sign, s.view.things[0], types=types)
-    move, model = model.create(
-        set_to(
-            types.move_type("Heard", "Instruct"),
-            text=types["Text"] @ s.shared.latest.text,
-            signs=types.record_type("Heard")["signs"] @ (sign,),
-            content=RecType @ content,
-        )
-    )
+    move, model = hear_as(s, model, "Instruct", content, [sign], types=types)
     asks = [issue("AskMeant", [move])]
     return plan(s, "AskMeant", content, signs=[sign], asks=asks, types=types), model
 

@@ -10,7 +10,7 @@ import pytest
 from kille.agent.agent import Agent
 from kille.dialogue.beliefs import is_sure
 from kille.grounding.lessons_and_learners import Knowledge
-from kille.grounding.told_answers import told_whether_known
+from kille.grounding.told_answers import find_familiarity
 from kille.memory import Memory
 from kille.perception.look import look
 from kille.perception.strangers import LATEST
@@ -88,13 +88,13 @@ def test_what_is_told(
 ) -> None:
     robot = Agent(sensor="synthetic:empty?seed=11", memory=memory, language=language)
     play(robot, story, language)
-    assert told_whether_known(memory) == known
+    assert find_familiarity(memory) == known
 
 
 def test_only_the_latest_are_told(memory: Memory) -> None:
     robot = Agent(sensor="synthetic:empty?seed=11", memory=memory)
     play(robot, "@cup cup" + " again @cup ask yes" * (LATEST + 2))
-    assert told_whether_known(memory) == (True,) * LATEST
+    assert find_familiarity(memory) == (True,) * LATEST
 
 
 def test_a_thing_that_was_never_taught_is_told_among_others(memory: Memory) -> None:
@@ -105,7 +105,7 @@ def test_a_thing_that_was_never_taught_is_told_among_others(memory: Memory) -> N
         for number in (1, 2):
             robot.hear(f"#{number} What is this?")
             robot.hear("It is a cup.")
-        assert told_whether_known(memory) == (True,)
+        assert find_familiarity(memory) == (True,)
 
 
 def test_a_robot_that_starts_again_judges_the_same(tmp_path: Path) -> None:
@@ -117,12 +117,12 @@ def test_a_robot_that_starts_again_judges_the_same(tmp_path: Path) -> None:
         first = robot._knowledge.objects.predict_proba_one(percept)
         play(robot, "again @book ask yes")
         objects = robot._knowledge.objects
-        assert objects.known == (False, True, True)
+        assert objects.familiarity == (False, True, True)
         degrees = objects.predict_proba_one(percept)
         assert sum(degrees.values()) > sum(first.values())
     with Memory.open(file) as memory:
         again = Knowledge(memory).objects
-        assert again.known == (False, True, True)
+        assert again.familiarity == (False, True, True)
         assert again.predict_proba_one(percept) == pytest.approx(degrees)
 
 
@@ -135,13 +135,13 @@ def test_what_fails_was_not_told(memory: Memory) -> None:
     def fail() -> None:
         with known.together():
             known.forget(memory.latest()[-1].key)
-            seen.append(known.objects.known)
+            seen.append(known.objects.familiarity)
             raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
         fail()
     assert seen == [()]
-    assert known.objects.known == told_whether_known(memory) == (True,)
+    assert known.objects.familiarity == find_familiarity(memory) == (True,)
 
 
 def test_the_fewer_strangers_the_farther_ahead_a_name_must_be(memory: Memory) -> None:

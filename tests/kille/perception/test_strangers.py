@@ -89,7 +89,7 @@ def test_the_strength_of_none_of_the_words_is_multiplied_by_the_odds():
 def test_a_copy_reckons_with_as_many():
     memory = taught()
     memory.reckon_with([True, True])
-    assert memory.copy().known == (True, True)
+    assert memory.copy().familiarity == (True, True)
     other = ObjectMemory()
     other.become(memory)
     assert other.predict_proba_one(THINGS[1]) == memory.predict_proba_one(THINGS[1])
