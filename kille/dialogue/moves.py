@@ -170,7 +170,14 @@ def hear_as(
     types: DialogueTypes,
     **more: TypeNode,
 ) -> tuple[Record, Model]:
-    """What the tutor said last, taken for a move of this act, and the model with it."""
+    """What the tutor said last, taken for a move of this act, and the model with it.
+
+    >>> s = record(shared=record(latest=record(text="no")))
+    >>> types = packaged_types()
+    >>> swap, model = hear_as(s, Model(), "Swap", types=types)
+    >>> swap.text, model.judge(swap, types["Swap"]).holds
+    ('no', True)
+    """
     move = set_to(
         types.move_type("Heard", act),
         text=types["Text"] @ s.shared.latest.text,
