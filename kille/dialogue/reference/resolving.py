@@ -316,11 +316,13 @@ def _things_without_words(
     """The things that a phrase without words may mean, as in "No, a mug."
 
     These are the things that the robot has claimed something of, or else those shown.
-    None for a phrase with words.
+    Who points at another one meanwhile means that. None for a phrase with words.
     """
     if phrase.labels != types.record_type("Phrase").labels:
         return None
     claimed = {thing_at(claim, "target") for claim in s.shared.pending[:1]}
+    if s.view.pointed and claimed.isdisjoint(s.view.pointed):
+        return shown_things(s)
     return [x for x in s.view.things if x in claimed] or shown_things(s)
 
 
