@@ -288,7 +288,7 @@ def _most_salient(
 def _other(
     s: Record, model: Model, things: Sequence[str], types: DialogueTypes
 ) -> Sequence[str]:
-    latest = latest_mentioned(s, things) or next(iter(s.view.focus), None)
+    latest = latest_mentioned(s, things) or next(iter(s.view.pointed), None)
     return [x for x in things if x != latest]
 
 
