@@ -33,6 +33,8 @@ from ttr.updates import first, seq
 @rule(answers="AskWhether")
 def miss_claimed(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks by a word that was never learned."""
+    if _is_taught(s):
+        return None
     return plan_first_unknown(s, [_asked_word(s)], types=types)
 
 
@@ -95,6 +97,28 @@ def say_no(s: Record, *, types: DialogueTypes) -> Record | None:
     )
 
 
+@rule(answers="Directed")
+def say_converse(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """It is sure that things stand the other way round, so that what is asked is not."""
+    if not types.has(s.shared.latest, "AskWhether", model):
+        return None
+    content, things = content_of(s), _things(s)
+    beliefs = beliefs_about(s, model, [_asked_word(s)], *reversed(things))
+    if _p(s) >= s.private.strategy.bands.likely or not is_sure(s, beliefs):
+        return None
+    turned = set_to(content, target=content["landmark"], landmark=content["target"])
+    signs = s.shared.latest.signs
+    return plan(
+        s,
+        "SayRather",
+        turned,
+        denial(content),
+        signs=signs,
+        pending=[turned],
+        types=types,
+    )
+
+
 @rule(answers="AskWhether")
 def say_probably(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is more likely so than not."""
@@ -131,10 +155,20 @@ def _alternatives(s: Record) -> list[Record]:
     asked = _asked_word(s)
     match asked.kind:
         case "noun":
-            return list(s.private.nouns)
+            nouns = list(s.private.nouns)
+            return nouns if knows(nouns, asked) else [*nouns, asked]
         case "relation":
             return list(s.private.relations)
     return list(s.private.colours) if knows(s.private.colours, asked) else [asked]
+
+
+def _is_taught(s: Record) -> bool:
+    """Whether the tutor has said or denied just this of the thing in view.
+
+    Who has only been told what is no cup does not know what a cup is, but that.
+    """
+    things = _things(s)
+    return (word_of(_asked_word(s)), *things) in taught_words(s)
 
 
 def _belief(s: Record) -> Beliefs:
@@ -172,6 +206,6 @@ CHECKING = first(
     miss_place,
     seq(
         weigh,
-        first(say_yes, say_rather, say_no, say_probably, admit_whether),
+        first(say_yes, say_rather, say_no, say_converse, say_probably, admit_whether),
     ),
 )

@@ -8,15 +8,23 @@ from __future__ import annotations
 from kille.dialogue.commitments import (
     affirmation,
     effects_of_denial,
+    kind_of,
     plan_learning,
     signs_for,
 )
 from kille.dialogue.games.forgetting import plan_taking_back, taught_together
-from kille.dialogue.meanings import DialogueTypes, is_denial, predicate_at, values_at
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    denial,
+    is_denial,
+    predicate_at,
+    value_at,
+    values_at,
+)
 from kille.dialogue.moves import plan, words_in
 from kille.dialogue.rules import rule
 from kille.dialogue.state import words
-from ttr import Record
+from ttr import Record, RecordType
 from ttr.updates import first
 
 
@@ -46,6 +54,13 @@ def ask_which(s: Record, *, types: DialogueTypes) -> Record | None:
 
 
 @rule(answers="Affirm")
+def learn_answer(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says yes to their own question, which it could not answer."""
+    asked = _unanswered(s)
+    return None if asked is None else plan_learning(s, asked, types=types)
+
+
+@rule(answers="Affirm")
 def wonder_what(s: Record, *, types: DialogueTypes) -> Record:
     """The robot has claimed nothing to confirm."""
     return plan(s, "Wonder", types=types)
@@ -72,6 +87,23 @@ def ask_again(s: Record, *, types: DialogueTypes) -> Record | None:
     return plan(
         s, "AskAgain", signs=signs, teaches=teaches, forgets=forgets, types=types
     )
+
+
+@rule(answers="Deny")
+def learn_negative_answer(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The tutor says no to their own question, which it could not answer."""
+    asked = _unanswered(s)
+    return None if asked is None else plan_learning(s, denial(asked), types=types)
+
+
+def _unanswered(s: Record) -> RecordType | None:
+    """What the tutor asked whether it is so, and the robot has just not known."""
+    if s.shared.pending or not s.private.last:
+        return None
+    said = s.private.last[-1]
+    asked = value_at(said, "content")
+    is_open = predicate_at(said, "e").name == "admit_whether"
+    return asked if is_open and kind_of(asked) is not None else None
 
 
 @rule(answers="Deny")
@@ -117,9 +149,11 @@ def wonder_why(s: Record, *, types: DialogueTypes) -> Record:
 CONFIRMING = first(
     learn_confirmed,
     ask_which,
+    learn_answer,
     wonder_what,
     learn_after_all,
     ask_again,
+    learn_negative_answer,
     take_back,
     ask_rest,
     note_agreement,

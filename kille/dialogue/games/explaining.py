@@ -18,7 +18,13 @@ from kille.dialogue.beliefs import (
     special_name,
     thinks,
 )
-from kille.dialogue.commitments import affirmation, kind_of, same, signs_for
+from kille.dialogue.commitments import (
+    affirmation,
+    kind_of,
+    lessons_in,
+    same,
+    signs_for,
+)
 from kille.dialogue.criteria import last_subject
 from kille.dialogue.games.citing import cite_reasons
 from kille.dialogue.meanings import (
@@ -126,6 +132,26 @@ def explain(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     if s.private.criteria and kind_of(claim) == "c" and x is not None:
         explained = cite_reasons(explained, model, own.sign, x, types=types)
     return explained, model
+
+
+@rule(answers="AskWhy")
+def explain_denial(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It thinks that it is not so, since the tutor said so: it says when."""
+    claim = claim_in_question(s)
+    if claim is None or not is_denial(claim):
+        return None
+    said = lessons_in(s, claim, types=types)
+    if not said:
+        return None
+    return plan(
+        s,
+        "ExplainDenial",
+        claim,
+        signs=signs_for(s, claim),
+        cites=[said[-1].key],
+        pending=_still_claimed(s, claim),
+        types=types,
+    )
 
 
 @rule(answers="AskWhy")
@@ -312,6 +338,7 @@ EXPLAINING = first(
     miss_explained,
     explain_kind,
     explain,
+    explain_denial,
     doubt,
     be_sure_of_nothing,
     lack_lessons,

@@ -34,6 +34,7 @@ from kille.dialogue.reference import (
 from kille.dialogue.rules import rule
 from kille.dialogue.word_lists import PARTIAL
 from ttr import Model, Record, RecordType, replace
+from ttr.updates import first
 
 UNMARKED = {"x", "look", "d"}
 """The labels of a phrase that describes no thing, such as "this"."""
@@ -84,6 +85,39 @@ def learn_together(s: Record, *, model: Model, types: DialogueTypes) -> Record |
             continue
         learned = plan_learning(learned, content_of(learned), types=types)
     return learned
+
+
+@rule(answers=("Reversed", "Swap"))
+def learn_reversed(s: Record, *, types: DialogueTypes) -> Record | None:
+    """Each of two things is what it took the other for: that is learned."""
+    if not s.shared.qud or s.shared.qud[0].ask not in (MEANT, PRESUMED):
+        return None
+    asked, *rest = s.shared.qud
+    if len(asked.options) != _PAIR or not all(map(_names_thing, asked.options)):
+        return None
+    one, other = asked.options
+    things = [it.content["target"] for it in (other, one)]
+    if thing_at(one.content, "target") == thing_at(other.content, "target"):
+        return None
+    learned = replace(s, {"shared.qud": rest})
+    for option, thing in zip((one, other), things, strict=True):
+        content = set_to(option.content, target=thing)
+        heard = replace(option, content=content)
+        learned = about(
+            replace(learned, {"shared.latest": heard}), content, types=types
+        )
+        learned = plan_learning(learned, content_of(learned), types=types)
+    return learned
+
+
+_PAIR = 2
+"""So many things may have been taken for one another."""
+
+
+def _names_thing(option: Record) -> bool:
+    """Whether a move says what a thing in view is, and not how it is or stands."""
+    content = option.content
+    return "c" in content and thing_at(content, "target") is not None
 
 
 def _set_to_things(
@@ -150,5 +184,5 @@ def _claim_with_place(
 
 
 SEVERAL_LESSONS = ask_together
-LESSONS_ANSWERED = learn_together
+LESSONS_ANSWERED = first(learn_together, learn_reversed)
 """What answers whether all of it is meant."""

@@ -20,6 +20,9 @@ from ttr import Model, Record, RecordType
 CONTRASTING = ("Instruct", "AskName")
 """The moves in which "that" is told from the "this" of a lesson."""
 
+_LESSON = 2.0
+"""How many moves before "that" the tutor asked what "this" is, and then said it."""
+
 THIS, THAT = "this", "that"
 """The roles of what the tutor has asked about by such a word alone."""
 
@@ -56,7 +59,8 @@ class _Demonstratives:
         s, shown = self.s, shown_things(self.s)
         if second := [x for x in s.view.pointed[1:] if x in s.view.things]:
             return second
-        this = [x for x in s.shared.shown if x in shown and not s.view.pointed]
+        this = [] if s.view.pointed else [*s.shared.shown, *self._asked_before()]
+        this = [x for x in this if x in shown]
         this = [x for x in this if x in _latest_taught(s)]
         others = tuple(x for x in s.view.things if x not in this)
         if not this or not others:
@@ -64,6 +68,13 @@ class _Demonstratives:
         if any(map(self._is_latest, CONTRASTING)):
             return others
         return tuple(s.view.things) if self._is_latest("Describe") else shown
+
+    def _asked_before(self) -> Sequence[str]:
+        """What the tutor asked about as "this" before they said what it is."""
+        s, before = self.s, self.s.private.cost.turns - _LESSON
+        return [
+            it.x for it in s.shared.noticed if it.role == THIS and it.move >= before
+        ]
 
     def _others_asked_about(self, word: str) -> Sequence[str]:
         """What the tutor asks about now, who has just asked about a thing by this word.

@@ -6,8 +6,10 @@ from kille.dialogue.robust_reading.admissible_covers import is_taken_up
 from kille.dialogue.robust_reading.clause_words import are_harmless
 from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import ABOUT_KINDS, CLAIMS, INDIRECT
+from kille.dialogue.robust_reading.island_weights import new_words
 from kille.dialogue.robust_reading.islands import Island
 from kille.dialogue.robust_reading.self_repairs import RepairedSentence
+from kille.dialogue.robust_reading.situations import Situation
 from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists
 
 HEDGING = frozenset({"okay", "affirm", "deny", "ask_deed"})
@@ -15,7 +17,11 @@ HEDGING = frozenset({"okay", "affirm", "deny", "ask_deed"})
 
 
 def doubt_about(
-    island: Island, cover: Cover, sentence: RepairedSentence, lists: WordLists
+    island: Island,
+    cover: Cover,
+    sentence: RepairedSentence,
+    situation: Situation,
+    lists: WordLists,
 ) -> str:
     """Why what an island claims is not learned at once, or nothing.
 
@@ -35,7 +41,7 @@ def doubt_about(
         near |= {it.form for it in words[island.first : island.after]}
     if near & lists.negations:
         return SAYING
-    if rule in ABOUT_KINDS:
+    if rule in ABOUT_KINDS or _names_what_was_asked(island, cover, situation, lists):
         return ""
     asks = sentence.is_question and (
         are_harmless(words[island.after :]) or _is_first_choice(island, cover)
@@ -45,6 +51,18 @@ def doubt_about(
     )
     left_out = bool(cover.missed) or not sentence.is_certain
     return PARTIAL if rule in INDIRECT or hedged or asks or left_out else ""
+
+
+def _names_what_was_asked(
+    island: Island, cover: Cover, situation: Situation, lists: WordLists
+) -> bool:
+    """Whether it is a noun that all know, said alone when it asked what a thing is."""
+    if island.rule != "alone" or not situation.asks_name:
+        return False
+    if len(cover.islands) > 1 or cover.missed:
+        return False
+    words = {form for tree in island.trees for form in new_words(tree)}
+    return words <= lists.things | situation.known
 
 
 def _is_first_choice(island: Island, cover: Cover) -> bool:

@@ -26,7 +26,7 @@ def weigh_island(
     """The weight of a reading: 1 for what fits well, 0 for what is none here."""
     move = parts(tree)[0]
     rule = move.rule if tree.rule == START else tree.rule
-    weight = NEW ** sum(it not in situation.known for it in _new_words(move))
+    weight = NEW ** sum(it not in situation.known for it in new_words(move))
     if is_question and rule in CLAIMS:
         weight *= ASKED
     return weight * _fit(situation, rule, move, lists)
@@ -41,30 +41,30 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             return 1.0 if situation.asks_which else 0.02
         case "take_frame" | "remark":
             return 0.02
-        case "alone" if all(map(lists.names_quality, _new_words(move))):
+        case "alone" if all(map(lists.names_quality, new_words(move))):
             return 0.0  # "Half-full."
         case "alone":
             return 0.5 if situation.asks_name else 0.25
         case "quality_alone":
-            known = all(it in situation.qualities for it in _new_words(move))
+            known = all(it in situation.qualities for it in new_words(move))
             if known or situation.asked == "AskQuality":
                 return 0.5
-            return 0.25 if all(map(lists.names_quality, _new_words(move))) else 0.0
+            return 0.25 if all(map(lists.names_quality, new_words(move))) else 0.0
         case "presumed":
-            new = any(it not in situation.known for it in _new_words(move))
+            new = any(it not in situation.known for it in new_words(move))
             return 0.05 if new else 0.0
         case "about" if _has_part(move, "it"):
             return 0.0
         case "about":
             return 0.02 if situation.asks_which else 0.9
         case "about_where":
-            known = all(it in situation.known for it in _new_words(move))
+            known = all(it in situation.known for it in new_words(move))
             return 0.9 if known or len(parts(move)) > 1 else 0.0
         case "side_told":
-            known = all(_is_known(it, situation) for it in _new_words(move))
+            known = all(_is_known(it, situation) for it in new_words(move))
             return 2.0 if known else 0.0
         case "side_named":
-            known = all(_is_known(it, situation) for it in _new_words(move))
+            known = all(_is_known(it, situation) for it in new_words(move))
             return 0.0 if known else 0.9
         case "instruct_several" | "instruct_every" | "reject_several":
             return _fit_of_several(move, situation, lists)
@@ -85,20 +85,20 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             hows = _words_of(move, "property")
             return 1.0 if all(_says_how(it, situation, lists) for it in hows) else 0.5
         case "meant" | "meant_so":
-            how = all(_says_how(it, situation, lists) for it in _new_words(move))
+            how = all(_says_how(it, situation, lists) for it in new_words(move))
             return 1.0 if how == (rule == "meant_so") else 0.2
         case "correct_thing" if situation.asks_which:
             return 0.0
         case "correct_thing":
-            known = all(_is_known(it, situation) for it in _new_words(move))
+            known = all(_is_known(it, situation) for it in new_words(move))
             return 1.5 if known else 1.0  # "I meant the can."
         case "choice":
             return 2.0
         case "choice_colour":
-            named = all(it in situation.colours for it in _new_words(parts(move)[1]))
+            named = all(it in situation.colours for it in new_words(parts(move)[1]))
             return 2.0 if named else 0.0
         case "named":
-            how = all(_says_how(it, situation, lists) for it in _new_words(move))
+            how = all(_says_how(it, situation, lists) for it in new_words(move))
             return (
                 1.0 if how == (move.rule == "describe") or _has_article(move) else 0.2
             )
@@ -123,8 +123,8 @@ def _fit_of_contrast(move: Tree, situation: Situation, lists: WordLists) -> floa
     said, *others = parts(move)
     if [it.rule for it in others] != ["denied"]:
         return 1.0
-    denied = [*_new_words(others[0])]
-    new = [*_new_words(said)]
+    denied = [*new_words(others[0])]
+    new = [*new_words(said)]
     opposed = any(it in situation.qualities for it in (*denied, *new))
     if opposed or all(_says_how(it, situation, lists) for it in denied):
         how = True
@@ -163,11 +163,11 @@ def _is_known(word: str, situation: Situation) -> bool:
     return word.startswith(tuple(situation.known))
 
 
-def _new_words(tree: Tree) -> Iterable[str]:
+def new_words(tree: Tree) -> Iterable[str]:
     """The words in a part that may be learned, part by part."""
     for child in tree.children:
         if isinstance(child, Tree):
-            yield from _new_words(child)
+            yield from new_words(child)
         elif child.terminal not in ("A", "PREP", "OF", "SIDE", "ARTICLE"):
             yield child.text.lower()
 
@@ -176,7 +176,7 @@ def _words_of(tree: Tree, rule: str) -> Iterable[str]:
     """The words in the parts that are made by a rule."""
     for it in parts(tree):
         if it.rule == rule:
-            yield from _new_words(it)
+            yield from new_words(it)
         else:
             yield from _words_of(it, rule)
 

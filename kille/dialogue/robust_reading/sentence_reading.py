@@ -102,7 +102,7 @@ def read_robustly(
             it.islands[0].first,
         ),
     )
-    reading = _CoverReading(sentence, lists, reads, types)
+    reading = _CoverReading(sentence, situation, lists, reads, types)
     for n, best in enumerate(ranked):
         moves = reading.read_cover(best)
         if moves:
@@ -121,6 +121,7 @@ class _CoverReading(NamedTuple):
     """How the covers of a sentence are read."""
 
     sentence: RepairedSentence
+    situation: Situation
     lists: WordLists
     reads: Reader
     types: DialogueTypes
@@ -143,7 +144,7 @@ class _CoverReading(NamedTuple):
 
     def read_island(self, island: Island, cover: Cover) -> Sentence:
         """How an island can be read as a move, doubted where it must be."""
-        doubt = doubt_about(island, cover, self.sentence, self.lists)
+        doubt = doubt_about(island, cover, self.sentence, self.situation, self.lists)
         moves = dict.fromkeys(part for tree in island.trees for part in parts(tree))
         if follows_no(island, cover):
             moves = {

@@ -137,7 +137,7 @@ def converse_question(
 
     Who was told that the book is to the left of the cup can tell if the cup is to the
     right of the book. So it is where both words are known, and only the one was said of
-    what is here.
+    what is here. A question by a word that has an opposite is directed.
     """
     known = {it.form: it for it in s.private.relations}
     if not known or not said.readings or act_of(said) != "ask_whether":
@@ -145,8 +145,22 @@ def converse_question(
     here = {it.sign.form for it in s.private.lessons if it.content in s.shared.here}
     settled = here & set(known) or set(known)
     opposites = word_lists(language).opposites
-    readings = [_converse(it, known, settled, opposites, types) for it in said.readings]
+    readings = [
+        _direct(_converse(it, known, settled, opposites, types), opposites, types)
+        for it in said.readings
+    ]
     return replace(said, readings=tuple(readings))
+
+
+def _direct(
+    reading: Utterance, opposites: Mapping[str, str], types: DialogueTypes
+) -> Utterance:
+    """A reading that says so if it asks by a word that has an opposite."""
+    asked = [it.form for it in reading.signs if claims(reading.content, it)]
+    if "stance" in reading.type or opposites.keys().isdisjoint(asked):
+        return reading
+    stance = types.record_type("Directed")["stance"]
+    return Utterance(reading.text, set_to(reading.type, stance=stance))
 
 
 def _converse(
