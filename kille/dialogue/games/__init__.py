@@ -12,6 +12,7 @@ Source: Dobnik and de Graaf 2017, section 3.
 from __future__ import annotations
 
 from kille.dialogue.games.abstaining import ACKNOWLEDGING, EXEMPLIFYING
+from kille.dialogue.games.attending import ATTENDED
 from kille.dialogue.games.breaking_silence import BREAKING_SILENCE
 from kille.dialogue.games.checking import CHECKING
 from kille.dialogue.games.clarifying import CLARIFYING, EXCLUDED, MENTIONED
@@ -88,6 +89,7 @@ ANSWERING = first(
     KNOWING,
     FORGETTING,
     COURTESY,
+    ATTENDED,
     MENTIONED,
 )
 """What answers a move of the tutor's whose phrases are resolved."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.reference.salience import needs_salience, set_salience
-from kille.dialogue.rules import rule
+from kille.dialogue.rules import reply, rule
 from kille.dialogue.speech_hypotheses import FAINTLY
 from ttr import Record
 from ttr.updates import NBest
@@ -29,3 +29,6 @@ def weigh_salience(
 
 
 ATTENDING = weigh_salience
+ATTENDED = reply(
+    "Attend", "Noted", "The tutor draws attention to a thing, spoken of from then on."
+)

@@ -99,7 +99,7 @@ def say_no(s: Record, *, types: DialogueTypes) -> Record | None:
 
 @rule(answers="Directed")
 def say_converse(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
-    """It is sure that things stand the other way round, so that what is asked is not."""
+    """It is sure that it is the other way round, which excludes what is asked."""
     if not types.has(s.shared.latest, "AskWhether", model):
         return None
     content, things = content_of(s), _things(s)

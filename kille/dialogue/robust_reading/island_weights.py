@@ -87,6 +87,9 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "meant" | "meant_so":
             how = all(_says_how(it, situation, lists) for it in new_words(move))
             return 1.0 if how == (rule == "meant_so") else 0.2
+        case "attend":
+            known = all(_is_known(it, situation) for it in new_words(move))
+            return 1.5 if known else 0.0
         case "correct_thing" if situation.asks_which:
             return 0.0
         case "correct_thing":

@@ -75,6 +75,7 @@ IN_PARTS = (
     "agree_partly",
     "forget_about",
     "correct_thing",
+    "attend",
 )
 """The moves that are understood in a part of a sentence only."""
 
