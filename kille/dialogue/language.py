@@ -94,17 +94,22 @@ TELL_PART = "tell_part"
 QUALIFIED = "qualified"
 """What a noun of several words is that may be an adjective and a noun."""
 
+OUTRIGHT = "outright"
+"""The stance of who says in so many words that one kind is a kind of another."""
+
 STANCES = {
     "asserted": "asserted_stance",
     "supposed": "supposed_stance",
     "reversed": "reversed_stance",
     "of all": "of_all_stance",
     "other than": "other_than_stance",
+    OUTRIGHT: "outright_stance",
 }
 """How somebody says a thing that can be said in several ways, and the rules for it.
 
 As a claim or as a question; a no, that it is the other way round; a yes or no, that it
-is so of all things; and a phrase, that it says what is not meant.
+is so of all things; a phrase, that it says what is not meant; and of two kinds, that
+the one is a kind of the other, with nouns that are none of doubtful things.
 """
 
 _FORMS = 3
@@ -345,6 +350,8 @@ class Reader:
                 doubt = PARTIAL if doubt == DOUBTFUL else doubt
                 doubt, partly = ("", partly) if partly == SAYING else (doubt, doubt)
             for stance, rule in STANCES.items():
+                if stance == OUTRIGHT and any(map(self._is_doubtful_noun, signs)):
+                    continue
                 if any(it.rule == rule for it in parts(move)):
                     heard = set_to(heard, stance=self._types["Text"] @ stance)
             doubt = SAYING if is_saying else doubt
@@ -405,6 +412,13 @@ class Reader:
         means = "" if kind == "noun" else self._lexicon.means.get(main, "")
         own = article or (sign.article if kind == "noun" else "")
         return (self._types.sign(main, kind, own, means),)
+
+    def _is_doubtful_noun(self, sign: Record) -> bool:
+        """Whether a noun may be for nothing that is seen, or a slip of another."""
+        if self._lists.judge_noun(sign.form, self._lexicon.complements):
+            return True
+        slip = self._lists.intended_word(sign.form, sign.kind)
+        return slip is not None or self._is_qualified(sign.form)
 
     def _is_qualified(self, form: str) -> bool:
         """Whether a noun begins with a word for how things are: "lovely cup"."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kille.dialogue.games.citing import cite_all
+from kille.dialogue.games.citing import cite_all, tell_kinds
 from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule
@@ -60,7 +60,7 @@ def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
                 pending=claims,
                 types=types,
             )
-            return cite_all(told, sign, types=types)
+            return tell_kinds(cite_all(told, sign, types=types), sign, types=types)
     return None
 
 
