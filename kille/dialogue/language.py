@@ -91,11 +91,17 @@ LESSONS = (
 TELL_PART = "tell_part"
 """The move that says of a thing which part it has: no lesson, but perhaps a remark."""
 
+RELATE = "relate"
+"""The move that says where a thing is; of its words only a saying makes no lesson."""
+
 QUALIFIED = "qualified"
 """What a noun of several words is that may be an adjective and a noun."""
 
 OUTRIGHT = "outright"
 """The stance of who says in so many words that one kind is a kind of another."""
+
+TAUGHT = "taught"
+"""The stance of who asks which words were taught, and not which are known."""
 
 STANCES = {
     "asserted": "asserted_stance",
@@ -104,6 +110,7 @@ STANCES = {
     "of all": "of_all_stance",
     "other than": "other_than_stance",
     OUTRIGHT: "outright_stance",
+    TAUGHT: "taught_stance",
 }
 """How somebody says a thing that can be said in several ways, and the rules for it.
 
@@ -186,8 +193,9 @@ def understand(
     """
     reads = reader(language, types or packaged_types())
     found: list[Sentence] = []
-    plain = settle_spelling(replace_lookalikes(text))
-    plain = join_repairs(plain, word_lists(language))
+    lists = word_lists(language)
+    plain = settle_spelling(lists.join_sentences(replace_lookalikes(text)))
+    plain = join_repairs(plain, lists)
     plain = _ABBREVIATION.sub(lambda it: it[0].replace(".", ""), plain)
     for part in _SENTENCE.findall(plain):
         if re.search(r"\w", part):
@@ -325,7 +333,8 @@ class Reader:
     ) -> Iterator[RecordType]:
         """The types of the event: who speaks to whom, its move, words and content."""
         is_lesson = move.rule in LESSONS
-        is_saying = is_lesson and self._lexicon.is_saying(plain_text(text))
+        may_be_saying = is_lesson or move.rule == RELATE
+        is_saying = may_be_saying and self._lexicon.is_saying(plain_text(text))
         for signs, content in self._together(move):
             if any(is_over_break(it.form, text) for it in signs if it.kind == "noun"):
                 continue

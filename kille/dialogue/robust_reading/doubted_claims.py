@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from kille.dialogue.robust_reading.admissible_covers import is_taken_up
-from kille.dialogue.robust_reading.clause_words import are_harmless
+from collections.abc import Sequence
+
+from kille.dialogue.robust_reading.clause_words import Word, are_harmless
 from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import ABOUT_KINDS, CLAIMS, INDIRECT
 from kille.dialogue.robust_reading.islands import Island
@@ -15,9 +17,16 @@ HEDGING = frozenset({"okay", "affirm", "deny", "ask_deed"})
 
 
 def doubt_about(
-    island: Island, cover: Cover, sentence: RepairedSentence, lists: WordLists
+    island: Island,
+    cover: Cover,
+    sentence: RepairedSentence,
+    lists: WordLists,
+    *,
+    corrects: bool = False,
 ) -> str:
     """Why what an island claims is not learned at once, or nothing.
+
+    Where it may correct what was just learned, "I meant mug." needs no question.
 
     It is a `SAYING` beside what is not so, or with a "not" that would be left out, and
     `PARTIAL` where the tutor may be asked.
@@ -44,7 +53,15 @@ def doubt_about(
         it.rule in HEDGING and not is_taken_up(it, cover) for it in cover.islands
     )
     left_out = bool(cover.missed) or not sentence.is_certain
-    return PARTIAL if rule in INDIRECT or hedged or asks or left_out else ""
+    indirect = rule in INDIRECT and not (corrects and _says_meant(island, words, lists))
+    return PARTIAL if indirect or hedged or asks or left_out else ""
+
+
+def _says_meant(island: Island, words: Sequence[Word], lists: WordLists) -> bool:
+    """Whether it says that a common noun, or one with an article, was meant instead."""
+    inside = [it.form for it in words[island.first : island.after]]
+    is_noun = inside[-1] in lists.things or not lists.articles.isdisjoint(inside)
+    return island.rule == "meant" and is_noun
 
 
 def _is_first_choice(island: Island, cover: Cover) -> bool:
