@@ -91,8 +91,17 @@ LESSONS = (
 TELL_PART = "tell_part"
 """The move that says of a thing which part it has: no lesson, but perhaps a remark."""
 
+RELATE = "relate"
+"""The move that says where a thing is; of its words only a saying makes no lesson."""
+
 QUALIFIED = "qualified"
 """What a noun of several words is that may be an adjective and a noun."""
+
+OUTRIGHT = "outright"
+"""The stance of who says in so many words that one kind is a kind of another."""
+
+TAUGHT = "taught"
+"""The stance of who asks which words were taught, and not which are known."""
 
 STANCES = {
     "asserted": "asserted_stance",
@@ -100,11 +109,14 @@ STANCES = {
     "reversed": "reversed_stance",
     "of all": "of_all_stance",
     "other than": "other_than_stance",
+    OUTRIGHT: "outright_stance",
+    TAUGHT: "taught_stance",
 }
 """How somebody says a thing that can be said in several ways, and the rules for it.
 
 As a claim or as a question; a no, that it is the other way round; a yes or no, that it
-is so of all things; and a phrase, that it says what is not meant.
+is so of all things; a phrase, that it says what is not meant; and of two kinds, that
+the one is a kind of the other, with nouns that are none of doubtful things.
 """
 
 _FORMS = 3
@@ -181,8 +193,9 @@ def understand(
     """
     reads = reader(language, types or packaged_types())
     found: list[Sentence] = []
-    plain = settle_spelling(replace_lookalikes(text))
-    plain = join_repairs(plain, word_lists(language))
+    lists = word_lists(language)
+    plain = settle_spelling(lists.join_sentences(replace_lookalikes(text)))
+    plain = join_repairs(plain, lists)
     plain = _ABBREVIATION.sub(lambda it: it[0].replace(".", ""), plain)
     for part in _SENTENCE.findall(plain):
         if re.search(r"\w", part):
@@ -320,7 +333,8 @@ class Reader:
     ) -> Iterator[RecordType]:
         """The types of the event: who speaks to whom, its move, words and content."""
         is_lesson = move.rule in LESSONS
-        is_saying = is_lesson and self._lexicon.is_saying(plain_text(text))
+        may_be_saying = is_lesson or move.rule == RELATE
+        is_saying = may_be_saying and self._lexicon.is_saying(plain_text(text))
         for signs, content in self._together(move):
             if any(is_over_break(it.form, text) for it in signs if it.kind == "noun"):
                 continue
@@ -345,6 +359,8 @@ class Reader:
                 doubt = PARTIAL if doubt == DOUBTFUL else doubt
                 doubt, partly = ("", partly) if partly == SAYING else (doubt, doubt)
             for stance, rule in STANCES.items():
+                if stance == OUTRIGHT and any(map(self._is_doubtful_noun, signs)):
+                    continue
                 if any(it.rule == rule for it in parts(move)):
                     heard = set_to(heard, stance=self._types["Text"] @ stance)
             doubt = SAYING if is_saying else doubt
@@ -405,6 +421,13 @@ class Reader:
         means = "" if kind == "noun" else self._lexicon.means.get(main, "")
         own = article or (sign.article if kind == "noun" else "")
         return (self._types.sign(main, kind, own, means),)
+
+    def _is_doubtful_noun(self, sign: Record) -> bool:
+        """Whether a noun may be for nothing that is seen, or a slip of another."""
+        if self._lists.judge_noun(sign.form, self._lexicon.complements):
+            return True
+        slip = self._lists.intended_word(sign.form, sign.kind)
+        return slip is not None or self._is_qualified(sign.form)
 
     def _is_qualified(self, form: str) -> bool:
         """Whether a noun begins with a word for how things are: "lovely cup"."""

@@ -86,6 +86,8 @@ class WordLists:
     """The words for one, two, three and so on, in order."""
     spoken: Mapping[str, str] = field(default_factory=dict)
     """Forms that are written as they are spoken, and those of the grammar for them."""
+    across: Mapping[str, str] = field(default_factory=dict)
+    """Forms that go on over several sentences, and those of the grammar for them."""
     elliptic: Mapping[str, str] = field(default_factory=dict)
     """Forms that leave out a noun, and those with the noun in its place: {a_noun}."""
     opposites: Mapping[str, str] = field(default_factory=dict)
@@ -131,6 +133,14 @@ class WordLists:
         """
         words = (self.swapped.get(it.lower(), it) for it in re.split(r"(\W+)", text))
         return _replace_forms("".join(words), self.spoken)
+
+    def join_sentences(self, text: str) -> str:
+        """The text with what is said over several of its sentences said in one.
+
+        >>> word_lists("en").join_sentences("See the round thing? Apple.")
+        'the round thing is an apple.'
+        """
+        return _replace_forms(text, self.across)
 
     def fill_side(self, text: str, relation: str = "") -> str:
         """The text in full, where it only says on which side something is instead.
@@ -179,6 +189,8 @@ class WordLists:
         head = _head(form, complements)
         if form in self.names:
             return NAME
+        if len(words) > 1 and form in self.things:
+            return ""  # "pencil case"
         if form in self.abstract or head in self.abstract or is_noise(form):
             return REMARK
         if head.endswith(self.endings):
@@ -429,6 +441,7 @@ def _word_lists(language: str, _: int) -> WordLists:
         numbers=tuple(data.get("numbers", "").split()),
         swapped=_transpositions(data.get("small_words", "").split()),
         spoken=data.get("spoken", {}),
+        across=data.get("across", {}),
         elliptic=data.get("elliptic", {}),
         opposites=data.get("opposites", {}),
         reversing=data.get("reversing", ""),

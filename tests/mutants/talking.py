@@ -273,6 +273,7 @@ FITTING = {
     "leave": {"part"},
     "ask_deed": {"tell_abilities"},
     "ask_self": {"introduce"},
+    "tell_use": {"tell_scope"},
     "remark": {"take_as_remark"},
 }
 """What the robot may answer to what the tutor does."""

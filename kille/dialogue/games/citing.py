@@ -14,8 +14,9 @@ from kille.dialogue.criteria import (
     degree_of,
     sign_at,
 )
-from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.moves import plan
+from kille.dialogue.taxonomy import are_synonyms
 from ttr import Model, Record
 
 MOST = 4
@@ -25,6 +26,21 @@ MOST = 4
 def cite_all(s: Record, noun: Record, *, types: DialogueTypes) -> Record:
     """The state in which it also says by what the things of a noun are known."""
     return cite(s, [*criteria_of(s, noun)][-MOST:], types=types)
+
+
+def tell_kinds(s: Record, noun: Record, *, types: DialogueTypes) -> Record:
+    """The state in which it also says of which kinds a noun is one, or which of it."""
+    own = word_of(noun)
+    told = [
+        it
+        for it in s.private.kinds
+        if any(word_of(sign) is own for sign in it.signs)
+        and not are_synonyms(s, *it.signs)
+    ]
+    for it in told[-MOST:]:
+        claims = s.shared.pending
+        s = plan(s, "TellKind", it.content, signs=it.signs, pending=claims, types=types)
+    return s
 
 
 def cite_reasons(

@@ -16,6 +16,7 @@ COURTESY = first(
     reply("AskSelf", "Introduce", "Asked who it is, it says what it does."),
     reply("AskDeed", "TellAbilities", "What it cannot do it says, and what it can."),
     reply("Remark", "TakeAsRemark", "What is said of no thing in view is a remark."),
+    reply("TellUse", "TellScope", "What things are for it cannot see, and says so."),
     reply("NameOne", "TellNames", "It learns words for kinds, not names of one thing."),
     reply("Leave", "Part", "The tutor takes leave, and so does the robot."),
 )

@@ -16,6 +16,7 @@ from kille.dialogue.beliefs import knows, knows_word
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.games.contradicting import plan_earlier_question
 from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO
+from kille.dialogue.language import OUTRIGHT
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -77,7 +78,8 @@ def take_kinds_together(s: Record, *, types: DialogueTypes) -> Record | None:
     for lower, upper in nouns:
         if not (knows_word(s, lower) or knows_word(s, upper)):
             return _plan_answer(s, "NeedKind", lower, upper, types=types)
-    if not all(knows_word(s, sign) for two in nouns for sign in two):
+    known = all(knows_word(s, sign) for two in nouns for sign in two)
+    if not (known or _is_meant(said)):
         return _plan_question(s, singles, types=types)
     learned = s
     for it in singles:
@@ -108,9 +110,12 @@ def need_kind(s: Record, *, types: DialogueTypes) -> Record | None:
 
 @rule(answers=CLASSIFYING)
 def ask_new_kind(s: Record, *, types: DialogueTypes) -> Record | None:
-    """It does not know one of the nouns: it asks whether all of it is meant."""
+    """It does not know one of the nouns: it asks whether all of it is meant.
+
+    Who says "a kind of" in so many words means it, if the new noun is a common one.
+    """
     said = s.shared.latest
-    if VETTED in said or all(knows_word(s, sign) for sign in _nouns(s)):
+    if _is_meant(said) or all(knows_word(s, sign) for sign in _nouns(s)):
         return None
     return _plan_question(s, [said], types=types)
 
@@ -334,6 +339,11 @@ def _plan_question(
             types=types,
         )
     return s
+
+
+def _is_meant(said: Record) -> bool:
+    """Whether the tutor has said so in so many words, or when asked."""
+    return VETTED in said or ("stance" in said and said.stance == OUTRIGHT)
 
 
 def _directions(s: Record) -> list[tuple[Record, Record]]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from kille.dialogue.games.citing import cite_all
+from kille.dialogue.games.citing import cite_all, tell_kinds
+from kille.dialogue.language import TAUGHT
 from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.moves import plan
 from kille.dialogue.rules import rule
@@ -24,10 +25,19 @@ MEANT = {"noun": "MeanNoun", "adjective": "MeanAdjective", "relation": "MeanRela
 
 @rule(answers="AskKnowledge")
 def tell_words(s: Record, *, types: DialogueTypes) -> Record | None:
-    """The tutor asks what it knows: it lists its words, kind by kind."""
-    state = s
+    """The tutor asks what it knows: it lists its words, kind by kind.
+
+    Asked what it was taught, it leaves out what it knows without a lesson.
+    """
+    state, said = s, s.shared.latest
+    only_taught = "stance" in said and said.stance == TAUGHT
+    lessons = [word_of(it.sign) for it in (*s.private.lessons, *s.private.taught)]
     for kind, act in TOLD.items():
-        known = s.private[kind]
+        known = [
+            it
+            for it in s.private[kind]
+            if not (only_taught and lessons) or word_of(it) in lessons
+        ]
         if known:
             claims = s.shared.pending
             state = plan(
@@ -60,7 +70,7 @@ def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
                 pending=claims,
                 types=types,
             )
-            return cite_all(told, sign, types=types)
+            return tell_kinds(cite_all(told, sign, types=types), sign, types=types)
     return None
 
 

@@ -201,6 +201,8 @@ def _may_act_stand(place: _Place, situation: Situation) -> bool | None:
         case "presumed":
             seen = situation.things == 1 and not sentence.is_question
             return place.begins and seen
+        case "greet" if not _begins_clause(place):
+            return False  # "I drink it every morning."
         case "ask_repeat" if not place.is_only:
             return False
         case "other_place" if cover.missed or not situation.asks_whether:

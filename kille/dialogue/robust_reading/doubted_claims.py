@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from kille.dialogue.robust_reading.admissible_covers import is_taken_up
-from kille.dialogue.robust_reading.clause_words import are_harmless
+from kille.dialogue.robust_reading.clause_words import Word, are_harmless
 from kille.dialogue.robust_reading.island_covers import Cover
 from kille.dialogue.robust_reading.island_kinds import ABOUT_KINDS, CLAIMS, INDIRECT
 from kille.dialogue.robust_reading.island_weights import new_words
@@ -24,6 +26,8 @@ def doubt_about(
     lists: WordLists,
 ) -> str:
     """Why what an island claims is not learned at once, or nothing.
+
+    Where it may correct what was just learned, "I meant mug." needs no question.
 
     It is a `SAYING` beside what is not so, or with a "not" that would be left out, and
     `PARTIAL` where the tutor may be asked.
@@ -50,7 +54,17 @@ def doubt_about(
         it.rule in HEDGING and not is_taken_up(it, cover) for it in cover.islands
     )
     left_out = bool(cover.missed) or not sentence.is_certain
-    return PARTIAL if rule in INDIRECT or hedged or asks or left_out else ""
+    indirect = rule in INDIRECT and not (
+        situation.has_learned and _says_meant(island, words, lists)
+    )
+    return PARTIAL if indirect or hedged or asks or left_out else ""
+
+
+def _says_meant(island: Island, words: Sequence[Word], lists: WordLists) -> bool:
+    """Whether it says that a common noun, or one with an article, was meant instead."""
+    inside = [it.form for it in words[island.first : island.after]]
+    is_noun = inside[-1] in lists.things or not lists.articles.isdisjoint(inside)
+    return island.rule == "meant" and is_noun
 
 
 def _names_what_was_asked(

@@ -6,8 +6,9 @@ Source: Lison 2013, for weighing readings by the state of the dialogue.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import takewhile
 
-from kille.dialogue.parsing import Tree, parts
+from kille.dialogue.parsing import Tree, parts, words
 from kille.dialogue.robust_reading.island_kinds import CLAIMS
 from kille.dialogue.robust_reading.islands import START
 from kille.dialogue.robust_reading.situations import Situation
@@ -68,6 +69,10 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             return 0.0 if known else 0.9
         case "instruct_several" | "instruct_every" | "reject_several":
             return _fit_of_several(move, situation, lists)
+        case "ask_name" | "ask_find" if _asks_about_nothing_seen(move, lists):
+            return 0.3  # "What is the capital of Mongolia?"
+        case "relate" if _is_noun_of(move, lists):
+            return 0.0  # "This is a waste of my time."
         case "instruct_some" | "ask_deed" | "count_sort":
             return 0.5
         case "okay":
@@ -110,6 +115,37 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "instruct" if len(parts(move)) == 1:
             return 0.6
     return 1.0
+
+
+def _asks_about_nothing_seen(move: Tree, lists: WordLists) -> bool:
+    """Whether a question is about what nobody can see: "the capital of Mongolia"."""
+    heads = [_head(it) for it in _parts_by(move, "noun")]
+    return any(it in lists.abstract for it in heads)
+
+
+def _head(noun: Tree) -> str:
+    """The word of a noun that says what it is: the last, or the one before "of"."""
+    before = takewhile(lambda it: it.terminal != "OF", words(noun))
+    return [it.text.lower() for it in before][-1]
+
+
+def _is_noun_of(move: Tree, lists: WordLists) -> bool:
+    """Whether what is read as a relation is an article and a noun before "of"."""
+    for relation in _parts_by(move, "relation"):
+        first, *others = words(relation)
+        terminals = {it.terminal for it in others[:-1]}
+        if first.text.lower() in lists.articles and terminals == {"WORD"}:
+            return True
+    return False
+
+
+def _parts_by(tree: Tree, rule: str) -> Iterable[Tree]:
+    """The parts that are made by a rule, and those within others."""
+    for it in parts(tree):
+        if it.rule == rule:
+            yield it
+        else:
+            yield from _parts_by(it, rule)
 
 
 def _says_nothing(move: Tree) -> bool:

@@ -13,8 +13,9 @@ from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
-from kille.dialogue.language import Reader, Sentence, reader
-from kille.dialogue.meanings import DialogueTypes, packaged_types, value_at
+from kille.dialogue.language import Reader, Sentence, Utterance, reader
+from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import DialogueTypes, packaged_types, set_to, value_at
 from kille.dialogue.parsing import parts
 from kille.dialogue.robust_reading.admissible_covers import (
     follows_no,
@@ -43,7 +44,13 @@ from kille.dialogue.robust_reading.rivals import are_rivals, with_rivals
 from kille.dialogue.robust_reading.self_repairs import RepairedSentence, repair_sentence
 from kille.dialogue.robust_reading.situations import Situation
 from kille.dialogue.robust_reading.whole_sentences import is_weak
-from kille.dialogue.word_lists import PARTIAL, SAYING, WordLists, word_lists
+from kille.dialogue.word_lists import (
+    PARTIAL,
+    SAYING,
+    WordLists,
+    plain_text,
+    word_lists,
+)
 
 _UNSPEAKABLE = re.compile(r"[<>\[\]{}|\\^=@\x00-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e]")
 """Signs of markup, of programs and of terminals: what has any is not talk."""
@@ -114,7 +121,27 @@ def read_robustly(
                 _is_fallback(best),
                 _clauses_left_out(best, sentence, lists),
             )
+    if lexicon(language).is_saying(plain_text(sentence.plain)):
+        return _as_remark(text, situation, language, types)
     return _phrases(sentence, found)
+
+
+def _as_remark(
+    text: str, situation: Situation, language: str, types: DialogueTypes
+) -> Understanding:
+    """A saying that can be read as nothing else: it is heard as a remark."""
+    remark = lexicon(language).tells["remark"][0]
+    heard = read_robustly(remark, situation, language, types=types)
+    moves = tuple(
+        Sentence(text, tuple(_in_words(one, text, types) for one in it.readings))
+        for it in heard.moves
+    )
+    return Understanding(moves, (text,), (), is_remark=True)
+
+
+def _in_words(it: Utterance, text: str, types: DialogueTypes) -> Utterance:
+    """The same move, said in these words."""
+    return Utterance(text, set_to(it.type, text=types["Text"] @ text))
 
 
 class _CoverReading(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from kille.dialogue.answered_questions import last_question
-from kille.dialogue.meanings import predicate_at
+from kille.dialogue.meanings import predicate_at, values_at
 from kille.dialogue.reference import things_in
 from kille.dialogue.state import words
 from ttr import Record
@@ -38,6 +38,8 @@ class Situation(NamedTuple):
     """The tutor points at something."""
     points_anew: bool = False
     """The tutor points at something else than what was just spoken of."""
+    has_learned: bool = False
+    """The last that the robot said is what it has just learned."""
     colours: frozenset[str] = frozenset()
     """Those of them that say of what colour things are."""
 
@@ -64,5 +66,6 @@ def situation_of(s: Record) -> Situation:
         qualities=frozenset(it.form for it in s.private.adjectives),
         points=bool(s.view.pointed),
         points_anew=not {*s.view.pointed} <= spoken_of,
+        has_learned=any(values_at(move, "teaches") for move in s.private.last[-1:]),
         colours=frozenset(it.form for it in s.private.colours),
     )

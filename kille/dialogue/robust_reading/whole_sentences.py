@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence, Set
 from kille.dialogue.language import Sentence, Utterance
 from kille.dialogue.meanings import predicate_at
 from kille.dialogue.robust_reading.situations import Situation
-from kille.dialogue.word_lists import WordLists, plain_text, word_lists
+from kille.dialogue.word_lists import REMARK, WordLists, plain_text, word_lists
 from ttr import Record
 
 _COMMA = re.compile(r"[,;:]")
@@ -39,6 +39,7 @@ def is_weak(it: Sentence, situation: Situation, lists: WordLists) -> bool:
         or _breaks_off(one)
         or _spans_break(one)
         or _says_kind(one, situation, lists)
+        or _asks_about_nothing_seen(one, situation, lists)
         or any(_is_odd(sign, situation.qualities, lists) for sign in one.signs)
         for one in it.readings
     )
@@ -50,6 +51,19 @@ def _says_kind(it: Utterance, situation: Situation, lists: WordLists) -> bool:
         return False
     hows = [sign.form for sign in it.signs if sign.kind == "adjective"]
     return any(how not in situation.known and lists.judge_quality(how) for how in hows)
+
+
+def _asks_about_nothing_seen(
+    it: Utterance, situation: Situation, lists: WordLists
+) -> bool:
+    """Whether a question is about what nobody can see: "the capital of Mongolia"."""
+    if predicate_at(it.type, "e").name not in ("ask_name", "ask_find"):
+        return False
+    nouns = [sign.form for sign in it.signs if sign.kind == "noun"]
+    return any(
+        noun not in situation.known and lists.judge_noun(noun, lists.contents) == REMARK
+        for noun in nouns
+    )
 
 
 def _breaks_off(it: Utterance) -> bool:

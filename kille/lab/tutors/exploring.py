@@ -70,6 +70,7 @@ IN_PARTS = (
     "ask_deed",
     "ask_self",
     "remark",
+    "tell_use",
     "ask_guess",
     "ask_whose",
     "agree_partly",
