@@ -162,6 +162,8 @@ class WordLists:
     ) -> str:
         """The text with a noun where it is left out: what was learned, or pointed out.
 
+        Where how something is was learned, `a_noun` is that, and there is no noun.
+
         >>> english = word_lists("en")
         >>> english.fill_noun("That's another one.", "key", "a key")
         "That's another key."
@@ -172,6 +174,7 @@ class WordLists:
         forms = {
             said: written.format(noun=noun, a_noun=a_noun)
             for said, written in elliptic.items()
+            if noun or "{noun}" not in written
         }
         return _replace_forms(text, forms)
 

@@ -227,25 +227,28 @@ def without_early_answers(said: Iterable[Sentence]) -> tuple[Sentence, ...]:
 
 
 def fill_noun(text: str, s: Record, language: str = "en") -> str:
-    """The text with the noun that was learned last, where it says so little.
+    """The text with the word that was claimed or learned last, where it says so little.
 
-    "That's another one." is "That's another cup." after "This is a cup.". Where the
-    robot has just pointed out a cup, "No, the other one." says which one is. Where it
-    has said how two things stand, "No, left." says how they do.
+    "That's another one." is "That's another cup." after "This is a cup.", and "So is
+    this." is "This is red too." after "This is red.". Where the robot has just pointed
+    out a cup, "No, the other one." says which one is. Where it has said how two things
+    stand, "No, left." says how they do.
     """
     for claim in (it for it in s.shared.pending[:1] if "rel" in it):
         stands = next((it.form for it in words(s) if claims(claim, it)), "")
         text = word_lists(language).fill_side(text, stands)
     said = [predicate_at(it, "e").name for it in s.private.last[-1:]]
     is_elsewhere = "point_out" in said
-    signs = [it.sign for it in s.private.lessons[-1:]]
-    if is_elsewhere:
-        signs = [*words_in(words(s), *s.shared.pending)]
-    for sign in (it for it in signs if it.kind == "noun"):
-        a_noun = lexicon(language).with_article(sign.form, sign.article)
-        return word_lists(language).fill_noun(
-            text, sign.form, a_noun, is_elsewhere=is_elsewhere
-        )
+    signs = words_in(words(s), *s.shared.pending[:1])
+    if not signs and not is_elsewhere:
+        signs = [it.sign for it in s.private.lessons[-1:]]
+    lists = word_lists(language)
+    for sign in signs:
+        if sign.kind == "noun":
+            a_noun = lexicon(language).with_article(sign.form, sign.article)
+            return lists.fill_noun(text, sign.form, a_noun, is_elsewhere=is_elsewhere)
+        if sign.kind == "adjective" and not is_elsewhere:
+            return lists.fill_noun(text, "", sign.form)
     return text
 
 
