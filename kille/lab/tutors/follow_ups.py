@@ -1,0 +1,75 @@
+"""What follows up what the robot has just said: to take it back, or to have it go on.
+
+That can be said once only, straight after. So it is drawn more often than what leads on
+to something at any time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from hypothesis import strategies as st
+
+from kille.dialogue.answered_questions import NAMING_ACTS, last_act
+from kille.dialogue.games.confirming import JUST_LEARNED
+from kille.dialogue.games.criticising import TOLD as CRITERIA_TOLD
+from kille.dialogue.games.kinds_of_kinds import TOLD as KINDS_TOLD
+from kille.lab.tutors.answering import bare_sayings, sayings_anywhere, taking_back
+from kille.lab.tutors.happenings import interruptions, sample_silences
+from kille.lab.tutors.heard_sayings import sample_asides, sample_texts
+from kille.lab.worlds.asides import asides
+from kille.lab.worlds.sayings import Saying, WorldTalk
+from ttr import Record
+
+Options = Sequence[st.SearchStrategy[object]]
+
+TOLD = frozenset((*KINDS_TOLD, *CRITERIA_TOLD, "unlearned_kind"))
+"""What the robot says of kinds, which may be taken back, or asked about."""
+
+PAIR = 2
+"""So many things may have one another's names."""
+
+
+def follow_ups(talk: WorldTalk, s: Record) -> Options:
+    """What follows up what the robot has said, as strategies."""
+    return [
+        *map(sample_texts, filter(None, _sayings(talk, s))),
+        *(
+            sample_asides(s, asides(talk.words, name))
+            for name in _names_of_asides(talk, s)
+            if asides(talk.words, name)
+        ),
+    ]
+
+
+def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
+    """What may be said of what the robot has just said, as a move."""
+    last = last_act(s)
+    if s.shared.cut:
+        yield sayings_anywhere(talk, "release_floor")
+    if last in TOLD:
+        yield [*sayings_anywhere(talk, "deny"), *bare_sayings(talk, "ask_why")]
+        yield taking_back(talk)
+    elif last in JUST_LEARNED or not last:
+        yield taking_back(talk)
+
+
+def _names_of_asides(talk: WorldTalk, s: Record) -> Iterator[str]:
+    """What may be tried after what the robot has just said."""
+    last = last_act(s)
+    if s.shared.pending:
+        yield "of_cue"
+    if last in JUST_LEARNED:
+        yield "of_other"
+    if last in NAMING_ACTS and len(talk.world.in_view) == PAIR:
+        yield "reversed"
+
+
+def sudden_events(talk: WorldTalk, s: Record) -> Options:
+    """What may happen that nobody says: the robot is cut off, or nobody speaks."""
+    found: list[st.SearchStrategy[object]] = []
+    if cut := interruptions(s):
+        found.append(st.sampled_from(cut))
+    if s.private.strategy.turns.ask:
+        found += [sample_silences(talk.world)] * 2
+    return found
