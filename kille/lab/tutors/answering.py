@@ -42,11 +42,18 @@ Sayings = Sequence[Saying]
 # --- claims --------------------------------------------------------------------------
 
 
-def verdicts(talk: WorldTalk, pending: Sequence[RecordType]) -> Options:
+def verdicts(talk: WorldTalk, s: Record) -> Options:
     """Judgements of what the robot claims: yes if it is true, no if it is not.
 
-    What is not so is mostly corrected. Now and then they err.
+    What is not so is mostly corrected. Now and then they err, and what was taught on
+    another day they have forgotten.
     """
+    earlier = [sample_texts(taking_back(talk))] * 2 if s.private.taught else ()
+    return [*_judgements(talk, s.shared.pending), *earlier]
+
+
+def _judgements(talk: WorldTalk, pending: Sequence[RecordType]) -> Options:
+    """What one may say who is told something: that it is so, or what is."""
     true = [claim for claim in pending if is_true(talk, claim)]
     agreeing = sample_texts(sayings_anywhere(talk, "affirm" if true else "deny"))
     erring = sample_texts(sayings_anywhere(talk, "deny" if true else "affirm"))
@@ -131,8 +138,8 @@ def choices(talk: WorldTalk, s: Record) -> Options:
         sample_texts(taking_back(talk)),
     ]
     if asked.ask in WHICH:
-        which = asides(talk.words, "which")
-        options += [sample_asides(s, which)] if which else []
+        which = (asides(talk.words, name) for name in ("all", "other"))
+        options += [sample_asides(s, it) for it in which if it]
     return options
 
 

@@ -41,6 +41,9 @@ __getattr__ = former_names(__name__, {"tutoring": "exploring_tutor"})
 OTHERS = 5
 """How often it is not clear what was said, and something happens, as each move is."""
 
+KINDS = 2
+"""How often kinds are talked of, as is any other thing that leads on."""
+
 FOLLOWING = 10
 """As often as one in so many times each thing that follows up is said."""
 
@@ -105,7 +108,7 @@ def _answers(talk: WorldTalk, s: Record) -> Options:
         return [*choices(talk, s)] * 2
     if not s.shared.pending:
         return ()
-    judging = verdicts(talk, s.shared.pending)
+    judging = verdicts(talk, s)
     leading = [*_leading_strategies(talk, s), sample_idle_looks(talk.world)]
     return [*judging, *judging, st.one_of(leading)]
 
@@ -131,7 +134,7 @@ def _leading_strategies(
     tried = (asides(talk.words, name, s.private.nouns) for name in TRIED)
     return [
         *_topic_strategies(situation(talk.words, s)),
-        *map(sample_texts, kind_topics(kind_situation(plain, s))),
+        *[*map(sample_texts, kind_topics(kind_situation(plain, s)))] * KINDS,
         *(sample_asides(s, it) for it in tried if it),
     ]
 

@@ -17,7 +17,7 @@ from kille.dialogue.games.kinds_of_kinds import TOLD as KINDS_TOLD
 from kille.lab.tutors.answering import bare_sayings, sayings_anywhere, taking_back
 from kille.lab.tutors.happenings import interruptions, sample_silences
 from kille.lab.tutors.heard_sayings import sample_asides, sample_texts
-from kille.lab.worlds.asides import asides
+from kille.lab.worlds.asides import Aside, asides
 from kille.lab.worlds.sayings import Saying, WorldTalk
 from ttr import Record
 
@@ -26,20 +26,18 @@ Options = Sequence[st.SearchStrategy[object]]
 TOLD = frozenset((*KINDS_TOLD, *CRITERIA_TOLD, "unlearned_kind"))
 """What the robot says of kinds, which may be taken back, or asked about."""
 
+ASKING_BACK = ("ask_why", "ask_certainty", "ask_so")
+"""What one may ask about anything that was said."""
+
 PAIR = 2
 """So many things may have one another's names."""
 
 
 def follow_ups(talk: WorldTalk, s: Record) -> Options:
     """What follows up what the robot has said, as strategies."""
-    return [
-        *map(sample_texts, filter(None, _sayings(talk, s))),
-        *(
-            sample_asides(s, asides(talk.words, name))
-            for name in _names_of_asides(talk, s)
-            if asides(talk.words, name)
-        ),
-    ]
+    said = map(sample_texts, filter(None, _sayings(talk, s)))
+    tried = (sample_asides(s, it) for it in _asides(talk, s) if it)
+    return [*said, *tried]
 
 
 def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
@@ -52,17 +50,23 @@ def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
         yield taking_back(talk)
     elif last in JUST_LEARNED or not last:
         yield taking_back(talk)
+        yield talk.sayings("mention")
+    elif not s.shared.qud:
+        yield [it for act in ASKING_BACK for it in bare_sayings(talk, act)]
 
 
-def _names_of_asides(talk: WorldTalk, s: Record) -> Iterator[str]:
+def _asides(talk: WorldTalk, s: Record) -> Iterator[Sequence[Aside]]:
     """What may be tried after what the robot has just said."""
-    last = last_act(s)
+    last, words = last_act(s), talk.words
     if s.shared.pending:
-        yield "of_cue"
+        yield asides(words, "of_cue")
+        yield asides(words, "other")
+    if last == "unknown_noun":
+        yield asides(words, "all")
     if last in JUST_LEARNED:
-        yield "of_other"
+        yield asides(words, "of_other", [it.sign for it in s.private.lessons[-1:]])
     if last in NAMING_ACTS and len(talk.world.in_view) == PAIR:
-        yield "reversed"
+        yield asides(words, "reversed")
 
 
 def sudden_events(talk: WorldTalk, s: Record) -> Options:

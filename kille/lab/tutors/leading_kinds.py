@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from itertools import product
+from itertools import permutations, product
 from typing import NamedTuple
 
 from kille.dialogue.beliefs import knows
@@ -19,10 +19,11 @@ from kille.lab.worlds.perception import thing
 from kille.lab.worlds.sayings import (
     THIS,
     Claim,
-    Matter,
     Phrase,
     Saying,
     WorldTalk,
+    cue_matter,
+    generic_matter,
     subsumption_matter,
     synonymy_matter,
 )
@@ -38,7 +39,7 @@ class KindSituation(NamedTuple):
     `kinds` are those that are kinds of others, `opposed` those of which one was said to
     be true of something and the other not; `named` is what was said that the thing is
     that is attended to, `subjects` of what was said by what it is known, `parts` are
-    nouns for parts only.
+    nouns for parts only, `nouns` those that are known.
     """
 
     talk: WorldTalk
@@ -47,6 +48,7 @@ class KindSituation(NamedTuple):
     named: tuple[Record, ...]
     subjects: tuple[Record, ...]
     parts: tuple[Record, ...]
+    nouns: tuple[Record, ...]
 
 
 def kind_situation(talk: WorldTalk, s: Record) -> KindSituation:
@@ -72,6 +74,7 @@ def kind_situation(talk: WorldTalk, s: Record) -> KindSituation:
         tuple(
             it for it in _signs_at(COMPONENT, contents) if not knows(private.nouns, it)
         ),
+        private.nouns,
     )
 
 
@@ -86,13 +89,17 @@ def _signs_at(
 @lru_cache(256)
 def kind_topics(now: KindSituation) -> Sequence[Sayings]:
     """What leads on to kinds, topic by topic."""
+    talk = now.talk
+    pairs = [*permutations(now.nouns, 2)]
     topics = [
-        _denials(now),
-        [it for pair in now.opposed for it in _classifications(now.talk, *pair)],
-        [it for pair in now.kinds for it in _repetitions(now.talk, *pair)],
-        [it for pair in now.kinds for it in _consequences(now.talk, *pair)],
-        [*_criteria_again(now)],
-        [_of_this(now.talk, act, it) for it in now.parts for act in _NAMING],
+        [*_second_names(now)],
+        [it for pair in pairs for it in _classifications(talk, *pair)],
+        [it for noun in now.nouns for it in _criteria(talk, noun)],
+        [it for pair in now.opposed for it in _classifications(talk, *pair)],
+        [it for pair in now.kinds for it in _repetitions(talk, *pair)],
+        [it for pair in now.kinds for it in _consequences(talk, *pair)],
+        [it for noun in now.subjects for it in _criteria(talk, noun)],
+        [_of_this(talk, act, it) for it in now.parts for act in _NAMING],
     ]
     return [topic for topic in topics if topic]
 
@@ -101,12 +108,12 @@ _NAMING = ("instruct", "reject", "correct")
 """The moves that say what a thing is, or is not."""
 
 
-def _denials(now: KindSituation) -> Sayings:
-    """That the thing attended to is something else besides what it was called."""
-    if not now.named:
-        return ()
+def _second_names(now: KindSituation) -> Iterator[Saying]:
+    """That the thing attended to is, or is not, something else than it was called."""
     others = (it for it in now.talk.words.nouns.values() if not knows(now.named, it))
-    return [_of_this(now.talk, "reject", it) for it in others]
+    for noun in others if now.named else ():
+        yield _of_this(now.talk, "reject", noun)
+        yield _of_this(now.talk, "instruct", noun)
 
 
 def _classifications(talk: WorldTalk, lower: Record, upper: Record) -> Iterator[Saying]:
@@ -140,17 +147,21 @@ def _consequences(talk: WorldTalk, lower: Record, upper: Record) -> Iterator[Say
         yield _of_this(talk, act, sign)
 
 
-def _criteria_again(now: KindSituation) -> Iterator[Saying]:
-    """What is said by what things are known of which that was said before."""
-    for act in ("generalise", "weigh_cue"):
-        for it in now.talk.sayings(act):
-            subject = dict(it.about.labels).get("subject") if _is_matter(it) else None
-            if isinstance(subject, Record) and knows(now.subjects, subject):
-                yield it
-
-
-def _is_matter(one: Saying) -> bool:
-    return isinstance(one.about, Matter)
+def _criteria(talk: WorldTalk, noun: Record) -> Iterator[Saying]:
+    """By what the things of a noun are known, or not, and whether they are."""
+    words = talk.words
+    part = next(it for it in reversed(words.nouns.values()) if it != noun)
+    for quality in words.colours[:2]:
+        for often in ("Generally", "Never"):
+            matter = generic_matter(noun, often, quality=quality)
+            yield talk.say("generalise", matter)
+    yield talk.say("generalise", generic_matter(noun, "Always", part=part))
+    for matters in (True, False):
+        yield talk.say("weigh_cue", cue_matter(noun, "colour", matters))
+    yield talk.say("ask_generic", cue_matter(noun, "colour", True))
+    yield talk.say(
+        "ask_generic", generic_matter(noun, "Always", quality=words.colours[0])
+    )
 
 
 def _of_this(talk: WorldTalk, act: str, sign: Record) -> Saying:

@@ -24,7 +24,15 @@ from kille.lab.tutors.leading_perspectives import (
 )
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import number_of
-from kille.lab.worlds.sayings import Claim, Matter, Phrase, Saying, WorldTalk
+from kille.lab.worlds.sayings import (
+    THIS,
+    Claim,
+    Matter,
+    Phrase,
+    Saying,
+    WorldTalk,
+    between_phrase,
+)
 from kille.lab.worlds.vocabulary import Vocabulary
 from ttr import Pred, Record
 
@@ -87,6 +95,9 @@ def _word_topics(talk: WorldTalk, known: frozenset[Pred]) -> Sequence[Sayings]:
         *_wrong_nouns(talk, known),
         *_flat_place_topics(talk),
         *_unknown_word_topics(talk, known),
+        _lessons_about_all(talk, known),
+        _places_between(talk),
+        _forgetting_all(talk),
     ]
     return [said for said in found if said]
 
@@ -131,6 +142,35 @@ def _questions_of_others(talk: WorldTalk) -> Sayings:
     other = Claim(None, Phrase("Other"))
     acts_ = ("ask_name", "ask_place") if len(talk.world.in_view) > 1 else ()
     return [talk.say(act, other) for act in acts_]
+
+
+OF_ALL = ("instruct_several", "instruct_every", "instruct_only", "reject_several")
+"""The moves that teach what all things in view are."""
+
+
+def _lessons_about_all(talk: WorldTalk, known: frozenset[Pred]) -> Sayings:
+    """Lessons in words that are known about all things, as far as there are such."""
+    said = [it for act in OF_ALL for it in talk.sayings(act)]
+    return [it for it in said if known.issuperset(map(word_of, it.about.signs))] or said
+
+
+def _places_between(talk: WorldTalk) -> Sayings:
+    """Questions if this is between two things, by their nouns."""
+    things = talk.world.in_view[:TWO]
+    if len(things) < TWO:
+        return ()
+    flanks = [Phrase("", (talk.words.noun_of(talk.world, x),)) for x in things]
+    amid = between_phrase(*flanks)
+    return [talk.say("ask_between", Matter("", (("target", THIS), ("amid", amid))))]
+
+
+TWO = 2
+"""So many things another one is between."""
+
+
+def _forgetting_all(talk: WorldTalk) -> Sayings:
+    """What takes back everything, or the latest."""
+    return [*talk.sayings("forget_all"), *talk.sayings("forget_last")]
 
 
 def _reflexive_lessons(talk: WorldTalk) -> Sayings:

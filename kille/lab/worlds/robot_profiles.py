@@ -79,7 +79,12 @@ ALIKE = {"kinds": ("cup", "mug", "book"), "colours": ("red", "green", "blue")}
 ROBOTS = (
     RobotProfile("assisted", 0.05),
     RobotProfile("assisted, before one thing", 0.025, world={"in_view": 1}),
-    RobotProfile("assisted, before two things", 0.025, world={"in_view": 2}),
+    RobotProfile(
+        "assisted, after school, before two things",
+        0.025,
+        times=1,
+        world={"in_view": 2},
+    ),
     RobotProfile("assisted, after school", 0.05, times=1),
     RobotProfile("assisted, after school, lively", 0.05, times=1, strategy=LIVELY),
     RobotProfile(
