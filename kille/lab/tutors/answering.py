@@ -177,9 +177,8 @@ def _restatements(talk: WorldTalk, asked: Record) -> Sayings:
 
 def _names_again(talk: WorldTalk, asked: Record) -> Sayings:
     """Each of two nouns that a thing was called by, as a lesson or a correction."""
-    found = (
-        sign for it in asked.options for sign in it.signs if claims(it.content, sign)
-    )
+    nouns = talk.words.nouns.values()
+    found = [it for it in nouns if any(claims(o.content, it) for o in asked.options)]
     acts = ("instruct", "correct")
     return [talk.say(act, Claim(sign, NOTHING)) for sign in found for act in acts]
 

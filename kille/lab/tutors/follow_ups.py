@@ -17,8 +17,9 @@ from kille.dialogue.games.kinds_of_kinds import TOLD as KINDS_TOLD
 from kille.lab.tutors.answering import bare_sayings, sayings_anywhere, taking_back
 from kille.lab.tutors.happenings import interruptions, sample_silences
 from kille.lab.tutors.heard_sayings import sample_asides, sample_texts
+from kille.lab.tutors.leading_kinds import kind_situation, pressing_kinds
 from kille.lab.worlds.asides import Aside, asides
-from kille.lab.worlds.sayings import Saying, WorldTalk
+from kille.lab.worlds.sayings import Claim, Saying, WorldTalk
 from ttr import Record
 
 Options = Sequence[st.SearchStrategy[object]]
@@ -35,9 +36,13 @@ PAIR = 2
 
 def follow_ups(talk: WorldTalk, s: Record) -> Options:
     """What follows up what the robot has said, as strategies."""
-    said = map(sample_texts, filter(None, _sayings(talk, s)))
+    said = [*_sayings(talk, s)]
+    if not s.shared.pending and not s.shared.qud:
+        said += [_questions(talk, s)]
+        said += pressing_kinds(kind_situation(talk.without_glance(), s))
+    said_so = map(sample_texts, filter(None, said))
     tried = (sample_asides(s, it) for it in _asides(talk, s) if it)
-    return [*said, *tried]
+    return [*said_so, *tried]
 
 
 def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
@@ -55,12 +60,22 @@ def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
         yield [it for act in ASKING_BACK for it in bare_sayings(talk, act)]
 
 
+def _questions(talk: WorldTalk, s: Record) -> Sequence[Saying]:
+    """What things are, where it matters that the robot says that by itself."""
+    if not s.private.taught and len(talk.world.in_view) != PAIR:
+        return ()
+    phrases = (talk.phrases(x)[0] for x in talk.world.in_view)
+    return [talk.say("ask_name", Claim(None, phrase)) for phrase in phrases]
+
+
 def _asides(talk: WorldTalk, s: Record) -> Iterator[Sequence[Aside]]:
     """What may be tried after what the robot has just said."""
     last, words = last_act(s), talk.words
     if s.shared.pending:
         yield asides(words, "of_cue")
         yield asides(words, "other")
+    if len(talk.world.in_view) == 1:
+        yield asides(words, "alone")
     if last == "unknown_noun":
         yield asides(words, "all")
     if last in JUST_LEARNED:

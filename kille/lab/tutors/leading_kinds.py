@@ -19,6 +19,7 @@ from kille.lab.worlds.perception import thing
 from kille.lab.worlds.sayings import (
     THIS,
     Claim,
+    Matter,
     Phrase,
     Saying,
     WorldTalk,
@@ -38,17 +39,22 @@ class KindSituation(NamedTuple):
 
     `kinds` are those that are kinds of others, `opposed` those of which one was said to
     be true of something and the other not; `named` is what was said that the thing is
-    that is attended to, `subjects` of what was said by what it is known, `parts` are
-    nouns for parts only, `nouns` those that are known.
+    that is attended to, `denied` what was said that it is not, `subjects` of what was
+    said by what it is known, `parts` are nouns for parts only, `nouns` those that are
+    known, `told` those that were said of things here. `recalls` says that some were
+    taught on another day.
     """
 
     talk: WorldTalk
     kinds: tuple[Pair, ...]
     opposed: tuple[Pair, ...]
     named: tuple[Record, ...]
+    denied: tuple[Record, ...]
     subjects: tuple[Record, ...]
     parts: tuple[Record, ...]
     nouns: tuple[Record, ...]
+    told: tuple[Record, ...]
+    recalls: bool
 
 
 def kind_situation(talk: WorldTalk, s: Record) -> KindSituation:
@@ -69,12 +75,17 @@ def kind_situation(talk: WorldTalk, s: Record) -> KindSituation:
         talk,
         tuple((it.signs[0], it.signs[-1]) for it in private.kinds),
         tuple(dict.fromkeys(opposed)),
-        tuple(it.sign for it in said if thing_at(it.content, "target") == x),
+        *(
+            tuple(it.sign for it in names if thing_at(it.content, "target") == x)
+            for names in (said, denied)
+        ),
         tuple(_signs_at(SUBJECT, contents)),
         tuple(
             it for it in _signs_at(COMPONENT, contents) if not knows(private.nouns, it)
         ),
         private.nouns,
+        tuple(dict.fromkeys(it.sign for it in said)),
+        bool(private.taught),
     )
 
 
@@ -88,13 +99,23 @@ def _signs_at(
 
 @lru_cache(256)
 def kind_topics(now: KindSituation) -> Sequence[Sayings]:
-    """What leads on to kinds, topic by topic."""
-    talk = now.talk
+    """What leads on to kinds at any time, topic by topic."""
     pairs = [*permutations(now.nouns, 2)]
     topics = [
+        [it for pair in pairs for it in _classifications(now.talk, *pair)],
+        [it for noun in now.nouns for it in _criteria(now.talk, noun)],
+    ]
+    return [topic for topic in topics if topic]
+
+
+@lru_cache(256)
+def pressing_kinds(now: KindSituation) -> Sequence[Sayings]:
+    """What follows from what is known of kinds and of things, or contradicts it."""
+    talk = now.talk
+    topics = [
         [*_second_names(now)],
-        [it for pair in pairs for it in _classifications(talk, *pair)],
-        [it for noun in now.nouns for it in _criteria(talk, noun)],
+        [*_clashes(now)],
+        [it for noun in now.told for it in _lessons_about_all(talk, noun)],
         [it for pair in now.opposed for it in _classifications(talk, *pair)],
         [it for pair in now.kinds for it in _repetitions(talk, *pair)],
         [it for pair in now.kinds for it in _consequences(talk, *pair)],
@@ -111,7 +132,7 @@ _NAMING = ("instruct", "reject", "correct")
 def _second_names(now: KindSituation) -> Iterator[Saying]:
     """That the thing attended to is, or is not, something else than it was called."""
     others = (it for it in now.talk.words.nouns.values() if not knows(now.named, it))
-    for noun in others if now.named else ():
+    for noun in others if now.named or now.recalls else ():
         yield _of_this(now.talk, "reject", noun)
         yield _of_this(now.talk, "instruct", noun)
 
@@ -129,22 +150,29 @@ def _repetitions(talk: WorldTalk, lower: Record, upper: Record) -> Iterator[Sayi
         yield talk.say(act, subsumption_matter(lower, upper))
 
 
+def _lessons_about_all(talk: WorldTalk, noun: Record) -> Iterator[Saying]:
+    """That all things here are what one of them was called, or only this one is."""
+    yield talk.say("instruct_every", Matter("", (("counted", noun),)))
+    if talk.world.attended_thing is not None:
+        yield _of_this(talk, "instruct_only", noun)
+
+
+def _clashes(now: KindSituation) -> Iterator[Saying]:
+    """That the thing attended to is of a kind, and not of what that is a kind of."""
+    for lower, upper in now.kinds if now.talk.world.attended_thing else ():
+        if not knows(now.named, lower):
+            yield _of_this(now.talk, "instruct", lower)
+        if not knows(now.denied, upper):
+            yield _of_this(now.talk, "reject", upper)
+
+
 def _consequences(talk: WorldTalk, lower: Record, upper: Record) -> Iterator[Saying]:
-    """What may be said of a thing in view that is of a kind, or not."""
+    """What may be asked, and denied, of things that are of one kind, and so another."""
     called = Claim(upper, Phrase("", (lower,)), denies=True)
     yield talk.say("reject", called)
-    if talk.world.attended_thing is None:
-        return
-    for act, sign in (
-        ("instruct", lower),
-        ("instruct", lower),
-        ("reject", upper),
-        ("reject", upper),
-        ("ask_why", upper),
-        ("ask_why", upper),
-        ("ask_whether", upper),
-    ):
-        yield _of_this(talk, act, sign)
+    if talk.world.attended_thing is not None:
+        for act in ("ask_why", "ask_whether"):
+            yield _of_this(talk, act, upper)
 
 
 def _criteria(talk: WorldTalk, noun: Record) -> Iterator[Saying]:

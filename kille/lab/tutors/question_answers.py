@@ -27,6 +27,7 @@ DROPPING = frozenset(
         "take_rest",
         "learn_all",
         "take_either",
+        "take_restated",
         "correct_either",
         "ask_fewer",
         "ask_once_more",

@@ -65,9 +65,11 @@ def asides(
 ) -> tuple[Aside, ...]:
     """What may be said to try something, mostly in nouns that are known.
 
+    Each wording is there as often as any other.
+
     >>> from kille.lab.worlds.vocabulary import vocabulary
-    >>> [it.text for it in asides(vocabulary("en"), "of_cue")]
-    ['The colour does not matter.']
+    >>> {it.text for it in asides(vocabulary("en"), "of_cue")}
+    {'The colour does not matter.'}
     """
     return _asides(words, name, tuple(it for it in known if it.kind == "noun"))
 
@@ -81,7 +83,7 @@ def _asides(
         for wording in aside_wordings(words.language, name)
         for slots in _fillings(words, wording, nouns)
     )
-    return tuple(dict.fromkeys(_capital(it) for it in found))
+    return tuple(map(_capital, found))
 
 
 def _capital(aside: Aside) -> Aside:
@@ -92,9 +94,6 @@ def _fillings(
     words: Vocabulary, wording: str, nouns: Sequence[Record]
 ) -> Iterator[dict[str, str]]:
     """The texts for the slots of a wording, some times over."""
-    if "{" not in wording:
-        yield {}
-        return
     speaks, random = lexicon(words.language), Random(wording)
     others = [it for it in words.nouns.values() if it not in nouns]
     for number in range(SOME):

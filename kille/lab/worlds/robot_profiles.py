@@ -92,7 +92,7 @@ ROBOTS = (
     ),
     RobotProfile("assisted, after school, seeing badly", 0.05, times=1, world=DIM),
     RobotProfile("assisted, seeing badly", 0.05, world=DIM),
-    RobotProfile("assisted, seeing flat pictures", 0.05, world=FLAT),
+    RobotProfile("assisted, seeing flat pictures", 0.025, world=FLAT),
     RobotProfile(
         "assisted, after school, seeing flat pictures",
         0.05,
@@ -102,7 +102,7 @@ ROBOTS = (
     RobotProfile("assisted, on another day", 0.05, times=1, since=game_next_day),
     RobotProfile(
         "assisted, on another day, told of kinds",
-        0.05,
+        0.1,
         times=3,
         since=_tell_kinds_the_day_before,
     ),
@@ -121,6 +121,6 @@ ROBOTS = (
     RobotProfile("autonomous", 0.05, strategy=ALONE),
     RobotProfile("autonomous, after school", 0.05, times=3, strategy=ALONE),
     RobotProfile("autonomous, four bands", 0.05, strategy={**ALONE, **FOUR}),
-    RobotProfile("driven", 0.05, strategy={"mode": "driven"}),
+    RobotProfile("driven", 0.025, strategy={"mode": "driven"}),
 )
 """All of them: each in a share of the dialogues."""
