@@ -44,7 +44,7 @@ OTHERS = 5
 KINDS = 2
 """How often kinds are talked of, as is any other thing that leads on."""
 
-FOLLOWING = 10
+FOLLOWING = 12
 """As often as one in so many times each thing that follows up is said."""
 
 TRIED = ("several", "in_doubt", "of_kinds", "supposed")
@@ -156,7 +156,7 @@ def _free_options(talk: WorldTalk, known: frozenset[Pred]) -> Options:
 def _free(talk: WorldTalk, known: frozenset[Pred]) -> Sequence[Sayings]:
     """What a tutor may say who was not asked anything, mostly in words that are known.
 
-    Half of it are lessons.
+    A third of it are lessons.
     """
     everything = [
         [it for it in said if known.issuperset(map(word_of, it.about.signs))] or said
@@ -170,4 +170,4 @@ def _free(talk: WorldTalk, known: frozenset[Pred]) -> Sequence[Sayings]:
         for claim in talk.true_claims(talk.world.attended_thing, phrase)
         if known.issuperset(map(word_of, (*phrase.signs, *claim.landmark.signs)))
     ]
-    return [*everything, *[lessons] * len(everything)]
+    return [*everything, *[lessons] * (len(everything) // 2)]

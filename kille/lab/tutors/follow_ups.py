@@ -18,6 +18,7 @@ from kille.lab.tutors.answering import bare_sayings, sayings_anywhere, taking_ba
 from kille.lab.tutors.happenings import interruptions, sample_silences
 from kille.lab.tutors.heard_sayings import sample_asides, sample_texts
 from kille.lab.tutors.leading_kinds import kind_situation, pressing_kinds
+from kille.lab.tutors.leading_perspectives import perspectives_by_side
 from kille.lab.worlds.asides import Aside, asides
 from kille.lab.worlds.sayings import Claim, Saying, WorldTalk
 from ttr import Record
@@ -27,8 +28,11 @@ Options = Sequence[st.SearchStrategy[object]]
 TOLD = frozenset((*KINDS_TOLD, *CRITERIA_TOLD, "unlearned_kind"))
 """What the robot says of kinds, which may be taken back, or asked about."""
 
-ASKING_BACK = ("ask_why", "ask_certainty", "ask_so")
-"""What one may ask about anything that was said."""
+ASKING_BACK = ("ask_why", "ask_certainty", "ask_so", "ask_guess", "deny")
+"""What one may ask about anything that was said, or say against it."""
+
+LIVELY = 4
+"""How often nobody speaks to a robot that speaks then, as it is cut off."""
 
 PAIR = 2
 """So many things may have one another's names."""
@@ -55,9 +59,12 @@ def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
         yield taking_back(talk)
     elif last in JUST_LEARNED or not last:
         yield taking_back(talk)
-        yield talk.sayings("mention")
     elif not s.shared.qud:
         yield [it for act in ASKING_BACK for it in bare_sayings(talk, act)]
+    if not s.shared.qud:
+        yield talk.sayings("mention")
+    if s.shared.turned:
+        yield [*perspectives_by_side(talk), *sayings_anywhere(talk, "ask_whose")]
 
 
 def _questions(talk: WorldTalk, s: Record) -> Sequence[Saying]:
@@ -90,5 +97,5 @@ def sudden_events(talk: WorldTalk, s: Record) -> Options:
     if cut := interruptions(s):
         found.append(st.sampled_from(cut))
     if s.private.strategy.turns.ask:
-        found += [sample_silences(talk.world)] * 2
+        found += [sample_silences(talk.world)] * LIVELY
     return found

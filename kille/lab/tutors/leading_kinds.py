@@ -116,6 +116,7 @@ def pressing_kinds(now: KindSituation) -> Sequence[Sayings]:
         [*_second_names(now)],
         [*_clashes(now)],
         [it for noun in now.told for it in _lessons_about_all(talk, noun)],
+        talk.sayings("swap") if len(now.told) > 1 else (),
         [it for pair in now.opposed for it in _classifications(talk, *pair)],
         [it for pair in now.kinds for it in _repetitions(talk, *pair)],
         [it for pair in now.kinds for it in _consequences(talk, *pair)],
