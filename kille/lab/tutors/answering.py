@@ -127,20 +127,23 @@ def choices(talk: WorldTalk, s: Record) -> Options:
     """Which of several moves was meant: in words, by pointing, or none of them."""
     asked = s.shared.qud[0]
     settling = sample_texts(_plain_answers(talk, asked))
-    mentions = talk.sayings("mention")
-    pointing = [(glance_event, talk.world.point_at(x)) for x in talk.world.in_view]
+    mentions = [it for it in talk.sayings("mention") if len(it.about.signs) == 1]
     options = [
         sample_texts(_yes_or_no(talk)),
         settling,
         settling,
-        sample_texts([it for it in mentions if len(it.about.signs) == 1]),
-        *([sample_looks(talk.world, pointing)] if pointing else []),
+        sample_texts(mentions),
         sample_texts(taking_back(talk)),
     ]
-    if asked.ask in WHICH:
-        which = (asides(talk.words, name) for name in ("all", "other"))
-        options += [sample_asides(s, it) for it in which if it]
-    return options
+    if asked.ask not in WHICH:
+        return options
+    pointing = [(glance_event, talk.world.point_at(x)) for x in talk.world.in_view]
+    which = (asides(talk.words, name) for name in ("all", "other"))
+    return [
+        *options,
+        *([sample_looks(talk.world, pointing)] if pointing else []),
+        *(sample_asides(s, it) for it in which if it),
+    ]
 
 
 def _yes_or_no(talk: WorldTalk) -> Sayings:
