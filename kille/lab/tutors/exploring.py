@@ -98,7 +98,7 @@ def _replies(words: Vocabulary, s: Record, model: Model) -> Options:
     talk = WorldTalk(words, world_of(s))
     options = _answers(talk, s) or _openings(words, talk, s)
     often = len(options) // FOLLOWING + 1
-    following, sudden = follow_ups(talk, s), sudden_events(talk, s)
+    following, sudden = [*follow_ups(talk, s)], [*sudden_events(talk, s)]
     return [*options, *following * often, *sudden * (often // 2 or 1)]
 
 
@@ -131,10 +131,11 @@ def _leading_strategies(
 ) -> Sequence[st.SearchStrategy[object]]:
     """What leads on, topic by topic."""
     plain = talk.without_glance()
+    kinds = [*map(sample_texts, kind_topics(kind_situation(plain, s)))]
     tried = (asides(talk.words, name, s.private.nouns) for name in TRIED)
     return [
         *_topic_strategies(situation(talk.words, s)),
-        *[*map(sample_texts, kind_topics(kind_situation(plain, s)))] * KINDS,
+        *kinds * KINDS,
         *(sample_asides(s, it) for it in tried if it),
     ]
 

@@ -6,13 +6,13 @@ and what contradicts it, can be said only when it is known.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import permutations, product
 from typing import NamedTuple
 
 from kille.dialogue.beliefs import knows
-from kille.dialogue.criteria import COMPONENT, SUBJECT
+from kille.dialogue.criteria import COMPONENT, SUBJECT, sign_at
 from kille.dialogue.meanings import is_denial
 from kille.dialogue.reference import thing_at
 from kille.lab.worlds.perception import thing
@@ -70,18 +70,17 @@ def kind_situation(talk: WorldTalk, s: Record) -> KindSituation:
         if thing_at(one.content, "target") == thing_at(other.content, "target")
     )
     x = None if attended is None else thing(attended)
-    contents = [(it.content, it.signs) for it in private.criteria]
     return KindSituation(
         talk,
         tuple((it.signs[0], it.signs[-1]) for it in private.kinds),
         tuple(dict.fromkeys(opposed)),
-        *(
-            tuple(it.sign for it in names if thing_at(it.content, "target") == x)
-            for names in (said, denied)
-        ),
-        tuple(_signs_at(SUBJECT, contents)),
+        _signs_about(said, x),
+        _signs_about(denied, x),
+        tuple(_signs_at(SUBJECT, private.criteria)),
         tuple(
-            it for it in _signs_at(COMPONENT, contents) if not knows(private.nouns, it)
+            it
+            for it in _signs_at(COMPONENT, private.criteria)
+            if not knows(private.nouns, it)
         ),
         private.nouns,
         tuple(dict.fromkeys(it.sign for it in said)),
@@ -89,12 +88,16 @@ def kind_situation(talk: WorldTalk, s: Record) -> KindSituation:
     )
 
 
-def _signs_at(
-    label: str, contents: Sequence[tuple[Record, Sequence[Record]]]
-) -> Iterator[Record]:
-    """The signs of which contents have the meanings under a label."""
-    for content, signs in contents:
-        yield from (it for it in signs if it.meaning == content.get(label))
+def _signs_about(lessons: Iterable[Record], x: str | None) -> tuple[Record, ...]:
+    """The words of the lessons that are about a thing."""
+    return tuple(it.sign for it in lessons if thing_at(it.content, "target") == x)
+
+
+def _signs_at(label: str, criteria: Iterable[Record]) -> Iterator[Record]:
+    """The words whose meanings criteria have under a label."""
+    for criterion in criteria:
+        found = sign_at(criterion.content, label, criterion.signs)
+        yield from [] if found is None else [found]
 
 
 @lru_cache(256)
@@ -179,7 +182,7 @@ def _consequences(talk: WorldTalk, lower: Record, upper: Record) -> Iterator[Say
 def _criteria(talk: WorldTalk, noun: Record) -> Iterator[Saying]:
     """By what the things of a noun are known, or not, and whether they are."""
     words = talk.words
-    part = next(it for it in reversed(words.nouns.values()) if it != noun)
+    part = next(it for it in reversed([*words.nouns.values()]) if it != noun)
     for quality in words.colours[:2]:
         for often in ("Generally", "Never"):
             matter = generic_matter(noun, often, quality=quality)
