@@ -123,18 +123,25 @@ def lesson_act(claim: Claim) -> str:
 # --- questions -----------------------------------------------------------------------
 
 
+PAIR = 2
+"""Of so many things each may be what was said of the other."""
+
+
 def choices(talk: WorldTalk, s: Record) -> Options:
     """Which of several moves was meant: in words, by pointing, or none of them."""
     asked = s.shared.qud[0]
     settling = sample_texts(_plain_answers(talk, asked))
     mentions = [it for it in talk.sayings("mention") if len(it.about.signs) == 1]
     options = [
-        sample_texts(_yes_or_no(talk)),
+        sample_texts(yes_or_no(talk)),
         settling,
         settling,
         sample_texts(mentions),
         sample_texts(taking_back(talk)),
     ]
+    if len(asked.options) == PAIR:
+        swapped = asides(talk.words, "reversed")
+        options += [sample_asides(s, swapped)] if swapped else []
     if asked.ask not in WHICH:
         return options
     pointing = [(glance_event, talk.world.point_at(x)) for x in talk.world.in_view]
@@ -146,7 +153,8 @@ def choices(talk: WorldTalk, s: Record) -> Options:
     ]
 
 
-def _yes_or_no(talk: WorldTalk) -> Sayings:
+def yes_or_no(talk: WorldTalk) -> Sayings:
+    """Yes, and no."""
     return [it for act in ("affirm", "deny") for it in sayings_anywhere(talk, act)]
 
 
@@ -162,10 +170,10 @@ def _plain_answers(talk: WorldTalk, asked: Record) -> Sayings:
     if asked.ask == "AskEarlier":
         return [*preferring, *_restatements(talk, asked)]
     if asked.ask in EITHER:
-        yes_or_no = _yes_or_no(talk) if asked.ask in YES_OR_NO else ()
-        return [*yes_or_no, *preferring, *_names_again(talk, asked)]
+        judging = yes_or_no(talk) if asked.ask in YES_OR_NO else ()
+        return [*judging, *preferring, *_names_again(talk, asked)]
     if asked.ask in YES_OR_NO or asked.ask == "AskHeard":
-        return _yes_or_no(talk)
+        return yes_or_no(talk)
     return talk.sayings("mention")
 
 

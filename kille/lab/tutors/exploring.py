@@ -47,7 +47,7 @@ KINDS = 2
 FOLLOWING = 12
 """As often as one in so many times each thing that follows up is said."""
 
-TRIED = ("several", "in_doubt", "of_kinds", "supposed")
+TRIED = ("several", "in_doubt", "of_kinds", "supposed", "attending")
 """What may be tried at any time, in words of its own."""
 
 Options = Sequence[object]

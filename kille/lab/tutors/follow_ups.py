@@ -14,7 +14,13 @@ from kille.dialogue.answered_questions import NAMING_ACTS, last_act
 from kille.dialogue.games.confirming import JUST_LEARNED
 from kille.dialogue.games.criticising import TOLD as CRITERIA_TOLD
 from kille.dialogue.games.kinds_of_kinds import TOLD as KINDS_TOLD
-from kille.lab.tutors.answering import bare_sayings, sayings_anywhere, taking_back
+from kille.lab.tutors.answering import (
+    PAIR,
+    bare_sayings,
+    sayings_anywhere,
+    taking_back,
+    yes_or_no,
+)
 from kille.lab.tutors.happenings import interruptions, sample_silences
 from kille.lab.tutors.heard_sayings import sample_asides, sample_texts
 from kille.lab.tutors.leading_kinds import kind_situation, pressing_kinds
@@ -33,9 +39,6 @@ ASKING_BACK = ("ask_why", "ask_certainty", "ask_so", "ask_guess", "deny")
 
 LIVELY = 4
 """How often nobody speaks to a robot that speaks then, as it is cut off."""
-
-PAIR = 2
-"""So many things may have one another's names."""
 
 
 def follow_ups(talk: WorldTalk, s: Record) -> Options:
@@ -61,6 +64,8 @@ def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
         yield taking_back(talk)
     elif not s.shared.qud:
         yield [it for act in ASKING_BACK for it in bare_sayings(talk, act)]
+    if last == "admit_whether":
+        yield yes_or_no(talk)
     if not s.shared.qud:
         yield talk.sayings("mention")
     if s.shared.turned:

@@ -97,6 +97,7 @@ def _word_topics(talk: WorldTalk, known: frozenset[Pred]) -> Sequence[Sayings]:
         *_unknown_word_topics(talk, known),
         _lessons_about_all(talk, known),
         _places_between(talk),
+        _converse_questions(talk, known),
         _forgetting_all(talk),
     ]
     return [said for said in found if said]
@@ -166,6 +167,17 @@ def _places_between(talk: WorldTalk) -> Sayings:
 
 TWO = 2
 """So many things another one is between."""
+
+
+def _converse_questions(talk: WorldTalk, known: frozenset[Pred]) -> Sayings:
+    """Questions if things stand the other way round, in words that are known."""
+    pairs = permutations(talk.world.in_view, TWO)
+    stands = ((x, y, talk.relation(x, y)) for x, y in pairs)
+    return [
+        talk.say("ask_whether", Claim(relation, *colour_phrases(talk, y, x)))
+        for x, y, relation in stands
+        if relation is not None and word_of(relation) in known
+    ]
 
 
 def _forgetting_all(talk: WorldTalk) -> Sayings:
