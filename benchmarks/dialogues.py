@@ -22,8 +22,11 @@ from kille.lab.worlds.dialogue_properties import OF_TUTORING
 from kille.lab.worlds.robot_profiles import ROBOTS, RobotProfile
 from ttr.testing import ALL, Report, Suite
 
-BATCH = 40
-"""How many dialogues there are in one world."""
+BATCH = 10
+"""How many dialogues there are in one world.
+
+After so many Hypothesis begins to draw variants of the ones that it has drawn.
+"""
 
 
 def reports(

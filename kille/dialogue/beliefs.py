@@ -194,8 +194,11 @@ def thinks(s: Record, beliefs: Beliefs) -> bool:
 
 
 def has_rival(s: Record, beliefs: Beliefs) -> bool:
-    """Whether the second belief is worth naming."""
-    return len(beliefs) > 1 and bool(beliefs[1].p >= s.private.strategy.bands.might)
+    """Whether the second belief is worth naming: it always is if it is as probable."""
+    if len(beliefs) < 2:
+        return False
+    first, second, *_ = beliefs
+    return bool(second.p >= min(s.private.strategy.bands.might, first.p))
 
 
 def knows(words: Iterable[Record], sign: Record) -> bool:

@@ -9,23 +9,34 @@ state says what is worth trying in it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import permutations, product
 from typing import NamedTuple
 
 from kille.dialogue.meanings import word_of
 from kille.dialogue.reference import thing_at
 from kille.dialogue.state import words as words_of
+from kille.lab.tutors.leading_perspectives import (
+    OF_PLACES,
+    colour_phrases,
+    front_topics,
+    perspectives_by_side,
+    place_saying,
+)
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import number_of
-from kille.lab.worlds.sayings import Claim, Matter, Phrase, Saying, WorldTalk
+from kille.lab.worlds.sayings import (
+    THIS,
+    Claim,
+    Matter,
+    Phrase,
+    Saying,
+    WorldTalk,
+    between_phrase,
+)
 from kille.lab.worlds.vocabulary import Vocabulary
 from ttr import Pred, Record
 
 Sayings = Sequence[Saying]
-
-OF_PLACES = ("relate", "correct", "reject", "ask_whether")
-"""The moves that claim a relation, or ask for one."""
 
 
 class Situation(NamedTuple):
@@ -66,7 +77,7 @@ def leading_topics(now: Situation) -> Sequence[Sayings]:
     unsaid = [talk.sayings("ask_repeat")] if now.is_new else []
     return [
         *_word_topics(talk, now.known),
-        *_front_topics(talk, now.fronts),
+        *front_topics(talk, now.fronts),
         *untold * 2,
         *unsaid,
     ]
@@ -84,6 +95,10 @@ def _word_topics(talk: WorldTalk, known: frozenset[Pred]) -> Sequence[Sayings]:
         *_wrong_nouns(talk, known),
         *_flat_place_topics(talk),
         *_unknown_word_topics(talk, known),
+        _lessons_about_all(talk, known),
+        _places_between(talk),
+        _converse_questions(talk, known),
+        _forgetting_all(talk),
     ]
     return [said for said in found if said]
 
@@ -130,6 +145,46 @@ def _questions_of_others(talk: WorldTalk) -> Sayings:
     return [talk.say(act, other) for act in acts_]
 
 
+OF_ALL = ("instruct_several", "instruct_every", "instruct_only", "reject_several")
+"""The moves that teach what all things in view are."""
+
+
+def _lessons_about_all(talk: WorldTalk, known: frozenset[Pred]) -> Sayings:
+    """Lessons in words that are known about all things, as far as there are such."""
+    said = [it for act in OF_ALL for it in talk.sayings(act)]
+    return [it for it in said if known.issuperset(map(word_of, it.about.signs))] or said
+
+
+def _places_between(talk: WorldTalk) -> Sayings:
+    """Questions if this is between two things, by their nouns."""
+    things = talk.world.in_view[:TWO]
+    if len(things) < TWO:
+        return ()
+    flanks = [Phrase("", (talk.words.noun_of(talk.world, x),)) for x in things]
+    amid = between_phrase(*flanks)
+    return [talk.say("ask_between", Matter("", (("target", THIS), ("amid", amid))))]
+
+
+TWO = 2
+"""So many things another one is between."""
+
+
+def _converse_questions(talk: WorldTalk, known: frozenset[Pred]) -> Sayings:
+    """Questions if things stand the other way round, in words that are known."""
+    pairs = permutations(talk.world.in_view, TWO)
+    stands = ((x, y, talk.relation(x, y)) for x, y in pairs)
+    return [
+        talk.say("ask_whether", Claim(relation, *colour_phrases(talk, y, x)))
+        for x, y, relation in stands
+        if relation is not None and word_of(relation) in known
+    ]
+
+
+def _forgetting_all(talk: WorldTalk) -> Sayings:
+    """What takes back everything, or the latest."""
+    return [*talk.sayings("forget_all"), *talk.sayings("forget_last")]
+
+
 def _reflexive_lessons(talk: WorldTalk) -> Sayings:
     """Lessons that something stands beside itself."""
     left = talk.words.relations["left"]
@@ -156,21 +211,12 @@ def _flat_place_topics(talk: WorldTalk) -> Iterator[Sayings]:
         return
     relations = talk.words.relations.values()
     claims = [
-        Claim(relation, *_colour_phrases(talk, x, y))
+        Claim(relation, *colour_phrases(talk, x, y))
         for relation in relations
         for x, y in permutations(talk.world.in_view, 2)
     ]
     for act in OF_PLACES:
-        yield [_place_saying(talk, act, claim) for claim in claims]
-
-
-def _colour_phrases(talk: WorldTalk, x: int, y: int) -> tuple[Phrase, Phrase]:
-    return talk.colour_phrase(x), talk.colour_phrase(y)
-
-
-def _place_saying(talk: WorldTalk, act: str, claim: Claim) -> Saying:
-    """What is said of places by way of a move; who rejects something denies it."""
-    return talk.say(act, replace(claim, denies=act == "reject"))
+        yield [place_saying(talk, act, claim) for claim in claims]
 
 
 STRANGE = (
@@ -200,53 +246,6 @@ def _has_one_unknown(one: Saying, known: frozenset[Pred]) -> bool:
         sign is not None and (word_of(sign) in known) is not (sign in claimed)
         for sign in (*about.signs, *claimed)
     )
-
-
-# --- perspectives --------------------------------------------------------------------
-
-
-def _front_topics(
-    talk: WorldTalk, fronts: Sequence[tuple[int, str]]
-) -> Sequence[Sayings]:
-    """Sayings about perspectives, if things face some way, or that they do."""
-    turned = [(y, front) for y, front in fronts if y in talk.world]
-    if not turned:
-        return [talk.sayings("orient")] if len(talk.world.in_view) > 1 else []
-    beside = list(_claims_beside(talk, turned))
-    claims = [[_place_saying(talk, act, it) for it in beside] for act in OF_PLACES]
-    phrases = [Phrase("", (it.sign, *it.landmark.signs)) for it in beside if it.sign]
-    asked = [
-        talk.say(act, Claim(None, phrase))
-        for act in ("ask_name", "ask_find")
-        for phrase in phrases
-    ]
-    places = [
-        talk.say("ask_place", Claim(None, talk.colour_phrase(x)))
-        for x in talk.world.in_view
-    ]
-    taking = (
-        talk.sayings("take_frame"),
-        perspectives_by_side(talk),
-    )
-    return [said for said in (*claims, asked, places, places, *taking) if said]
-
-
-def _claims_beside(
-    talk: WorldTalk, turned: Sequence[tuple[int, str]]
-) -> Iterator[Claim]:
-    """Where things are beside what faces some way: for a viewer, and for itself."""
-    for y, front in turned:
-        for x, way in product(talk.world.in_view, ("away", front)):
-            relation = None if x == y else talk.relation(x, y, way)
-            if relation is not None:
-                pair = _colour_phrases(talk, x, y)
-                yield Claim(relation, *pair)
-
-
-def perspectives_by_side(talk: WorldTalk) -> Sayings:
-    """Whose perspective is meant, where nobody is named but the robot and the thing."""
-    taking = talk.sayings("take_frame")
-    return [one for one in taking if not one.about.signs]
 
 
 def _is_of_turned(s: Record) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 
+from kille.dialogue.commitments import kind_of
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import DialogueTypes, predicate_at, value_at
 from ttr import Record, RecordType
@@ -18,10 +19,15 @@ from ttr.types.objects import Object
 DROPPING = frozenset(
     {
         "drop_question",
+        "drop_unsaid",
         "see",
         "glance",
+        "watch",
         "take_described",
+        "take_rest",
+        "learn_all",
         "take_either",
+        "take_restated",
         "correct_either",
         "ask_fewer",
         "ask_once_more",
@@ -37,6 +43,30 @@ on what is seen, or leaves some of it open.
 
 WHICH = ("AskReferent", "AskReferentAgain")
 """The questions which thing was meant."""
+
+EITHER = ("AskBoth", "AskEither")
+"""The questions which of two nouns is right, or if both are."""
+
+YES_OR_NO = frozenset(
+    {
+        "OfferWord",
+        "AskKind",
+        "AskHow",
+        "AskBoth",
+        "AskKindStill",
+        "AskForget",
+        "AskForgetAll",
+        "AskMeant",
+        "AskPresumed",
+        "AskEvery",
+        "AskOnly",
+        "AskSwapped",
+    }
+)
+"""The questions that yes and no answer."""
+
+TAKEN_BACK = (YES_OR_NO - {"AskForget", "AskForgetAll"}) | {"AskEarlier"}
+"""The questions that are settled when the tutor takes back what they said."""
 
 PLACES = {
     "first": 1,
@@ -79,27 +109,13 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
     """Whether an event that is such a move answers a question, whatever is seen."""
     options = len(question.options)
     match question.ask, move:
-        case (
-            (
-                "OfferWord"
-                | "AskKind"
-                | "AskHow"
-                | "AskBoth"
-                | "AskKindStill"
-                | "AskForget"
-                | "AskForgetAll"
-                | "AskMeant"
-                | "AskPresumed"
-                | "AskEvery"
-                | "AskOnly"
-                | "AskSwapped"
-            ),
-            "affirm" | "deny",
-        ):
+        case asked, "affirm" | "deny" if asked in YES_OR_NO:
             return True
+        case asked, "forget_that" | "forget_last" if asked in TAKEN_BACK:
+            return kind_of(event.content) is None
         case "AskEarlier", "prefer_now" | "prefer_earlier" | "affirm" | "deny":
             return True
-        case "AskBoth" | "AskEither", "prefer_now" | "prefer_earlier":
+        case asked, "prefer_now" | "prefer_earlier" if asked in EITHER:
             return True
         case "AskHeard", "affirm":
             return options == 1

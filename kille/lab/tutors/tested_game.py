@@ -14,8 +14,10 @@ from hypothesis import strategies as st
 from kille.dialogue.language import LANGUAGES
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import DialogueTypes
-from kille.lab.tutors.exploring import IN_PARTS, exploring_tutor
+from kille.lab.tutors.exploring import exploring_tutor
+from kille.lab.tutors.heard_sayings import IN_PARTS
 from kille.lab.tutors.question_answers import DROPPING, answer_test
+from kille.lab.worlds.asides import aside_wordings
 from kille.lab.worlds.games import simulated_game
 from kille.lab.worlds.robot_profiles import ROBOTS
 from kille.lab.worlds.worlds import draw_world
@@ -41,7 +43,7 @@ def _pattern_in_parts() -> re.Pattern[str]:
         for language in LANGUAGES
         for act in IN_PARTS
         for wording in lexicon(language).tells[act]
-    }
+    } | {wording for language in LANGUAGES for wording in aside_wordings(language)}
     return re.compile("|".join(map(_pattern_of, sorted(wordings))))
 
 

@@ -196,6 +196,9 @@ def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
     lost, model = _unlearn(model, (*move.forgets, *dropped, *keys_undone))
     explained = [_reason(model, claim) for claim in move.explains]
     recalled = [_recollection(model, sign) for sign in move.recalls]
+    cited = [
+        _reminder(sign, it) for sign, it in _lessons(model) if it.key in move.cites
+    ]
     done = {
         "keys": keys,
         "criteria": said,
@@ -204,6 +207,7 @@ def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
         "lost": lost,
         "reasons": explained,
         "recalled": recalled,
+        "cited": cited,
     }
     return replace(move, done), model
 

@@ -29,6 +29,7 @@ __all__ = [
     "thing",
     "traits",
     "view",
+    "watch_event",
 ]
 
 __getattr__ = former_names(__name__, {"seen": "look_event", "glanced": "glance_event"})
@@ -109,6 +110,27 @@ def glance_event(world: World, before: World) -> Record:
     ['floor', 'kept', 'sights', 'view']
     """
     return _seeing_event(world, before, "tutor")
+
+
+def watch_event(world: World, before: World, silence: float, still: float) -> Record:
+    """The event of looking after so many seconds of silence, in which nothing moved.
+
+    >>> from kille.lab.worlds.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),))
+    >>> watch_event(world, World(), 3.0, 3.0).came
+    ('o1',)
+    """
+    seen = _seeing_event(world, before, "")
+    went = [thing(it) for it in before.in_view if not _has_stayed(it, before, world)]
+    return record(
+        view=seen.view,
+        kept=seen.kept,
+        came=[x for x in seen.view.things if x not in seen.kept],
+        went=went,
+        silence=silence,
+        still=still,
+        sights=seen.sights,
+    )
 
 
 def _seeing_event(world: World, before: World, floor: str) -> Record:

@@ -11,7 +11,12 @@ from typing import Any
 
 from kille.lab.worlds.games import simulated_game, world_of
 from kille.lab.worlds.perception import glance_event
-from kille.lab.worlds.schooling import continue_game, game_after_school, game_next_day
+from kille.lab.worlds.schooling import (
+    continue_game,
+    game_after_school,
+    game_next_day,
+    kinds_told,
+)
 from kille.lab.worlds.worlds import draw_world
 from ttr.updates import Game
 
@@ -58,21 +63,36 @@ def _relay_table(game: Game) -> Game:
     return continue_game(game, [glance_event(world, before)])
 
 
+def _tell_kinds_the_day_before(game: Game) -> Game:
+    """The game on the day after it was told which kinds are kinds of which."""
+    nouns = game.start.private.nouns
+    return game_next_day(continue_game(game, kinds_told("en", nouns)))
+
+
 FOUR = {"wording": "four"}
+LIVELY = {"turns": "lively"}
 ALONE = {"mode": "autonomous"}
 FLAT = {"deep": False}
 DIM = {"noise": 0.15, "kinds": ("cup", "mug", "book")}
 ALIKE = {"kinds": ("cup", "mug", "book"), "colours": ("red", "green", "blue")}
 
 ROBOTS = (
-    RobotProfile("assisted", 0.1),
-    RobotProfile("assisted, after school", 0.1, times=1),
+    RobotProfile("assisted", 0.05),
+    RobotProfile("assisted, before one thing", 0.025, world={"in_view": 1}),
     RobotProfile(
-        "assisted, after school, among like things", 0.1, times=1, world=ALIKE
+        "assisted, after school, before two things",
+        0.025,
+        times=1,
+        world={"in_view": 2},
+    ),
+    RobotProfile("assisted, after school", 0.05, times=1),
+    RobotProfile("assisted, after school, lively", 0.05, times=1, strategy=LIVELY),
+    RobotProfile(
+        "assisted, after school, among like things", 0.05, times=1, world=ALIKE
     ),
     RobotProfile("assisted, after school, seeing badly", 0.05, times=1, world=DIM),
     RobotProfile("assisted, seeing badly", 0.05, world=DIM),
-    RobotProfile("assisted, seeing flat pictures", 0.05, world=FLAT),
+    RobotProfile("assisted, seeing flat pictures", 0.025, world=FLAT),
     RobotProfile(
         "assisted, after school, seeing flat pictures",
         0.05,
@@ -80,6 +100,12 @@ ROBOTS = (
         since=_flatten_view,
     ),
     RobotProfile("assisted, on another day", 0.05, times=1, since=game_next_day),
+    RobotProfile(
+        "assisted, on another day, told of kinds",
+        0.1,
+        times=3,
+        since=_tell_kinds_the_day_before,
+    ),
     RobotProfile("assisted, knowing no colours", 0.05, knows={"colours": ()}),
     RobotProfile("assisted, Swedish", 0.05, "sv"),
     RobotProfile("assisted, Swedish, after school", 0.05, "sv", times=1),
@@ -95,6 +121,6 @@ ROBOTS = (
     RobotProfile("autonomous", 0.05, strategy=ALONE),
     RobotProfile("autonomous, after school", 0.05, times=3, strategy=ALONE),
     RobotProfile("autonomous, four bands", 0.05, strategy={**ALONE, **FOUR}),
-    RobotProfile("driven", 0.05, strategy={"mode": "driven"}),
+    RobotProfile("driven", 0.025, strategy={"mode": "driven"}),
 )
 """All of them: each in a share of the dialogues."""

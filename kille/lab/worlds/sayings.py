@@ -334,12 +334,16 @@ class BetweenPhrase(Phrase):
         return merge_of(types.record_type("Between"), rectype(landmark=flank))
 
 
+def between_phrase(*flanks: Phrase) -> Phrase:
+    """The phrase for being between things of these phrases."""
+    signs = tuple(sign for it in flanks for sign in it.signs)
+    return BetweenPhrase("", signs, flanks)
+
+
 def _things_between(talk: WorldTalk) -> Iterator[Matter]:
     """That a thing is between two others."""
     for x, y, z in islice(permutations(talk.world.in_view, 3), 2 * PAIRS):
-        flanks = talk.colour_phrase(y), talk.colour_phrase(z)
-        signs = tuple(sign for it in flanks for sign in it.signs)
-        amid = BetweenPhrase("", signs, flanks)
+        amid = between_phrase(talk.colour_phrase(y), talk.colour_phrase(z))
         yield Matter("", (("target", talk.colour_phrase(x)), ("amid", amid)))
 
 

@@ -5,7 +5,7 @@ What needs many words is talked of only in long dialogues with a robot that has 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import permutations
 
@@ -14,7 +14,14 @@ from kille.dialogue.state import words as words_of
 from kille.lab.worlds.games import learned_words as learned
 from kille.lab.worlds.games import world_of
 from kille.lab.worlds.perception import glance_event
-from kille.lab.worlds.sayings import THIS, Claim, WorldTalk
+from kille.lab.worlds.sayings import (
+    THIS,
+    Claim,
+    WorldTalk,
+    cue_matter,
+    generic_matter,
+    subsumption_matter,
+)
 from kille.lab.worlds.vocabulary import vocabulary
 from kille.lab.worlds.worlds import World
 from ttr import Record, record
@@ -22,7 +29,13 @@ from ttr import replace as updated
 from ttr.aliases import former_names
 from ttr.updates import Game
 
-__all__ = ["lessons", "game_next_day", "continue_game", "game_after_school"]
+__all__ = [
+    "lessons",
+    "game_next_day",
+    "continue_game",
+    "game_after_school",
+    "kinds_told",
+]
 
 __getattr__ = former_names(
     __name__,
@@ -82,6 +95,25 @@ def lessons(language: str, world: World) -> Iterator[str | Record]:
         yield talk.say("relate", claim).text
 
 
+def kinds_told(language: str, nouns: Sequence[Record]) -> Iterator[str]:
+    """Lessons that the first of some nouns are of another kind, and how they are.
+
+    >>> from kille.lab.worlds.vocabulary import vocabulary
+    >>> words = vocabulary("en").nouns
+    >>> list(kinds_told("en", [words["mug"], words["cup"]]))[0]
+    'A mug is a kind of cup.'
+    """
+    lower, upper, *_ = nouns
+    talk = WorldTalk(vocabulary(language), World())
+    quality = talk.words.colours[0]
+    for act, matter in (
+        ("classify", subsumption_matter(lower, upper)),
+        ("generalise", generic_matter(lower, "Generally", quality=quality)),
+        ("weigh_cue", cue_matter(lower, "shape", False)),
+    ):
+        yield talk.say(act, matter).text
+
+
 def continue_game(game: Game, given: Iterable[str | Record]) -> Game:
     """The game as it goes on after these texts and looks.
 
@@ -117,7 +149,14 @@ def game_next_day(game: Game) -> Game:
     ]
     changes = {
         "private.taught": taught,
+        "private.kinds": _of_earlier(known.private.kinds),
+        "private.criteria": _of_earlier(known.private.criteria),
         "private.colours": known.private.colours,
         "view": known.view,
     }
     return replace(game, start=updated(s, changes))
+
+
+def _of_earlier(said: Iterable[Record]) -> list[Record]:
+    """What was said of kinds, as it is remembered of another dialogue."""
+    return [updated(it, after=-1.0) for it in said]

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from kille.dialogue.meanings import record_type
 from kille.lab.robots.simulated import SimulatedRobot
 from kille.lab.scenes.scene import Occasion
-from kille.lab.tutors.exploring import NONSENSE, exploring_tutor
+from kille.lab.tutors.exploring import exploring_tutor
+from kille.lab.tutors.heard_sayings import NONSENSE
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING
 from kille.lab.worlds.games import learned_words, simulated_game, world_of

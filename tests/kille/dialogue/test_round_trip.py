@@ -28,7 +28,7 @@ from kille.dialogue.meanings import (
     theory,
 )
 from kille.dialogue.wording import say, tell
-from kille.lab.tutors.exploring import IN_PARTS
+from kille.lab.tutors.heard_sayings import IN_PARTS
 from ttr import Rec, Record, RecordType, merge, record, rectype
 
 NOUNS = {

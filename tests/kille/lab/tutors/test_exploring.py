@@ -18,7 +18,10 @@ from kille.dialogue.robust_reading.situations import Situation
 from kille.dialogue.robust_reading.text_hearing import hear_in_parts
 from kille.lab.study import Theory
 from kille.lab.theories.meanings import meanings_of
-from kille.lab.tutors.exploring import IN_PARTS, exploring_tutor, happenings, is_true
+from kille.lab.tutors.answering import is_true
+from kille.lab.tutors.exploring import exploring_tutor
+from kille.lab.tutors.happenings import happenings
+from kille.lab.tutors.heard_sayings import IN_PARTS
 from kille.lab.tutors.tested_game import roles_in
 from kille.lab.worlds.dialogue_properties import OF_TUTORING
 from kille.lab.worlds.games import simulated_game

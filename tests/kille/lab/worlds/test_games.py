@@ -136,3 +136,10 @@ def test_drawn_worlds_differ_in_what_things_look_like():
     one, other = draw_world(1), draw_world(2)
     assert one.name != other.name
     assert one.traits != other.traits
+
+
+def test_asked_why_something_is_not_so_it_says_when_it_was_told():
+    talk = Talk(WORLD.point_at(2))
+    talk.hear("This is not a cup.")
+    talk.hear("Is this a cup?")
+    assert talk.hear("Why?") == 'Because you said so a moment ago ("cup").'

@@ -4,7 +4,12 @@ import pytest
 
 from kille.dialogue.meanings import record_type
 from kille.lab.worlds.games import learned_words, simulated_game
-from kille.lab.worlds.schooling import game_after_school, game_next_day
+from kille.lab.worlds.schooling import (
+    continue_game,
+    game_after_school,
+    game_next_day,
+    kinds_told,
+)
 from kille.lab.worlds.worlds import draw_world
 
 WORLD = draw_world(1)
@@ -55,3 +60,12 @@ def test_the_latest_lesson_of_another_day_is_taken_back():
         for model in (game.model, turn.model)
     )
     assert set(before) - set(after) == {undone.key}
+
+
+@pytest.mark.parametrize("language", ["en", "sv"])
+def test_on_another_day_it_is_known_what_was_told_of_kinds(language):
+    game = game_after_school(simulated_game(WORLD, language=language), language)
+    told = kinds_told(language, game.start.private.nouns)
+    private = game_next_day(continue_game(game, told)).start.private
+    assert [it.after for it in private.kinds] == [-1.0]
+    assert [it.after for it in private.criteria] == [-1.0, -1.0]
