@@ -355,7 +355,9 @@ class Reader:
             if move.rule == TELL_PART:
                 judged = self._doubt(signs, content, text)
                 doubt = judged if judged != PARTIAL else ""
-            if any(it.rule == "material" for it in parts(move)):
+            if any(it.rule == "material" for it in parts(move)) or (
+                partly and doubt == DOUBTFUL and self._says_material(signs, content)
+            ):
                 doubt = PARTIAL if doubt == DOUBTFUL else doubt
                 doubt, partly = ("", partly) if partly == SAYING else (doubt, doubt)
             for stance, rule in STANCES.items():
@@ -372,6 +374,11 @@ class Reader:
             if doubt == QUALIFIED:
                 doubt = partly or DOUBTFUL
             yield set_to(heard, doubt=self._types["Text"] @ doubt) if doubt else heard
+
+    def _says_material(self, signs: Iterable[Record], content: RecordType) -> bool:
+        """Whether a claim is of what a thing is made."""
+        said = (it for it in signs if it.kind == "adjective" and claims(content, it))
+        return any(it.form in self._lists.materials for it in said)
 
     def _doubt(self, signs: Iterable[Record], content: RecordType, text: str) -> str:
         """Why the word of a lesson may be none that is said of things, or nothing."""
@@ -397,6 +404,8 @@ class Reader:
                 if not judged and is_written_apart(sign.form, text):
                     return PARTIAL
                 return judged or (QUALIFIED if self._is_qualified(sign.form) else "")
+            if "counted" in content and sign.form in self._lists.materials:
+                return ""  # "They are both made of glass."
             if sign.kind == "adjective":
                 return self._lists.judge_quality(sign.form)
         return ""
