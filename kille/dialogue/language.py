@@ -108,6 +108,7 @@ STANCES = {
     "supposed": "supposed_stance",
     "reversed": "reversed_stance",
     "of all": "of_all_stance",
+    "conceding": "conceding_stance",
     "other than": "other_than_stance",
     OUTRIGHT: "outright_stance",
     TAUGHT: "taught_stance",
@@ -115,8 +116,9 @@ STANCES = {
 """How somebody says a thing that can be said in several ways, and the rules for it.
 
 As a claim or as a question; a no, that it is the other way round; a yes or no, that it
-is so of all things; a phrase, that it says what is not meant; and of two kinds, that
-the one is a kind of the other, with nouns that are none of doubtful things.
+is so of all things; a yes, that the robot was right after all; a phrase, that it says
+what is not meant; and of two kinds, that the one is a kind of the other, with nouns
+that are none of doubtful things.
 """
 
 _FORMS = 3

@@ -36,6 +36,17 @@ def learn_confirmed(s: Record, *, types: DialogueTypes) -> Record | None:
     return plan_learning(s, s.shared.pending[0], types=types)
 
 
+@rule(answers="Conceding")
+def learn_denied(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The robot was right after all, before the tutor rejected that: so it is so."""
+    if s.shared.pending or not s.private.lessons:
+        return None
+    denied = s.private.lessons[-1].content
+    if not is_denial(denied) or denied not in s.shared.here:
+        return None
+    return plan_learning(s, affirmation(denied), types=types)
+
+
 ASKED = {"c": "AskWhich", "a": "AskWhichQuality", "rel": "AskWhichPlace"}
 """What it asks when it has claimed two things, by their label."""
 
@@ -147,6 +158,7 @@ def wonder_why(s: Record, *, types: DialogueTypes) -> Record:
 
 
 CONFIRMING = first(
+    learn_denied,
     learn_confirmed,
     ask_which,
     learn_answer,
