@@ -409,7 +409,9 @@ class Reader:
             if "counted" in content and sign.form in self._lists.materials:
                 return ""  # "They are both made of glass."
             if sign.kind == "adjective":
-                return self._lists.judge_quality(sign.form)
+                judged = self._lists.judge_quality(sign.form)
+                is_how = judged == DOUBTFUL and self._says_how(sign.form)
+                return PARTIAL if is_how else judged
         return ""
 
     def _intended_signs(
@@ -478,6 +480,14 @@ class Reader:
             return False
         return re.search(self._lexicon.definite_nouns or r"(?!)", form) is not None
 
+    def _is_only_noun(self, found: list[Token]) -> bool:
+        """Whether a form with an adjective's ending is a noun: *skaft*, not *skaf*."""
+        form, lists = " ".join(it.text.lower() for it in found), self._lists
+        if form in lists.materials or self._says_how(form):
+            return False
+        inflected = any(it.terminal in ("NEUTER", "WEAK") for it in found)
+        return form in lists.parts or (inflected and form in lists.things)
+
     def _is_adjective(self, found: list[Token]) -> bool:
         """Whether what ends like a definite noun is an adjective: *vit*, *grön*."""
         if not any("DEFINITE" in it.terminal for it in found):
@@ -533,7 +543,9 @@ class Reader:
         found = words(tree)
         said = "".join(it.text.lower() for it in found if it.terminal == "A")
         rest = [it for it in found if it.terminal != "A"]
-        if kind == "adjective" and self._is_definite_noun(rest):
+        if kind == "adjective" and (
+            self._is_definite_noun(rest) or self._is_only_noun(rest)
+        ):
             return
         if kind == "noun" and self._is_adjective(rest):
             return

@@ -92,6 +92,19 @@ def tell_size(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     return plan(s, "TellSize", told, signs=signs, measures=[x], types=types)
 
 
+@rule(answers="AskDifference")
+def tell_difference(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor asks in what two things differ: it says what it measures of each."""
+    content = content_of(s)
+    things = [str(thing_at(content, it)) for it in PARTS]
+    if not {*things} <= {*s.view.placed}:
+        return plan(s, "NeedDepth", types=types)
+    signs = s.shared.latest.signs
+    return plan(
+        s, "TellDifference", content, signs=signs, measures=things, types=types
+    )
+
+
 @rule(answers=("AskWhy", "Deny"))
 def explain_measure(s: Record, *, types: DialogueTypes) -> Record | None:
     """What it has said of sizes and places it has measured, whatever the tutor says."""
@@ -198,6 +211,6 @@ def _is_called(content: RecordType, label: str) -> bool:
     return any(it in phrase_at(content, label) for it in ("c", "a", "rel"))
 
 
-COMPARING = first(compare, tell_size)
+COMPARING = first(compare, tell_size, tell_difference)
 MEASURING = explain_measure
 """What answers why it has compared things so, and that this is wrong."""

@@ -112,6 +112,8 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             return (
                 1.0 if how == (move.rule == "describe") or _has_article(move) else 0.2
             )
+        case "ordered":
+            return 1.2
         case "denied_word":
             return 1.0 if all(it in situation.known for it in _new_words(move)) else 0.0
         case "correct":

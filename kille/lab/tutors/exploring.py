@@ -68,6 +68,10 @@ NONSENSE = (
 
 IN_PARTS = (
     "ask_deed",
+    "ask_beyond",
+    "ask_difference",
+    "ask_part",
+    "define",
     "ask_self",
     "remark",
     "tell_use",
