@@ -43,11 +43,17 @@ def list_slots(
     ]
     count = Counter(label for label, _ in parts)
     seen = {label: [part for it, part in parts if it == label] for label in count}
-    named = [*_in_row(lexicon, data, content, words)] if "order" in content else [
-        *_group_by_noun(lexicon, data, seen.get("thing", ()), words, "{}"),
-        *_group_by_noun(lexicon, data, seen.get("maybe", ()), words, data["perhaps"]),
-        *_unknown(data, count["unknown"]),
-    ]
+    named = (
+        [*_in_row(lexicon, data, content, words)]
+        if "order" in content
+        else [
+            *_group_by_noun(lexicon, data, seen.get("thing", ()), words, "{}"),
+            *_group_by_noun(
+                lexicon, data, seen.get("maybe", ()), words, data["perhaps"]
+            ),
+            *_unknown(data, count["unknown"]),
+        ]
+    )
     if named:
         yield "things", _join(data, named)
     if "choice" in seen:
@@ -61,7 +67,7 @@ def list_slots(
 def _in_row(
     lexicon: Lexicon, data: Section, content: RecordType, words: Words
 ) -> Iterator[str]:
-    """What is in view from one side on; what is alike and stands together is counted."""
+    """What is in view from one side on; like things that stand together are counted."""
     kinds = {"thing": "{}", "maybe": data["perhaps"]}
     parts = sorted(content.fields, key=lambda it: it[0][-2:])
     seen = [

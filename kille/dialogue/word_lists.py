@@ -132,7 +132,9 @@ class WordLists:
         'this is a cup.'
         """
         words = (self.swapped.get(it.lower(), it) for it in re.split(r"(\W+)", text))
-        return _replace_forms("".join(words), self.spoken)
+        said = "".join(words)
+        written = _replace_forms(said, self.spoken)
+        return written if written == said else " ".join(written.split())
 
     def join_sentences(self, text: str) -> str:
         """The text with what is said over several of its sentences said in one.

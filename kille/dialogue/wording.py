@@ -282,6 +282,7 @@ def _phrase_slots(
         (label, label if label in lexicon.styles else "bare"),
         (f"a_{label}", "indefinite"),
         (f"the_{label}", "definite"),
+        (f"no_{label}", "negated"),
     ):
         found = phrase(lexicon, part, words, style) if slot in wanted else None
         if found is not None:

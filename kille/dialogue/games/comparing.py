@@ -61,9 +61,7 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     return _plan(s, "SayNo", denial(called), signs, x, types=types)
 
 
-def _with_rival(
-    s: Record, model: Model, content: RecordType, more: Pred
-) -> RecordType:
+def _with_rival(s: Record, model: Model, content: RecordType, more: Pred) -> RecordType:
     """The content, where it speaks of all things about the one that may be the most.
 
     "The book is the biggest." is so if it is bigger than whichever else may be.
@@ -100,9 +98,7 @@ def tell_difference(s: Record, *, types: DialogueTypes) -> Record:
     if not {*things} <= {*s.view.placed}:
         return plan(s, "NeedDepth", types=types)
     signs = s.shared.latest.signs
-    return plan(
-        s, "TellDifference", content, signs=signs, measures=things, types=types
-    )
+    return plan(s, "TellDifference", content, signs=signs, measures=things, types=types)
 
 
 @rule(answers=("AskWhy", "Deny"))

@@ -204,7 +204,9 @@ def _says_bare(s: Record, content: RecordType) -> bool:
     if "a" not in said or is_denial(said):
         return False
     forms = {it.form for it in s.shared.latest.signs if claims(said, it)}
-    return any(it.form in forms for it in signs_for(s, content))
+    named = [it for option in s.shared.qud[0].options for it in option.signs]
+    named = [*named, *signs_for(s, content)]
+    return any(it.form in forms for it in named if claims(content, it))
 
 
 def _points_to_it(said: RecordType, *, types: DialogueTypes) -> bool:

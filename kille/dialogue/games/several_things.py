@@ -48,6 +48,9 @@ EXACTLY = "exactly"
 AMONG = "among"
 """The label of the phrase for the things that are meant: "the cups are red"."""
 
+OTHER_THAN = "other than"
+"""The stance of who asks which things something is not true of."""
+
 NUMBERS = {"two": 2, "three": 3, "four": 4, "five": 5}
 """How many that is."""
 
@@ -325,6 +328,9 @@ def tell_places(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
     """It points at each of these things, by their numbers, and says where it is."""
     asked = phrase_at(content_of(s), "counted")
     things = fits_well(s, PhraseJudge(s, model, types=types).fits(asked))
+    if "stance" in s.shared.latest and s.shared.latest.stance == OTHER_THAN:
+        others = [x for x in s.view.things if x not in things]
+        return _plan_others(s, model, others, types=types)
     if not things:
         return None
     act = "PointOut" if len(things) == 1 else "TellPlace"
@@ -334,6 +340,18 @@ def tell_places(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
             told, model, act, _one_of(s, asked, x, types=types), x, types=types
         )
     return told if len(things) == 1 else replace(told, {"shared.pending": ()})
+
+
+def _plan_others(
+    s: Record, model: Model, things: Sequence[str], *, types: DialogueTypes
+) -> Record | None:
+    """The plan to point at each of the things that something is not true of."""
+    plain = types.record_type("Phrase")
+    told = s
+    for x in things:
+        asked = _one_of(s, plain, x, types=types)
+        told = plan_pointing(told, model, "TellPlace", asked, x, types=types)
+    return replace(told, {"shared.pending": ()}) if things else None
 
 
 @rule(answers="AskPlaces")

@@ -385,8 +385,9 @@ def intended_readings(
 ) -> list[Reading]:
     """The readings that are meant: one, unless the talk leaves open which.
 
-    If a phrase fits several things, the one that was just talked about is meant; but not
-    if it says how its thing is, and another is more so: "The red one is … The blue …".
+    If a phrase fits several things, the one that was just talked about is meant. It is
+    not if the phrase says how its thing is, and another is more so: "The red one is a
+    cup. The blue one is …".
 
     >>> from kille.dialogue.language import understand
     >>> from kille.lab.worlds.games import simulated_game
@@ -418,7 +419,7 @@ def intended_readings(
 
 
 def _fits_another_better(meant: Sequence[Reading], label: str, x: str) -> bool:
-    """Whether a phrase says how its thing is, and another thing is more so than this."""
+    """Whether a phrase says how its thing is, and another thing is more so."""
     best = meant[0]
     return "a" in phrase_at(best.open, label) and best.things[label] != x
 

@@ -51,7 +51,16 @@ FOLLOWS = {
 """After which claims, and nothing else, the elliptic ones may stand."""
 
 CLAIMS = frozenset(
-    (*LESSONS, "relate", "turned", "other_place", "denied_word", *INDIRECT, *ELLIPTIC, *GAPPED)
+    (
+        *LESSONS,
+        "relate",
+        "turned",
+        "other_place",
+        "denied_word",
+        *INDIRECT,
+        *ELLIPTIC,
+        *GAPPED,
+    )
 )
 """The moves that say how things are."""
 

@@ -115,7 +115,7 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
         case "ordered":
             return 1.2
         case "denied_word":
-            return 1.0 if all(it in situation.known for it in _new_words(move)) else 0.0
+            return 1.0 if all(it in situation.known for it in new_words(move)) else 0.0
         case "correct":
             return _fit_of_contrast(move, situation, lists)
         case "instruct" if len(parts(move)) == 1:

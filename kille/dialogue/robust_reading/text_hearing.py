@@ -437,7 +437,7 @@ def _settle_lessons(
 
 
 def _is_said_again(it: Sentence, said: Iterable[Sentence]) -> bool:
-    """Whether a sentence only says again a word for how a thing is: "Soft, that is."."""
+    """Whether a sentence only says again how a thing is: "Soft, that is."."""
     forms = {sign.form for sign in it.readings[0].signs}
     hows = [one for one in said if act_of(one) == "describe"]
     told = {sign.form for one in hows for sign in one.readings[0].signs}
