@@ -39,12 +39,13 @@ def learn_confirmed(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Conceding")
 def learn_denied(s: Record, *, types: DialogueTypes) -> Record | None:
     """The robot was right after all, before the tutor rejected that: so it is so."""
-    if s.shared.pending or not s.private.lessons:
+    if s.shared.pending or not s.private.last:
         return None
-    denied = s.private.lessons[-1].content
-    if not is_denial(denied) or denied not in s.shared.here:
+    said = s.private.last[-1]
+    denied = [it for it in values_at(said, "teaches") if is_denial(it)]
+    if predicate_at(said, "e").name != "ask_again" or len(denied) != 1:
         return None
-    return plan_learning(s, affirmation(denied), types=types)
+    return plan_learning(s, affirmation(denied[0]), types=types)
 
 
 ASKED = {"c": "AskWhich", "a": "AskWhichQuality", "rel": "AskWhichPlace"}
