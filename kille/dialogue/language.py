@@ -108,6 +108,7 @@ STANCES = {
     "supposed": "supposed_stance",
     "reversed": "reversed_stance",
     "of all": "of_all_stance",
+    "conceding": "conceding_stance",
     "other than": "other_than_stance",
     OUTRIGHT: "outright_stance",
     TAUGHT: "taught_stance",
@@ -115,8 +116,9 @@ STANCES = {
 """How somebody says a thing that can be said in several ways, and the rules for it.
 
 As a claim or as a question; a no, that it is the other way round; a yes or no, that it
-is so of all things; a phrase, that it says what is not meant; and of two kinds, that
-the one is a kind of the other, with nouns that are none of doubtful things.
+is so of all things; a yes, that the robot was right after all; a phrase, that it says
+what is not meant; and of two kinds, that the one is a kind of the other, with nouns
+that are none of doubtful things.
 """
 
 _FORMS = 3
@@ -355,7 +357,9 @@ class Reader:
             if move.rule == TELL_PART:
                 judged = self._doubt(signs, content, text)
                 doubt = judged if judged != PARTIAL else ""
-            if any(it.rule == "material" for it in parts(move)):
+            if any(it.rule == "material" for it in parts(move)) or (
+                partly and doubt == DOUBTFUL and self._says_material(signs, content)
+            ):
                 doubt = PARTIAL if doubt == DOUBTFUL else doubt
                 doubt, partly = ("", partly) if partly == SAYING else (doubt, doubt)
             for stance, rule in STANCES.items():
@@ -372,6 +376,11 @@ class Reader:
             if doubt == QUALIFIED:
                 doubt = partly or DOUBTFUL
             yield set_to(heard, doubt=self._types["Text"] @ doubt) if doubt else heard
+
+    def _says_material(self, signs: Iterable[Record], content: RecordType) -> bool:
+        """Whether a claim is of what a thing is made."""
+        said = (it for it in signs if it.kind == "adjective" and claims(content, it))
+        return any(it.form in self._lists.materials for it in said)
 
     def _doubt(self, signs: Iterable[Record], content: RecordType, text: str) -> str:
         """Why the word of a lesson may be none that is said of things, or nothing."""
@@ -397,8 +406,12 @@ class Reader:
                 if not judged and is_written_apart(sign.form, text):
                     return PARTIAL
                 return judged or (QUALIFIED if self._is_qualified(sign.form) else "")
+            if "counted" in content and sign.form in self._lists.materials:
+                return ""  # "They are both made of glass."
             if sign.kind == "adjective":
-                return self._lists.judge_quality(sign.form)
+                judged = self._lists.judge_quality(sign.form)
+                is_how = judged == DOUBTFUL and self._says_how(sign.form)
+                return PARTIAL if is_how else judged
         return ""
 
     def _intended_signs(
@@ -467,6 +480,14 @@ class Reader:
             return False
         return re.search(self._lexicon.definite_nouns or r"(?!)", form) is not None
 
+    def _is_only_noun(self, found: list[Token]) -> bool:
+        """Whether a form with an adjective's ending is a noun: *skaft*, not *skaf*."""
+        form, lists = " ".join(it.text.lower() for it in found), self._lists
+        if form in lists.materials or self._says_how(form):
+            return False
+        inflected = any(it.terminal in ("NEUTER", "WEAK") for it in found)
+        return form in lists.parts or (inflected and form in lists.things)
+
     def _is_adjective(self, found: list[Token]) -> bool:
         """Whether what ends like a definite noun is an adjective: *vit*, *grön*."""
         if not any("DEFINITE" in it.terminal for it in found):
@@ -522,7 +543,9 @@ class Reader:
         found = words(tree)
         said = "".join(it.text.lower() for it in found if it.terminal == "A")
         rest = [it for it in found if it.terminal != "A"]
-        if kind == "adjective" and self._is_definite_noun(rest):
+        if kind == "adjective" and (
+            self._is_definite_noun(rest) or self._is_only_noun(rest)
+        ):
             return
         if kind == "noun" and self._is_adjective(rest):
             return

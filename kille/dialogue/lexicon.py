@@ -14,6 +14,7 @@ from typing import Any
 
 from kille.dialogue.inflection import Articles, Inflection
 from kille.dialogue.language_files import FILES, last_change, read_table
+from kille.dialogue.word_lists import word_lists
 from ttr import Record
 
 VARIED = "varied"
@@ -72,6 +73,8 @@ class Lexicon:
     """An expression for words that are adjectives by how they end, if any."""
     definite_nouns: str
     """An expression for words that are definite nouns if they are no adjectives."""
+    made_of: str
+    """How it is said of what a thing is made: "av {}"; "" where it is as other ways."""
     joins_compounds: bool
     """Whether two nouns that are written apart are one word."""
     styles: Mapping[str, Style]
@@ -127,7 +130,17 @@ class Lexicon:
     def predicative_form(self, adjective: str, article: str) -> str:
         """The form of an adjective that is said of a noun with this article."""
         form = self.styles["predicative"].at("adjective", article)
-        return self.inflect(adjective, form, article)
+        return self.say_material(adjective) or self.inflect(adjective, form, article)
+
+    def say_material(self, adjective: str) -> str:
+        """How it is said that a thing is made of this, or nothing if it is no material.
+
+        >>> lexicon("sv").say_material("läder"), lexicon("sv").say_material("röd")
+        ('av läder', '')
+        """
+        if self.made_of and adjective in word_lists(self.language).materials:
+            return self.made_of.format(adjective)
+        return ""
 
     def with_examples(self, wording: str) -> str:
         """A wording with what the tutor may say in place of {examples}."""
@@ -197,6 +210,7 @@ def _lexicon(language: str, wording: str, _: int) -> Lexicon:
         common_gender=phrases.get("common_gender", ""),
         adjectives=phrases.get("adjectives", ""),
         definite_nouns=phrases.get("definite_nouns", ""),
+        made_of=phrases.get("made_of", ""),
         joins_compounds=phrases.get("joins_compounds", False),
         styles={
             name: Style(table)

@@ -67,12 +67,15 @@ def _core(
     """Noun and adjectives by the template of a style that fits what is there."""
     has = lexicon.styles[style]
     article = lexicon.article(noun) if noun is not None else ""
+    materials = [it for one in adjectives if (it := lexicon.say_material(one.form))]
     described = [
         *marked,
         *(
             lexicon.inflect(it.form, has.at("adjective", article), article)
             for it in adjectives
+            if not lexicon.say_material(it.form)
         ),
+        *(materials if noun is None else ()),
     ]
     match noun is not None, bool(described):
         case True, True:
@@ -86,11 +89,12 @@ def _core(
     form = noun.form if noun is not None else ""
     inflected = lexicon.inflect(form, has.at("noun", article), article)
     first = described[0] if described else form
-    return has.at(name, article).format(
+    core = has.at(name, article).format(
         noun=inflected,
         adjectives=" ".join(described),
         article=_indefinite(lexicon, noun, first),
     )
+    return " ".join((core, *(materials if noun is not None else ())))
 
 
 def _indefinite(lexicon: Lexicon, noun: Record | None, first: str) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
 from kille.dialogue.lexicon import Lexicon
@@ -42,11 +43,17 @@ def list_slots(
     ]
     count = Counter(label for label, _ in parts)
     seen = {label: [part for it, part in parts if it == label] for label in count}
-    named = [
-        *_group_by_noun(lexicon, data, seen.get("thing", ()), words, "{}"),
-        *_group_by_noun(lexicon, data, seen.get("maybe", ()), words, data["perhaps"]),
-        *_unknown(data, count["unknown"]),
-    ]
+    named = (
+        [*_in_row(lexicon, data, content, words)]
+        if "order" in content
+        else [
+            *_group_by_noun(lexicon, data, seen.get("thing", ()), words, "{}"),
+            *_group_by_noun(
+                lexicon, data, seen.get("maybe", ()), words, data["perhaps"]
+            ),
+            *_unknown(data, count["unknown"]),
+        ]
+    )
     if named:
         yield "things", _join(data, named)
     if "choice" in seen:
@@ -55,6 +62,30 @@ def list_slots(
         if count[label]:
             article = _article(lexicon, seen[label], words)
             yield slot, _number(data, count[label], article)
+
+
+def _in_row(
+    lexicon: Lexicon, data: Section, content: RecordType, words: Words
+) -> Iterator[str]:
+    """What is in view from one side on; like things that stand together are counted."""
+    kinds = {"thing": "{}", "maybe": data["perhaps"]}
+    parts = sorted(content.fields, key=lambda it: it[0][-2:])
+    seen = [
+        (label[:-2], part)
+        for label, part in parts
+        if label[:-2] in (*kinds, "unknown") and isinstance(part, RecordType)
+    ]
+
+    def kind(it: tuple[str, RecordType]) -> tuple[str, str | None]:
+        label, part = it
+        return label, phrase(lexicon, part, words, "bare")
+
+    for (label, _), alike in groupby(seen, kind):
+        found = [part for _, part in alike]
+        if label == "unknown":
+            yield from _unknown(data, len(found))
+        else:
+            yield from _group_by_noun(lexicon, data, found, words, kinds[label])
 
 
 def either(lexicon: Lexicon, parts: Sequence[str]) -> str:

@@ -132,7 +132,9 @@ class WordLists:
         'this is a cup.'
         """
         words = (self.swapped.get(it.lower(), it) for it in re.split(r"(\W+)", text))
-        return _replace_forms("".join(words), self.spoken)
+        said = "".join(words)
+        written = _replace_forms(said, self.spoken)
+        return written if written == said else " ".join(written.split())
 
     def join_sentences(self, text: str) -> str:
         """The text with what is said over several of its sentences said in one.
@@ -278,9 +280,26 @@ class WordLists:
             return None
         common = self.things if kind == "noun" else self.qualities | self.materials
         found = [it for it in common if is_misspelling(form, it)]
+        found = found or [*self._compounds_near(form)] if kind == "noun" else found
         if not found and kind == "adjective":
             return self._run_together(form)
         return (found[0], kind, "") if len(found) == 1 else None
+
+    def _compounds_near(self, form: str) -> Iterator[str]:
+        """The compounds of common words of which one may be a slip in the last part.
+
+        >>> word_lists("sv").intended_word("skokartog", "noun")
+        ('skokartong', 'noun', '')
+        """
+        for n in range(_SHORTEST_PART, len(form) - _SHORTEST_SLIP + 1):
+            first, last = form[:n], form[n:]
+            if first not in self.things:
+                continue
+            if last in self.things:
+                return
+            for it in self.things:
+                if len(it) >= _SHORTEST_SLIP and is_misspelling(last, it):
+                    yield first + it
 
     def _run_together(self, form: str) -> tuple[str, str, str] | None:
         """The noun and article of which a form is made: "acap"."""
@@ -311,6 +330,10 @@ class WordLists:
         if self.quality_endings and word.endswith(self.quality_endings):
             return True
         return any(it in self.qualities for it in (word, *word.split("-")[-1:]))
+
+
+_SHORTEST_PART, _SHORTEST_SLIP = 3, 5
+"""How many letters the parts of a compound have at least; the last may be a slip."""
 
 
 def _head(form: str, complements: Iterable[str]) -> str:

@@ -224,6 +224,7 @@ def _claim_slots(
             article = _gender(lexicon, content, words)
             for its, sign in zip(forms, several, strict=True):
                 its["so"] = lexicon.predicative_form(sign.form, article)
+                its["how"] = lexicon.say_material(sign.form) or sign.form
         slots = {
             slot: either(lexicon, [its[slot] for its in forms]) for slot in forms[0]
         }
@@ -246,7 +247,8 @@ def _forms(
     """The forms of a word, as slots: the word, and what is wanted besides."""
     yield slot, sign.form
     if sign.kind == "adjective" and (plural := f"plural_{slot}") in wanted:
-        yield plural, lexicon.inflect(sign.form, "WEAK")
+        material = lexicon.say_material(sign.form)
+        yield plural, material or lexicon.inflect(sign.form, "WEAK")
     if sign.kind != "noun":
         return
     if (indefinite := f"a_{slot}") in wanted:
@@ -280,6 +282,7 @@ def _phrase_slots(
         (label, label if label in lexicon.styles else "bare"),
         (f"a_{label}", "indefinite"),
         (f"the_{label}", "definite"),
+        (f"no_{label}", "negated"),
     ):
         found = phrase(lexicon, part, words, style) if slot in wanted else None
         if found is not None:

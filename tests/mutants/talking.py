@@ -272,6 +272,8 @@ FITTING = {
     "okay": {"noted"},
     "leave": {"part"},
     "ask_deed": {"tell_abilities"},
+    "ask_beyond": {"admit_beyond"},
+    "define": {"need_example"},
     "ask_self": {"introduce"},
     "tell_use": {"tell_scope"},
     "remark": {"take_as_remark"},

@@ -13,6 +13,7 @@ from kille.dialogue.beliefs import (
     knows,
     special_name,
 )
+from kille.dialogue.games.colouring import plan_colour
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -129,6 +130,14 @@ def say_probably(s: Record, *, types: DialogueTypes) -> Record | None:
 
 
 @rule(answers="AskWhether")
+def say_what_colour(s: Record, *, types: DialogueTypes) -> Record | None:
+    """It cannot tell if it is of this colour: it says of which one it takes it to be."""
+    if not knows(s.private.colours, _asked_word(s)):
+        return None
+    return plan_colour(s, types=types)
+
+
+@rule(answers="AskWhether")
 def admit_whether(s: Record, *, types: DialogueTypes) -> Record:
     """It does not know."""
     return plan(
@@ -206,6 +215,14 @@ CHECKING = first(
     miss_place,
     seq(
         weigh,
-        first(say_yes, say_rather, say_no, say_converse, say_probably, admit_whether),
+        first(
+            say_yes,
+            say_rather,
+            say_no,
+            say_converse,
+            say_probably,
+            say_what_colour,
+            admit_whether,
+        ),
     ),
 )

@@ -30,11 +30,19 @@ def recognise_colour(s: Record, *, model: Model) -> Record | None:
 @rule(answers="AskQuality")
 def say_colour(s: Record, *, types: DialogueTypes) -> Record:
     """It says the colour as certainly as it knows it, or that it does not."""
+    told = plan_colour(s, types=types)
+    if told is not None:
+        return told
+    return plan(
+        s, "AdmitQuality", content_of(s), signs=s.shared.latest.signs, types=types
+    )
+
+
+def plan_colour(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The plan to say of what colour a thing is; None if the robot does not know."""
     how, beliefs = certainty(s, s.private.beliefs), s.private.beliefs
     if how == "Admit":
-        return plan(
-            s, "AdmitQuality", content_of(s), signs=s.shared.latest.signs, types=types
-        )
+        return None
     named = beliefs[: 2 if how == "Hedge" else 1]
     claims = [said_of(s, it.sign, it.sit.x, "Having", types=types) for it in named]
     signs = [it.sign for it in named]

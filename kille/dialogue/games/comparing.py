@@ -13,20 +13,18 @@ from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
     denial,
+    set_at,
     set_to,
     value_at,
     word_of,
 )
 from kille.dialogue.moves import content_of, number_field, plan
 from kille.dialogue.reference import PARTS, across, phrase_at, thing_at
-from kille.dialogue.reference.comparing import COMPARATIVES, exceeds
+from kille.dialogue.reference.comparing import COMPARATIVES, SCALE, exceeds, is_of_all
 from kille.dialogue.rules import rule
-from ttr import Model, Record, RecordType, rectype
+from ttr import Model, Pred, Record, RecordType, rectype
 from ttr.types import Singleton, TypeNode
 from ttr.updates import first
-
-SCALE = "scale"
-"""The label by which a content says that its relation is judged by a measure."""
 
 
 @rule(answers=("AskWhether", "AskMore"))
@@ -40,6 +38,7 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
         return _learn_comparison(s, model, content, types=types)
     if word_of(sign) not in model.facts.functions:
         return plan(s, "UnknownRelation", sign.meaning, signs=[sign], types=types)
+    content = _with_rival(s, model, content, word_of(sign))
     x, y = (str(thing_at(content, it)) for it in ("target", "landmark"))
     if not {x, y} <= {*s.view.placed}:
         return plan(s, "NeedDepth", types=types)
@@ -62,6 +61,22 @@ def compare(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     return _plan(s, "SayNo", denial(called), signs, x, types=types)
 
 
+def _with_rival(s: Record, model: Model, content: RecordType, more: Pred) -> RecordType:
+    """The content, where it speaks of all things about the one that may be the most.
+
+    "The book is the biggest." is so if it is bigger than whichever else may be.
+    """
+    x = str(thing_at(content, "target"))
+    others = [y for y in s.view.placed if y != x]
+    if not is_of_all(content) or not others:
+        return content
+
+    def leads(y: str) -> float:
+        return exceeds(s, model, more, y, x) - exceeds(s, model, more, x, y)
+
+    return set_at(content, "landmark.x", max(others, key=leads))
+
+
 @rule(answers="AskSize")
 def tell_size(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     """The tutor asks how big a thing is, or how far away: it says what it measures."""
@@ -73,6 +88,17 @@ def tell_size(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     told = set_to(content, target=phrase)
     signs = (*signs, *called)
     return plan(s, "TellSize", told, signs=signs, measures=[x], types=types)
+
+
+@rule(answers="AskDifference")
+def tell_difference(s: Record, *, types: DialogueTypes) -> Record:
+    """The tutor asks in what two things differ: it says what it measures of each."""
+    content = content_of(s)
+    things = [str(thing_at(content, it)) for it in PARTS]
+    if not {*things} <= {*s.view.placed}:
+        return plan(s, "NeedDepth", types=types)
+    signs = s.shared.latest.signs
+    return plan(s, "TellDifference", content, signs=signs, measures=things, types=types)
 
 
 @rule(answers=("AskWhy", "Deny"))
@@ -181,6 +207,6 @@ def _is_called(content: RecordType, label: str) -> bool:
     return any(it in phrase_at(content, label) for it in ("c", "a", "rel"))
 
 
-COMPARING = first(compare, tell_size)
+COMPARING = first(compare, tell_size, tell_difference)
 MEASURING = explain_measure
 """What answers why it has compared things so, and that this is wrong."""

@@ -36,6 +36,18 @@ def learn_confirmed(s: Record, *, types: DialogueTypes) -> Record | None:
     return plan_learning(s, s.shared.pending[0], types=types)
 
 
+@rule(answers="Conceding")
+def learn_denied(s: Record, *, types: DialogueTypes) -> Record | None:
+    """The robot was right after all, before the tutor rejected that: so it is so."""
+    if s.shared.pending or not s.private.last:
+        return None
+    said = s.private.last[-1]
+    denied = [it for it in values_at(said, "teaches") if is_denial(it)]
+    if predicate_at(said, "e").name != "ask_again" or len(denied) != 1:
+        return None
+    return plan_learning(s, affirmation(denied[0]), types=types)
+
+
 ASKED = {"c": "AskWhich", "a": "AskWhichQuality", "rel": "AskWhichPlace"}
 """What it asks when it has claimed two things, by their label."""
 
@@ -147,6 +159,7 @@ def wonder_why(s: Record, *, types: DialogueTypes) -> Record:
 
 
 CONFIRMING = first(
+    learn_denied,
     learn_confirmed,
     ask_which,
     learn_answer,

@@ -15,6 +15,8 @@ COURTESY = first(
     reply("Okay", "Noted", "The tutor has taken something in, or lets it be."),
     reply("AskSelf", "Introduce", "Asked who it is, it says what it does."),
     reply("AskDeed", "TellAbilities", "What it cannot do it says, and what it can."),
+    reply("AskBeyond", "AdmitBeyond", "Of what is beyond the table it knows nothing."),
+    reply("Define", "NeedExample", "It learns words from examples, not definitions."),
     reply("Remark", "TakeAsRemark", "What is said of no thing in view is a remark."),
     reply("TellUse", "TellScope", "What things are for it cannot see, and says so."),
     reply("NameOne", "TellNames", "It learns words for kinds, not names of one thing."),

@@ -203,9 +203,9 @@ def _plan_forgetting(s: Record, it: Record, *, types: DialogueTypes) -> Record:
 # --- parts ----------------------------------------------------------------------------
 
 
-@rule(answers="TellPart")
+@rule(answers=("TellPart", "AskPart"))
 def see_no_parts(s: Record, *, types: DialogueTypes) -> Record:
-    """A thing in view is said to have a part: the robot sees no parts."""
+    """A thing in view is said to have a part, or asked if it has: it sees no parts."""
     content = content_of(s)
     signs = [it for it in s.shared.latest.signs if it.meaning == content[COMPONENT]]
     return _plan_answer(s, "SeeNoParts", content, signs, types=types)

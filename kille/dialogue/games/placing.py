@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from kille.dialogue.beliefs import (
     Beliefs,
     certainty,
@@ -23,6 +25,7 @@ from kille.dialogue.reference.salience import choose
 from kille.dialogue.rules import rule
 from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Record, RecordType, record, rectype, replace
+from ttr.types import TypeNode
 from ttr.updates import first
 
 Update = tuple[Record, Model]
@@ -32,7 +35,8 @@ Update = tuple[Record, Model]
 def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """The tutor asks where a thing is: say how it stands to the best-known other.
 
-    Where it has no word for that, it says how the other one stands to it.
+    Where it has no word for that, it says how the other one stands to it, or else on
+    which side it is.
     """
     x = thing_at(content_of(s), "target")
     if x is None or x not in s.view.placed:
@@ -41,17 +45,18 @@ def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None
     if thing is None:
         return plan(s, "AdmitName", types=types), model
     landmark = landmark_for(s, model, thing)
+    side = _side_field(s, model, x, types=types)
     if landmark is None:
-        return plan(
-            s, "NeedLandmark", thing.sign.meaning, signs=[thing.sign], types=types
-        ), model
+        seen = set_to(thing.sign.meaning, **side)
+        return plan(s, "NeedLandmark", seen, signs=[thing.sign], types=types), model
     relations, model = relations_of(s, model, x, landmark.sit.x)
     if not thinks(s, relations):
         converse, model = relations_of(s, model, landmark.sit.x, x)
         if thinks(s, converse):
             thing, landmark, relations = landmark, thing, converse
     believing = replace(s, {"private.beliefs": relations})
-    return _plan_place(believing, thing, landmark, relations, types=types), model
+    told = _plan_place(believing, thing, landmark, relations, side, types=types)
+    return told, model
 
 
 @rule(answers="AskPlace")
@@ -108,15 +113,28 @@ def name_thing(
     return merge_of(phrase, meaning), [noun]
 
 
+def _side_field(
+    s: Record, model: Model, x: str, *, types: DialogueTypes
+) -> dict[str, TypeNode]:
+    """The field that says on which side of what is in view a thing is, if on any."""
+    sides = _sides_of(s, model, x, types=types) if len(s.view.things) > 1 else {}
+    on = next((side for side, is_there in sides.items() if is_there), None)
+    return {} if on is None else {SIDE: types["Text"] @ on}
+
+
 def _plan_place(
     s: Record,
     thing: Record,
     landmark: Record,
     relations: Beliefs,
+    side: Mapping[str, TypeNode],
     *,
     types: DialogueTypes,
 ) -> Record:
-    """The plan to say how the thing stands, as certain as the robot is of it."""
+    """The plan to say how the thing stands, as certain as the robot is of it.
+
+    Where it has no word for that, it says on which side of the table the thing is.
+    """
 
     def stands(*relation: Record) -> RecordType:
         return placement(
@@ -132,7 +150,8 @@ def _plan_place(
     nouns = [thing.sign, landmark.sign]
     how = certainty(s, relations)
     if how == "Admit":
-        return plan(s, "AdmitPlace", stands(), signs=nouns, types=types)
+        placed = set_to(stands(), **side)
+        return plan(s, "AdmitPlace", placed, signs=nouns, types=types)
     best = relations[0].sign
     content, signs = stands(best), [*nouns, best]
     if how != "Hedge":
@@ -216,16 +235,23 @@ def tell_side(s: Record, *, model: Model, types: DialogueTypes) -> Record:
         return plan(s, "AdmitWhether", types=types)
     target, called = name_thing(s, model, phrase_at(content, "target"), x)
     asked, told = value_at(content, SIDE), set_to(content, target=target)
-    sides = {
-        side: x in choose(s, model, types[pred], s.view.things, types=types)
-        for side, pred in _CHOOSES.items()
-        if side != "at_middle" or len(s.view.things) > _PAIR
-    }
+    sides = _sides_of(s, model, x, types=types)
     other = next((side for side, is_there in sides.items() if is_there), None)
     act = "SaySide" if sides.get(asked) else "SayOtherSide" if other else "DenySide"
     if act == "SayOtherSide":
         told = set_to(told, side=types["Text"] @ other)
     return plan(s, act, told, signs=[*signs, *called], types=types)
+
+
+def _sides_of(
+    s: Record, model: Model, x: str, *, types: DialogueTypes
+) -> dict[str, bool]:
+    """Whether a thing is on each side, or in the middle of more than two."""
+    return {
+        side: x in choose(s, model, types[pred], s.view.things, types=types)
+        for side, pred in _CHOOSES.items()
+        if side != "at_middle" or len(s.view.things) > _PAIR
+    }
 
 
 AMID = "amid"

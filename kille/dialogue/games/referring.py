@@ -33,6 +33,7 @@ from kille.dialogue.reference import (
     roles_in,
     thing_at,
 )
+from kille.dialogue.reference.comparing import is_of_all
 from kille.dialogue.reference.demonstratives import THAT, THIS, distal, proximal
 from kille.dialogue.reference.salience import (
     compares,
@@ -249,6 +250,8 @@ def _readings(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Read
     readings = intended_readings(
         s, possible_readings(s, model, content, types=types), types=types
     )
+    if is_of_all(content):
+        readings = [*{it.things["target"]: it for it in readings[::-1]}.values()][::-1]
     if len(readings) < 2 or _teaches(s, model, types=types):
         return readings
     return _by_distance(s, readings, types=types)

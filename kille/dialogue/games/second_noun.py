@@ -191,11 +191,22 @@ def _asks(s: Record, question: str) -> bool:
 def _says(s: Record, content: RecordType, *, types: DialogueTypes) -> bool:
     """Whether the latest move says the same noun, and not of another thing."""
     said, x = content_of(s), thing_at(content, "target")
-    if "c" not in said or said["c"] != content["c"]:
+    if not _says_bare(s, content) and said.get("c") != content["c"]:
         return False
     if "target" in said and not _points_to_it(said, types=types):
         return False
     return not s.view.pointed or x in s.view.pointed
+
+
+def _says_bare(s: Record, content: RecordType) -> bool:
+    """Whether the latest move says the noun of a content without an article: "mug"."""
+    said = content_of(s)
+    if "a" not in said or is_denial(said):
+        return False
+    forms = {it.form for it in s.shared.latest.signs if claims(said, it)}
+    named = [it for option in s.shared.qud[0].options for it in option.signs]
+    named = [*named, *signs_for(s, content)]
+    return any(it.form in forms for it in named if claims(content, it))
 
 
 def _points_to_it(said: RecordType, *, types: DialogueTypes) -> bool:

@@ -6,7 +6,8 @@ is not plain which ones are meant, and the robot asks to be shown one at a time;
 does where "both" is said of more than two. "None of these is a cup." is a lesson about
 each thing there, too.
 
-"All but the left one are cups." is a lesson about each of the others.
+"All but the left one are cups." is a lesson about each of the others. So is "The cups
+are red." about each cup, and "The cup and the bowl are red." about these two.
 
 "Everything here is a cup." is a lesson about each thing, and "Only this is a cup." one
 about this, and one about each other thing, that it is not. Where something else was
@@ -18,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from kille.dialogue.beliefs import is_sure, knows, names_of
-from kille.dialogue.commitments import kind_of, opposite_lesson_keys
+from kille.dialogue.commitments import kind_of, opposite_lesson_keys, plan_learning
 from kille.dialogue.games.finding import plan_pointing
 from kille.dialogue.games.surveying import in_view
 from kille.dialogue.meanings import (
@@ -26,12 +27,13 @@ from kille.dialogue.meanings import (
     claims,
     denial,
     is_denial,
+    mentions,
     set_at,
     set_to,
     value_at,
 )
 from kille.dialogue.moves import content_of, hear_as, issue, number_field, plan, said_of
-from kille.dialogue.reference import PhraseJudge, fits_well, phrase_at, thing_at
+from kille.dialogue.reference import PARTS, PhraseJudge, fits_well, phrase_at, thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Record, RecordType, record, rectype, replace
@@ -43,8 +45,34 @@ EVERY, ONLY = "AskEvery", "AskOnly"
 EXACTLY = "exactly"
 """The label of how many things there have to be: "both are cups"."""
 
+AMONG = "among"
+"""The label of the phrase for the things that are meant: "the cups are red"."""
+
+OTHER_THAN = "other than"
+"""The stance of who asks which things something is not true of."""
+
 NUMBERS = {"two": 2, "three": 3, "four": 4, "five": 5}
 """How many that is."""
+
+
+@rule(answers="InstructSeveral")
+def ask_each(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """It is plain which things are meant, and one is known to be something else."""
+    noun, things = _claimed_word(s), _things_meant(s)
+    if not _are_plainly_meant(s, things):
+        return None
+    other = next((x for x in things if _is_other(s, model, x, noun)), None)
+    if other is None:
+        return None
+    return _plan_question(s, EVERY, noun, other, types=types)
+
+
+def _are_plainly_meant(s: Record, things: Sequence[str]) -> bool:
+    """Whether the tutor has said which things are meant, or how many: "all three"."""
+    content = content_of(s)
+    if EXACTLY in content:
+        return len(things) == NUMBERS[str(value_at(content, EXACTLY))]
+    return "landmark" in content
 
 
 @rule(answers="InstructSeveral")
@@ -64,7 +92,32 @@ def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | 
     """The tutor says what the things in view are: it is a lesson about each of them."""
     sign = _claimed_word(s)
     things = without_others(s, model, _fitting_things(s, model, types=types), sign)
+    if things and (AMONG in content_of(s) or "landmark" in content_of(s)):
+        return _plan_each(s, things, sign, types=types)
     return None if len(things) < 2 else plan_several(s, things, sign, types=types)
+
+
+@rule(answers="InstructSeveral")
+def miss_any(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
+    """Nothing in view is what the tutor calls the things, or the word is new."""
+    if AMONG not in content_of(s):
+        return None
+    among = phrase_at(content_of(s), AMONG)
+    signs = [it for it in s.shared.latest.signs if mentions(among, it)]
+    unknown = plan_first_unknown(s, signs, types=types)
+    if unknown is not None:
+        return unknown
+    asked = rectype(look=types["Look"] @ s.view.look, target=among)
+    return plan(s, "SeeNoSuch", asked, signs=signs, types=types)
+
+
+def _plan_each(
+    s: Record, things: Sequence[str], sign: Record, *, types: DialogueTypes
+) -> Record:
+    """The plan to learn of each of these things that it is so, and to say of which."""
+    for x in sorted(things, key=s.view.things.index):
+        s = plan_learning(s, _said_of(s, sign, x, types=types), types=types)
+    return s
 
 
 def without_others(
@@ -275,6 +328,9 @@ def tell_places(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
     """It points at each of these things, by their numbers, and says where it is."""
     asked = phrase_at(content_of(s), "counted")
     things = fits_well(s, PhraseJudge(s, model, types=types).fits(asked))
+    if "stance" in s.shared.latest and s.shared.latest.stance == OTHER_THAN:
+        others = [x for x in s.view.things if x not in things]
+        return _plan_others(s, model, others, types=types)
     if not things:
         return None
     act = "PointOut" if len(things) == 1 else "TellPlace"
@@ -284,6 +340,18 @@ def tell_places(s: Record, *, model: Model, types: DialogueTypes) -> Record | No
             told, model, act, _one_of(s, asked, x, types=types), x, types=types
         )
     return told if len(things) == 1 else replace(told, {"shared.pending": ()})
+
+
+def _plan_others(
+    s: Record, model: Model, things: Sequence[str], *, types: DialogueTypes
+) -> Record | None:
+    """The plan to point at each of the things that something is not true of."""
+    plain = types.record_type("Phrase")
+    told = s
+    for x in things:
+        asked = _one_of(s, plain, x, types=types)
+        told = plan_pointing(told, model, "TellPlace", asked, x, types=types)
+    return replace(told, {"shared.pending": ()}) if things else None
 
 
 @rule(answers="AskPlaces")
@@ -314,7 +382,9 @@ def _said_of(s: Record, sign: Record, x: str, *, types: DialogueTypes) -> Record
 
 def _claimed_word(s: Record) -> Record:
     """The word that the tutor says of the things: a noun, or else how they are."""
-    signs = s.shared.latest.signs
+    signs, content = s.shared.latest.signs, content_of(s)
+    if AMONG in content or "landmark" in content:
+        signs = [it for it in signs if mentions(phrase_at(content, "counted"), it)]
     word: Record = next((it for it in signs if it.kind == "noun"), signs[0])
     return word
 
@@ -322,6 +392,9 @@ def _claimed_word(s: Record) -> Record:
 def _fitting_things(s: Record, model: Model, *, types: DialogueTypes) -> list[str]:
     """The things in view of which the adjectives are true: "These are red cups."."""
     things = _things_meant(s)
+    if AMONG in content_of(s):
+        among = phrase_at(content_of(s), AMONG)
+        things = fits_well(s, PhraseJudge(s, model, types=types).fits(among))
     if _claimed_word(s).kind != "noun":
         return things
     said = phrase_at(content_of(s), "counted")
@@ -331,8 +404,10 @@ def _fitting_things(s: Record, model: Model, *, types: DialogueTypes) -> list[st
 
 
 def _things_meant(s: Record) -> list[str]:
-    """The things in view but for an exception: "all but the left one"."""
-    excepted = thing_at(content_of(s), "target")
+    """The two things that are named, or those in view but for an exception."""
+    excepted, other = (thing_at(content_of(s), it) for it in PARTS)
+    if excepted is not None and other is not None:
+        return [excepted, other]
     return [x for x in s.view.things if x != excepted]
 
 
@@ -362,8 +437,10 @@ THINGS_ANSWERED = first(learn_anyway, learn_others, leave_several)
 """What answers whether it is so of something of which something else was said."""
 
 SEVERAL_THINGS = first(
+    ask_each,
     need_as_many,
     learn_several,
+    miss_any,
     reject_several,
     ask_every,
     learn_every,

@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from kille.dialogue.beliefs import Beliefs, is_sure, names_of, thinks
-from kille.dialogue.meanings import DialogueTypes, set_at, set_to
-from kille.dialogue.moves import plan
+from kille.dialogue.meanings import DialogueTypes, set_at, set_to, value_at
+from kille.dialogue.moves import content_of, plan
+from kille.dialogue.reference import across, thing_at
 from kille.dialogue.rules import rule
-from ttr import Model, Record, RecordType
+from ttr import Model, Record, RecordType, rectype
 from ttr.updates import first
 
 SURE, LIKELY, UNKNOWN = "thing", "maybe", "unknown"
 """How the parts of what is seen are labelled, with a number after it."""
+
+ORDER, FROM_LEFT = "order", "from the left"
+"""The label for where a list in a row begins, and what it says of the left."""
 
 
 @rule(answers=("AskView", "AskGuess"))
@@ -29,8 +33,27 @@ def list_view(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     likely = [it[0] for it in beliefs.values() if thinks(s, it) and not is_sure(s, it)]
     unknown = [x for x, it in beliefs.items() if not thinks(s, it)]
     content = in_view(s, _rank(sure), _rank(likely), unknown, types=types)
+    if ORDER in content_of(s):
+        content = _in_order(s, model, content, types=types)
     signs = tuple(dict.fromkeys(it.sign for it in _rank([*sure, *likely])))
     return plan(s, "ListView", content, signs=signs, types=types)
+
+
+def _in_order(
+    s: Record, model: Model, content: RecordType, *, types: DialogueTypes
+) -> RecordType:
+    """The type of the situation in view, with its parts as they stand in a row."""
+    order = value_at(content_of(s), ORDER)
+    row = [*across(s, model, s.view.things, types=types)]
+    row = row if order == FROM_LEFT else row[::-1]
+    parts = {label: T for label, T in content.fields if thing_at(content, label)}
+    rest = {label: T for label, T in content.fields if label not in parts}
+    places = {label: row.index(str(thing_at(content, label))) for label in parts}
+    in_row = {
+        f"{label.rstrip('0123456789')}{places[label]:02}": T
+        for label, T in parts.items()
+    }
+    return rectype({**rest, **in_row, ORDER: types["Text"] @ order})
 
 
 def in_view(

@@ -11,8 +11,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from kille.dialogue.meanings import value_at
 from kille.dialogue.reference.perspectives import AWAY
-from ttr import Model, Pred, Record
+from ttr import Model, Pred, Record, RecordType
 
 COMPARATIVES: Mapping[str, str] = {
     "biggest": "bigger_than",
@@ -27,8 +28,19 @@ COMPARATIVES: Mapping[str, str] = {
 """The comparative by which each superlative chooses, by names of predicates."""
 
 
+SCALE = "scale"
+"""The label by which a content says that its relation is judged by a measure."""
+
+OF_ALL = "of all"
+"""What that label says where one thing is said to be more than all others."""
+
 ASIDE = 0.35
 """How far off the line between two things another may be, of their distance."""
+
+
+def is_of_all(content: RecordType) -> bool:
+    """Whether a content says that a thing is more than all others: "is the biggest"."""
+    return SCALE in content and value_at(content, SCALE) == OF_ALL
 
 
 def exceeds(s: Record, model: Model, more: Pred, x: str, y: str) -> float:

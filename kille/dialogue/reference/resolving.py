@@ -385,7 +385,9 @@ def intended_readings(
 ) -> list[Reading]:
     """The readings that are meant: one, unless the talk leaves open which.
 
-    If a phrase fits several things, the one that was just talked about is meant.
+    If a phrase fits several things, the one that was just talked about is meant. It is
+    not if the phrase says how its thing is, and another is more so: "The red one is a
+    cup. The blue one is …".
 
     >>> from kille.dialogue.language import understand
     >>> from kille.lab.worlds.games import simulated_game
@@ -402,7 +404,11 @@ def intended_readings(
     for label in PARTS:
         things = {it.things[label] for it in meant if label in it.things}
         latest = just_mentioned(s, things)
-        if latest is not None:
+        if latest is None:
+            continue
+        if _fits_another_better(meant, label, latest):
+            meant = [it for it in meant if it.things.get(label) != latest]
+        else:
             meant = [
                 it
                 for it in meant
@@ -410,6 +416,12 @@ def intended_readings(
                 or _chooses(phrase_at(it.open, label), types=types)
             ]
     return meant
+
+
+def _fits_another_better(meant: Sequence[Reading], label: str, x: str) -> bool:
+    """Whether a phrase says how its thing is, and another thing is more so."""
+    best = meant[0]
+    return "a" in phrase_at(best.open, label) and best.things[label] != x
 
 
 def _chooses(phrase: RecordType, *, types: DialogueTypes) -> bool:

@@ -7,7 +7,7 @@ from kille.dialogue.language import LESSONS
 FALLBACK = frozenset({"remark", "other_deed", "presumed"})
 """What is taken so only where nothing else is understood."""
 
-SINGLE = frozenset({"placed", "identity", "quality_alone"})
+SINGLE = frozenset({"placed", "identity", "quality_alone", "denied_word"})
 """The claims that have to be all that is said."""
 
 INDIRECT = frozenset(
@@ -51,7 +51,16 @@ FOLLOWS = {
 """After which claims, and nothing else, the elliptic ones may stand."""
 
 CLAIMS = frozenset(
-    (*LESSONS, "relate", "turned", "other_place", *INDIRECT, *ELLIPTIC, *GAPPED)
+    (
+        *LESSONS,
+        "relate",
+        "turned",
+        "other_place",
+        "denied_word",
+        *INDIRECT,
+        *ELLIPTIC,
+        *GAPPED,
+    )
 )
 """The moves that say how things are."""
 

@@ -73,7 +73,9 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             return 0.3  # "What is the capital of Mongolia?"
         case "relate" if _is_noun_of(move, lists):
             return 0.0  # "This is a waste of my time."
-        case "instruct_some" | "ask_deed" | "count_sort":
+        case "instruct_some":
+            return 0.3
+        case "ask_deed" | "ask_beyond" | "define" | "count_sort":
             return 0.5
         case "okay":
             return 0.9 if situation.asks_whether else 1.0
@@ -110,6 +112,10 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             return (
                 1.0 if how == (move.rule == "describe") or _has_article(move) else 0.2
             )
+        case "ordered":
+            return 1.2
+        case "denied_word":
+            return 1.0 if all(it in situation.known for it in new_words(move)) else 0.0
         case "correct":
             return _fit_of_contrast(move, situation, lists)
         case "instruct" if len(parts(move)) == 1:

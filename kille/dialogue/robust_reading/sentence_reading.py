@@ -96,7 +96,7 @@ def read_robustly(
         if all(it.readings and not is_weak(it, situation, lists) for it in whole):
             return Understanding(whole, (sentence.plain,), ())
     grammar = reads.island_grammar
-    if grammar is None or _UNSPEAKABLE.search(text):
+    if grammar is None or _UNSPEAKABLE.search(sentence.plain):
         return NOTHING
     weigh = partial(weigh_island, situation, sentence.is_question, lists)
     found = best_covers(sentence.plain, sentence.words, grammar, weigh, lists, FOLLOWS)

@@ -61,7 +61,7 @@ DOUBTING = frozenset({"ask_certainty", "ask_whether"})
 ANSWERS = frozenset({"affirm", "deny"})
 """What is about something that the robot has said."""
 
-HESITATING = frozenset({"hold_floor", "ask_repeat"})
+HESITATING = frozenset({"hold_floor", "release_floor", "ask_repeat"})
 """What is said in search of words, where anything else is said: "Hang on, a whisk."."""
 
 NAMING = frozenset({"instruct", "correct"})
@@ -328,6 +328,7 @@ def hear_in_parts(
         done = [it for it in done if act_of(it) not in _REGRETTING]
     done = _keep_last_answer(without_early_answers(done))
     done = join_descriptions(done, situation.known, types=types)
+    asked = [it for it in asked if not _is_said_again(it, done)]
     settled, open_ = _settle_lessons(done, asked, types)
     sayings = [it for it in open_ if is_saying(it)]
     if len(sayings) < len(open_):
@@ -433,6 +434,14 @@ def _settle_lessons(
         asked = [*lessons, *asked]
         done = [it for it in done if not _teaches(it)]
     return done, asked if not any(map(_teaches, done)) else []
+
+
+def _is_said_again(it: Sentence, said: Iterable[Sentence]) -> bool:
+    """Whether a sentence only says again how a thing is: "Soft, that is."."""
+    forms = {sign.form for sign in it.readings[0].signs}
+    hows = [one for one in said if act_of(one) == "describe"]
+    told = {sign.form for one in hows for sign in one.readings[0].signs}
+    return bool(forms) and forms <= told
 
 
 def _without_repetitions(said: Sequence[Sentence]) -> list[Sentence]:

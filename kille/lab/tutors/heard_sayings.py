@@ -40,6 +40,10 @@ NONSENSE = (
 
 IN_PARTS = (
     "ask_deed",
+    "ask_beyond",
+    "ask_difference",
+    "ask_part",
+    "define",
     "ask_self",
     "remark",
     "ask_guess",

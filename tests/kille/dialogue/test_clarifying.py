@@ -181,7 +181,7 @@ def test_some_of_three_are_asked_about(scene: Scenes) -> None:
     assert robot.hear("Where is the cup?") == "Which cup do you mean?"
     assert robot.acts("The red one.") == ["ask_referent"]
     assert len(robot.state.shared.qud[0].options) == 2
-    assert "I see" in robot.hear("The first one.")
+    assert "is on the left" in robot.hear("The first one.")
 
 
 def test_two_phrases_are_asked_about_in_turn(scene: Scenes) -> None:
