@@ -113,6 +113,10 @@ class WordLists:
         """Whether a word is no noun or adjective in a part of a sentence."""
         return form in self.closed or form in self.fillers
 
+    def is_phrase(self, forms: Sequence[str]) -> bool:
+        """Whether several words say together how a thing is: "worn out"."""
+        return len(forms) > 1 and "_".join(forms) in self.qualities
+
     def has_copula(self, form: str) -> bool:
         """Whether a word is a form of "be", or ends with one: "isn't", "cup's"."""
         _, mark, ending = form.partition("'")
@@ -240,6 +244,8 @@ class WordLists:
         if not self.qualities:
             return ""
         words = form.split()
+        if self.is_phrase(words):
+            return ""
         if not self.evaluations.isdisjoint(words):
             return REMARK
         if all(map(self._is_quality, words)):
