@@ -198,6 +198,8 @@ class WordLists:
         head = _head(form, complements)
         if form in self.names:
             return NAME
+        if words[-1].isdigit():
+            return REMARK
         if len(words) > 1 and form in self.things:
             return ""  # "pencil case"
         if form in self.abstract or head in self.abstract or is_noise(form):
