@@ -16,7 +16,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
-from itertools import islice, product, zip_longest
+from itertools import dropwhile, islice, product, zip_longest
 
 from kille.dialogue.grammar_cache import recall_grammar
 from kille.dialogue.grammars import GrammarError
@@ -336,7 +336,7 @@ class Reader:
         """The types of the event: who speaks to whom, its move, words and content."""
         is_lesson = move.rule in LESSONS
         may_be_saying = is_lesson or move.rule == RELATE
-        is_saying = may_be_saying and self._lexicon.is_saying(plain_text(text))
+        is_saying = may_be_saying and self._is_saying(text)
         for signs, content in self._together(move):
             if any(is_over_break(it.form, text) for it in signs if it.kind == "noun"):
                 continue
@@ -381,6 +381,12 @@ class Reader:
         """Whether a claim is of what a thing is made."""
         said = (it for it in signs if it.kind == "adjective" and claims(content, it))
         return any(it.form in self._lists.materials for it in said)
+
+    def _is_saying(self, text: str) -> bool:
+        """Whether a text is a saying, whatever fillers it begins with: "Ugh, …"."""
+        plain = plain_text(text)
+        words = dropwhile(self._lists.fillers.__contains__, plain.split())
+        return any(map(self._lexicon.is_saying, {plain, " ".join(words)}))
 
     def _doubt(self, signs: Iterable[Record], content: RecordType, text: str) -> str:
         """Why the word of a lesson may be none that is said of things, or nothing."""

@@ -113,6 +113,10 @@ class WordLists:
         """Whether a word is no noun or adjective in a part of a sentence."""
         return form in self.closed or form in self.fillers
 
+    def is_phrase(self, forms: Sequence[str]) -> bool:
+        """Whether several words say together how a thing is: "worn out"."""
+        return len(forms) > 1 and "_".join(forms) in self.qualities
+
     def has_copula(self, form: str) -> bool:
         """Whether a word is a form of "be", or ends with one: "isn't", "cup's"."""
         _, mark, ending = form.partition("'")
@@ -194,6 +198,8 @@ class WordLists:
         head = _head(form, complements)
         if form in self.names:
             return NAME
+        if words[-1].isdigit():
+            return REMARK
         if len(words) > 1 and form in self.things:
             return ""  # "pencil case"
         if form in self.abstract or head in self.abstract or is_noise(form):
@@ -240,6 +246,8 @@ class WordLists:
         if not self.qualities:
             return ""
         words = form.split()
+        if self.is_phrase(words):
+            return ""
         if not self.evaluations.isdisjoint(words):
             return REMARK
         if all(map(self._is_quality, words)):

@@ -191,6 +191,12 @@ def _has_article(tree: Tree) -> bool:
 
 def _fit_of_several(move: Tree, situation: Situation, lists: WordLists) -> float:
     """How well it fits to say of several things what they are, or how they are."""
+    nouns = [it for noun in _parts_by(move, "noun") for it in words(noun)]
+    if any(
+        it.terminal == "MASS" and not _is_noun(it.text, situation, lists)
+        for it in nouns
+    ):
+        return 0.0  # "These are floppy."
     kinds = [*_words_of(move, "noun")]
     hows = kinds or _words_of(move, "adjective")
     says_how = all(
@@ -201,6 +207,12 @@ def _fit_of_several(move: Tree, situation: Situation, lists: WordLists) -> float
     if kinds:
         return 0.1 if says_how else 1.0
     return 0.5 if says_how else 0.0
+
+
+def _is_noun(word: str, situation: Situation, lists: WordLists) -> bool:
+    """Whether a word is a noun for things, as far as is known."""
+    form = word.lower()
+    return form in lists.things or form in situation.known - situation.qualities
 
 
 def _is_known(word: str, situation: Situation) -> bool:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from kille.dialogue.parsing import Grammar, Tree, parts
+from kille.dialogue.parsing import words as words_in
 from kille.dialogue.robust_reading.clause_words import (
     Word,
     blank_harmless,
@@ -142,6 +143,8 @@ def _word_at(end: int, words: Sequence[Word]) -> int | None:
 
 def _is_sound(tree: Tree, lists: WordLists) -> bool:
     """Whether no word that is none of a noun's or an adjective's is read as one."""
+    if lists.is_phrase([it.text.lower() for it in words_in(tree)]):
+        return True
     for child in tree.children:
         if isinstance(child, Tree):
             if not _is_sound(child, lists):

@@ -87,7 +87,7 @@ def _is_odd(sign: Record, qualities: Set[str], lists: WordLists) -> bool:
         return len(parts) == 1 and _is_no_relation(parts[0], qualities, lists)
     if sign.kind == "noun" and _ends_with_aside(parts, lists):
         return True
-    return any(map(lists.is_closed, parts))
+    return not lists.is_phrase(parts) and any(map(lists.is_closed, parts))
 
 
 def _ends_with_aside(parts: Sequence[str], lists: WordLists) -> bool:
