@@ -131,7 +131,7 @@ def say_probably(s: Record, *, types: DialogueTypes) -> Record | None:
 
 @rule(answers="AskWhether")
 def say_what_colour(s: Record, *, types: DialogueTypes) -> Record | None:
-    """It cannot tell if it is of this colour: it says of which one it takes it to be."""
+    """It cannot tell if it is of this colour: it says of which one it thinks it is."""
     if not knows(s.private.colours, _asked_word(s)):
         return None
     return plan_colour(s, types=types)
