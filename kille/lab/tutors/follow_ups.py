@@ -65,7 +65,7 @@ def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
     elif not s.shared.qud:
         yield [it for act in ASKING_BACK for it in bare_sayings(talk, act)]
     if last == "admit_whether":
-        yield yes_or_no(talk)
+        yield from [yes_or_no(talk)] * 2
     if not s.shared.qud:
         yield talk.sayings("mention")
     if s.shared.turned:
