@@ -90,6 +90,8 @@ def _asides(talk: WorldTalk, s: Record) -> Iterator[Sequence[Aside]]:
         yield asides(words, "alone")
     if last == "unknown_noun":
         yield asides(words, "all")
+    if last == "ask_again":
+        yield asides(words, "conceding")
     if last in JUST_LEARNED:
         yield asides(words, "of_other", [it.sign for it in s.private.lessons[-1:]])
     if last in NAMING_ACTS and len(talk.world.in_view) == PAIR:
