@@ -131,23 +131,24 @@ def choices(talk: WorldTalk, s: Record) -> Options:
     """Which of several moves was meant: in words, by pointing, or none of them."""
     asked = s.shared.qud[0]
     settling = sample_texts(_plain_answers(talk, asked))
-    mentions = [it for it in talk.sayings("mention") if len(it.about.signs) == 1]
     options = [
         sample_texts(yes_or_no(talk)),
-        settling,
-        settling,
-        sample_texts(mentions),
+        *[settling] * 3,
         sample_texts(taking_back(talk)),
     ]
     if len(asked.options) == PAIR:
         swapped = asides(talk.words, "reversed")
         options += [sample_asides(s, swapped)] if swapped else []
-    if asked.ask not in WHICH:
-        return options
+    return [*options, *_mentions(talk, s)] if asked.ask in WHICH else options
+
+
+def _mentions(talk: WorldTalk, s: Record) -> Options:
+    """Which thing is meant, or is not: in words, and by pointing."""
+    mentions = [it for it in talk.sayings("mention") if len(it.about.signs) == 1]
     pointing = [(glance_event, talk.world.point_at(x)) for x in talk.world.in_view]
     which = (asides(talk.words, name) for name in ("all", "other"))
     return [
-        *options,
+        sample_texts(mentions),
         *([sample_looks(talk.world, pointing)] if pointing else []),
         *(sample_asides(s, it) for it in which if it),
     ]

@@ -65,7 +65,7 @@ def _sayings(talk: WorldTalk, s: Record) -> Iterator[Sequence[Saying]]:
     elif not s.shared.qud:
         yield [it for act in ASKING_BACK for it in bare_sayings(talk, act)]
     if last == "admit_whether":
-        yield yes_or_no(talk)
+        yield from [yes_or_no(talk)] * 2
     if not s.shared.qud:
         yield talk.sayings("mention")
     if s.shared.turned:
@@ -90,6 +90,8 @@ def _asides(talk: WorldTalk, s: Record) -> Iterator[Sequence[Aside]]:
         yield asides(words, "alone")
     if last == "unknown_noun":
         yield asides(words, "all")
+    if last == "ask_again":
+        yield asides(words, "conceding")
     if last in JUST_LEARNED:
         yield asides(words, "of_other", [it.sign for it in s.private.lessons[-1:]])
     if last in NAMING_ACTS and len(talk.world.in_view) == PAIR:

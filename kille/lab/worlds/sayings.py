@@ -257,6 +257,10 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
     match sorted(slots):
         case []:
             return [Matter()]
+        case ["a_landmark", "a_target"]:
+            phrases = (Phrase("", (noun,)) for noun in nouns)
+            pairs = islice(permutations(phrases, 2), PAIRS)
+            return (Claim(None, one, other) for one, other in pairs)
         case ["comparative", "the_landmark", "the_target"]:
             return _comparisons(talk)
         case ["amid", "the_target"]:

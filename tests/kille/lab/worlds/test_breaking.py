@@ -13,7 +13,7 @@ from kille.lab.worlds.dialogue_properties import (
     RETRACTED,
     WORDED,
 )
-from kille.lab.worlds.games import act, simulated_game
+from kille.lab.worlds.games import act, simulated_game, word
 from kille.lab.worlds.word_learning import LearnedWord
 from kille.lab.worlds.worlds import Thing, World
 from ttr import replace as changed
@@ -33,6 +33,16 @@ def breach(dialogue, one):
 def test_the_games_as_they_are_break_none(one):
     dialogue = play(GAME, [*TEXTS, "Forget that.", "Forget cup."])
     assert breach(dialogue, one) is None
+
+
+def test_what_was_said_of_a_kind_in_a_forgotten_word_is_forgotten_too():
+    told = [*TEXTS, "Cups are usually red.", "Forget red."]
+    dialogue = play(GAME, told)
+    cup = word(dialogue.now.model, word_of(noun("cup")))
+    assert cup is not None
+    assert cup.lessons
+    assert not cup.criteria
+    assert breach(dialogue, LOCAL) is None
 
 
 def test_who_learns_another_word_as_well_is_found():
