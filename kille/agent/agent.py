@@ -547,7 +547,7 @@ class Agent(Closing, NotebookValue):
         """Take in all that a text says, move by move."""
         numbers = _POINTING.findall(text)
         meant = fill_noun(text, self.state, self.language)
-        words = _POINTING.sub(" ", meant)
+        words = _POINTING.sub(" ", meant).strip()
         sentences = self._sentences_with_numbers(meant, words) if numbers else ()
         if not sentences:
             for number in numbers:
