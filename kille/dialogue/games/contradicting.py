@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from kille.dialogue.commitments import kind_of
 from kille.dialogue.criteria import (
     COMPONENT,
     PROPERTY,
@@ -95,7 +96,9 @@ def ask_earlier_again(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers=("ForgetThat", "ForgetLast"))
 def leave_earlier(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor takes back what they have said: what was taught earlier stays."""
-    return plan(_settle(s), "LetBe", types=types) if _asks(s) else None
+    if not _asks(s) or kind_of(content_of(s)) is not None:
+        return None
+    return plan(_settle(s), "LetBe", types=types)
 
 
 @rule(answers=("Deny", "ForgetThat"))

@@ -20,6 +20,7 @@ from kille.dialogue.commitments import (
     kind_of,
     lessons_in,
     opposite_lesson_keys,
+    places_known,
     plan_learning,
     same,
     signs_for,
@@ -43,7 +44,7 @@ def correct(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what is so instead: learn that, and unlearn what was said."""
     content = _right(s)
     wrong = _wrong(s, content, types=types)
-    if not wrong or not _places_known(s, content):
+    if not wrong or not places_known(s, content):
         return None
     weaker, forgets = effects_of_rejection(s, wrong, types=types)
     teaches = [*weaker, content]
@@ -63,14 +64,14 @@ def correct(s: Record, *, types: DialogueTypes) -> Record | None:
 def accept(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor corrects what nobody has said: learn what is so."""
     content = _right(s)
-    return plan_learning(s, content, types=types) if _places_known(s, content) else None
+    return plan_learning(s, content, types=types) if places_known(s, content) else None
 
 
 @rule(answers="Reject")
 def reject(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what is not so: unlearn that it is, or learn that it is not."""
     content = content_of(s)
-    if not _places_known(s, content):
+    if not places_known(s, content):
         return None
     wrong = affirmation(content)
     was_taught = bool(lessons_in(s, wrong, types=types))
@@ -99,12 +100,6 @@ def need_places_to_correct(s: Record, *, types: DialogueTypes) -> Record:
 def need_places_to_reject(s: Record, *, types: DialogueTypes) -> Record:
     """The things are in view, but not where they are."""
     return plan(s, "NeedDepth", types=types)
-
-
-def _places_known(s: Record, content: RecordType) -> bool:
-    """Whether it is known where the things are, if it is about that."""
-    things = {thing_at(content, part) for part in PARTS}
-    return "rel" not in content or things <= set(s.view.placed)
 
 
 def _right(s: Record) -> RecordType:

@@ -146,7 +146,7 @@ def learn_still(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers=("Deny", "ForgetThat", "ForgetLast"))
 def leave_kind(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is no kind of the other: nothing is learned from that."""
-    if not _asks_still(s):
+    if not _asks_still(s) or kind_of(content_of(s)) is not None:
         return None
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
 

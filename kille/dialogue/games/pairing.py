@@ -15,13 +15,14 @@ from kille.dialogue.answered_questions import NAMING_ACTS, last_act
 from kille.dialogue.beliefs import knows, names_of, thinks
 from kille.dialogue.commitments import (
     effects_of_rejection,
+    kind_of,
     opposite_lesson_keys,
     signs_for,
 )
 from kille.dialogue.games.distinguishing import say_where
 from kille.dialogue.games.kinds_of_kinds import plan_objection
 from kille.dialogue.meanings import DialogueTypes, denial, is_denial, set_to
-from kille.dialogue.moves import hear_as, issue, plan, said_of
+from kille.dialogue.moves import content_of, hear_as, issue, plan, said_of
 from kille.dialogue.reference import thing_at
 from kille.dialogue.rules import rule
 from kille.dialogue.taxonomy import are_related
@@ -119,7 +120,7 @@ def learn_swapped(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers=("Deny", "ForgetThat", "ForgetLast"))
 def leave_swapped(s: Record, *, types: DialogueTypes) -> Record | None:
     """They were not mixed up: nothing is learned."""
-    if not _asks(s):
+    if not _asks(s) or kind_of(content_of(s)) is not None:
         return None
     return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "LetBe", types=types)
 

@@ -236,7 +236,9 @@ def learn_others(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
 def leave_several(s: Record, *, types: DialogueTypes) -> Record | None:
     """What was said before stays, and nothing is learned."""
     said = _said_in_question(s)
-    return None if said is None else plan(said, "LetBe", types=types)
+    if said is None or kind_of(content_of(s)) is not None:
+        return None
+    return plan(said, "LetBe", types=types)
 
 
 def _plan_question(

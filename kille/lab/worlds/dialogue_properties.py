@@ -121,8 +121,7 @@ def _changed_words(dialogue: Dialogue, roles: Roles) -> Checked:
         keys = {key for move in _moves_said(trial) for key in _forgotten_keys(move.sit)}
         for it in learned_words(trial.after.model):
             was = before.get(it.sign)
-            said = () if was is None else (*was.lessons, *was.criteria)
-            own = keys.intersection(x.key for x in said)
+            own = was is not None and not keys.isdisjoint(was.keys)
             if was is not it and not own and it.sign.meaning not in taught:
                 yield number, f"what {it.sign.form!r} means has changed"
 

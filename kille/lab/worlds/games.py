@@ -258,8 +258,7 @@ def _unlearn(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], Mod
     lost = []
     for it in learned_words(model):
         left = it
-        own = (*(x.key for x in it.lessons), *(x.key for x in it.criteria))
-        for key in own:
+        for key in it.keys:
             if key in forgotten:
                 left = left.without_lesson(key)
         if left is it:

@@ -258,9 +258,11 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
         case []:
             return [Matter()]
         case ["a_landmark", "a_target"]:
-            phrases = (Phrase("", (noun,)) for noun in nouns)
-            pairs = islice(permutations(phrases, 2), PAIRS)
-            return (Claim(None, one, other) for one, other in pairs)
+            pairs = islice(permutations(nouns, 2), PAIRS)
+            return (
+                Claim(None, Phrase("", (one,)), Phrase("", (other,)))
+                for one, other in pairs
+            )
         case ["comparative", "the_landmark", "the_target"]:
             return _comparisons(talk)
         case ["amid", "the_target"]:

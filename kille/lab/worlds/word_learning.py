@@ -157,6 +157,11 @@ class LearnedWord:
         return replace(self, criteria=said, count=self.count + 1)
 
     @property
+    def keys(self) -> tuple[str, ...]:
+        """The keys of its lessons, and of what was said by what it is known."""
+        return (*(it.key for it in self.lessons), *(it.key for it in self.criteria))
+
+    @property
     def aspects(self) -> Sequence[str]:
         """What the word may speak of."""
         return ASPECTS[self.sign.kind]

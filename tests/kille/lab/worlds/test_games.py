@@ -143,3 +143,27 @@ def test_asked_why_something_is_not_so_it_says_when_it_was_told():
     talk.hear("This is not a cup.")
     talk.hear("Is this a cup?")
     assert talk.hear("Why?") == 'Because you said so a moment ago ("cup").'
+
+
+def test_where_no_places_are_seen_only_the_name_is_learned_of_what_is_asked_together():
+    talk = Talk(World(WORLD.things[:2], deep=False).point_at(1))
+    talk.hear("This is a cup.")
+    assert "And that" in talk.hear("The red one is to the left of the book.")
+    answer = talk.hear("Yes.")
+    assert "is a book" in answer
+    assert not talk.now.state.private.relations
+
+
+def test_who_has_something_else_forgotten_does_not_take_back_what_is_asked_about():
+    talk = Talk(World(WORLD.things[:2]).point_at(1))
+    for text in (
+        "This is a cup.",
+        "The blue one is big.",
+        "No, this is not a mug.",
+        "The blue one is a mug.",
+        "A cup is a kind of mug.",
+    ):
+        talk.hear(text)
+    assert talk.now.state.shared.qud[0].ask == "AskKindStill"
+    answer = talk.hear("Forget that the blue one is big.")
+    assert answer == "OK, I forgot that this is big."
