@@ -97,6 +97,9 @@ RELATE = "relate"
 QUALIFIED = "qualified"
 """What a noun of several words is that may be an adjective and a noun."""
 
+UNLIKELY = "unlikely"
+"""The stance of who supposes that something is not so: "It isn't a cup, is it?"."""
+
 OUTRIGHT = "outright"
 """The stance of who says in so many words that one kind is a kind of another."""
 
@@ -106,6 +109,7 @@ TAUGHT = "taught"
 STANCES = {
     "asserted": "asserted_stance",
     "supposed": "supposed_stance",
+    UNLIKELY: "unlikely_stance",
     "reversed": "reversed_stance",
     "of all": "of_all_stance",
     "conceding": "conceding_stance",

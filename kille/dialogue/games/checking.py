@@ -14,6 +14,7 @@ from kille.dialogue.beliefs import (
     special_name,
 )
 from kille.dialogue.games.colouring import plan_colour
+from kille.dialogue.language import UNLIKELY
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
@@ -139,10 +140,14 @@ def say_what_colour(s: Record, *, types: DialogueTypes) -> Record | None:
 
 @rule(answers="AskWhether")
 def admit_whether(s: Record, *, types: DialogueTypes) -> Record:
-    """It does not know."""
-    return plan(
-        s, "AdmitWhether", content_of(s), signs=s.shared.latest.signs, types=types
-    )
+    """It does not know, and says of what: the tutor may then answer that themselves.
+
+    Not where they suppose that it is not so, as a yes or no may mean either then.
+    """
+    said = s.shared.latest
+    if "stance" in said and said.stance == UNLIKELY:
+        return plan(s, "AdmitWhether", types=types)
+    return plan(s, "AdmitWhether", content_of(s), signs=said.signs, types=types)
 
 
 def _asked_word(s: Record) -> Record:

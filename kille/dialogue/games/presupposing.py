@@ -18,9 +18,11 @@ from kille.dialogue.commitments import kind_of
 from kille.dialogue.games.distinguishing import say_where
 from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO, PRESUMED
 from kille.dialogue.games.placing import AMID
+from kille.dialogue.language import UNLIKELY
 from kille.dialogue.meanings import (
     DialogueTypes,
     claims,
+    denial,
     is_denial,
     set_to,
     single_claims,
@@ -148,16 +150,17 @@ def _with_thing(
     return set_to(content, look=look, **{label: set_to(phrase, look=look)})
 
 
-@rule(answers="Supposed")
+@rule(answers=("Supposed", "Unlikely"))
 def ask_supposed(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
-    """The tutor supposes something in a word that was never learned: is it so?"""
+    """The tutor supposes something in a word that was never learned: is it (not) so?"""
     said, content = s.shared.latest, content_of(s)
     if kind_of(content) is None or phrases(content) or is_denial(content):
         return None
     asked = next((it for it in said.signs if claims(content, it)), None)
     if asked is None or knows_word(s, asked) or "scale" in content:
         return None
-    return _plan_question(s, model, [content], types=types)
+    meant = denial(content) if said.stance == UNLIKELY else content
+    return _plan_question(s, model, [meant], types=types)
 
 
 def _plan_question(
