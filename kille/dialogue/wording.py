@@ -284,7 +284,11 @@ def _phrase_slots(
         (f"the_{label}", "definite"),
         (f"no_{label}", "negated"),
     ):
-        found = phrase(lexicon, part, words, style) if slot in wanted else None
+        if slot not in wanted or (
+            style == "negated" and not {"c", "a"} & {*part.labels}
+        ):
+            continue
+        found = phrase(lexicon, part, words, style)
         if found is not None:
             yield slot, found
 

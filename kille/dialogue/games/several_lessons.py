@@ -45,7 +45,10 @@ def ask_together(s: Record, *, model: Model, types: DialogueTypes) -> Record | N
     """The tutor has said several things at once: it asks whether all of it is meant."""
     said = s.shared.latest
     told = single_claims(said.content)
-    if said.doubt != PARTIAL or len(told) < 2 or not s.view.things:
+    if said.doubt != PARTIAL or not s.view.things:
+        return None
+    is_plain = len(s.view.things) > 1 and "intended" not in said
+    if len(told) < 2 and not (is_plain and _is_counted_out(told[0])):
         return None
     meant = _set_to_things(s, model, told, types=types)
     if not meant:
@@ -146,6 +149,22 @@ def _set_to_things(
         _set_to_thing(s, it, x, types=types)
         for it, x in zip(told, in_order, strict=True)
     ]
+
+
+def _is_counted_out(content: RecordType) -> bool:
+    """Whether a claim calls its thing the other, the second, the remaining one.
+
+    Which one that is has to be said, before it is learned.
+    """
+    if not phrases(content) or "target" not in content:
+        return False
+    phrase = phrase_at(content, "target")
+    said = {name for name in _COUNTED if f"{name}(" in str(phrase.get("d"))}
+    return bool(said) and not any(label in phrase for label in ("c", "a", "rel"))
+
+
+_COUNTED = ("other", "remaining", "first", "second", "third", "last", "second_last")
+"""The words that say which thing is meant by those that were spoken of, or in a row."""
 
 
 def _is_unmarked(content: RecordType) -> bool:

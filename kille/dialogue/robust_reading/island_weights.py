@@ -114,6 +114,8 @@ def _fit(situation: Situation, rule: str, move: Tree, lists: WordLists) -> float
             )
         case "ordered":
             return 1.2
+        case "ask_difference":
+            return 3.0  # it goes on after an "and"
         case "denied_word":
             return 1.0 if all(it in situation.known for it in new_words(move)) else 0.0
         case "correct":

@@ -267,6 +267,8 @@ def _matters_of(talk: WorldTalk, slots: frozenset[str]) -> Iterable[Claim | Matt
             return _comparisons(talk)
         case ["amid", "the_target"]:
             return _things_between(talk)
+        case ["the_landmark", "the_target"]:
+            return _pairs(talk)
         case ["side", "the_target"]:
             return _things_at_sides(talk)
         case ["word"]:
@@ -325,6 +327,13 @@ def _comparisons(talk: WorldTalk) -> Iterator[Claim]:
         for sign in talk.words.comparatives.values():
             phrases = talk.colour_phrase(x), talk.colour_phrase(y)
             yield Claim(sign, *phrases, template="Comparison")
+
+
+def _pairs(talk: WorldTalk) -> Iterator[Matter]:
+    """Two things, by phrases for them."""
+    for x, y in islice(permutations(talk.world.in_view, 2), PAIRS):
+        phrases = talk.colour_phrase(x), talk.colour_phrase(y)
+        yield Matter("", (("target", phrases[0]), ("landmark", phrases[1])))
 
 
 @dataclass(frozen=True)
