@@ -25,10 +25,13 @@ from kille.dialogue.reference.salience import choose
 from kille.dialogue.rules import rule
 from kille.dialogue.unknown_words import plan_first_unknown
 from ttr import Model, Record, RecordType, record, rectype, replace
-from ttr.types import TypeNode
+from ttr.types import PType, TypeNode
 from ttr.updates import first
 
 Update = tuple[Record, Model]
+
+NAMELESS = "remaining"
+"""The word of a phrase for what nobody has said a name of."""
 
 
 @rule(answers="AskPlace")
@@ -101,9 +104,12 @@ def name_thing(
 ) -> tuple[RecordType, list[Record]]:
     """The phrase for a thing, with a noun if it has no words: "the biggest one".
 
-    The noun is given as well; where the robot has none worth saying, none is added.
+    The noun is given as well; where the robot has none worth saying, none is added. Nor
+    is one to what was asked for as having no name yet.
     """
-    if any(label in phrase for label in ("c", "a", "rel")):
+    chosen = phrase.get("d")
+    is_nameless = isinstance(chosen, PType) and chosen.pred.name == NAMELESS
+    if is_nameless or any(label in phrase for label in ("c", "a", "rel")):
         return phrase, []
     names = names_of(s, model, x)
     if not thinks(s, names):
