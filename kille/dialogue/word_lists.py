@@ -144,7 +144,7 @@ class WordLists:
         """The text with what is said over several of its sentences said in one.
 
         >>> word_lists("en").join_sentences("See the round thing? Apple.")
-        'the round thing is an apple.'
+        'the round thing is an Apple.'
         """
         return _replace_forms(text, self.across)
 

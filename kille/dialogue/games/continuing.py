@@ -10,7 +10,12 @@ Source: Ginzburg 2012 (fragments are resolved on the question under discussion).
 
 from __future__ import annotations
 
-from kille.dialogue.answered_questions import NAMING_ACTS, last_act, last_question
+from kille.dialogue.answered_questions import (
+    ANSWERING_ACTS,
+    NAMING_ACTS,
+    last_act,
+    last_question,
+)
 from kille.dialogue.commitments import affirmation, kind_of
 from kille.dialogue.meanings import DialogueTypes, predicate_at, value_at
 from kille.dialogue.moves import content_of, hear_as, words_in
@@ -56,6 +61,17 @@ def teach_same(s: Record, *, model: Model, types: DialogueTypes) -> Update | Non
     claim = _claim_of(s, content_of(s), types=types)
     act = _LEARNING[last_act(s)]
     return _take_as(s, model, act, claim, types=types, doubt=types["Text"] @ PARTIAL)
+
+
+@rule(answers="CorrectThing")
+def ask_same_of_meant(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> Update | None:
+    """The tutor says of which thing they asked, which it took for another: it is asked."""
+    acts = {*NAMING_ACTS}.union(*ANSWERING_ACTS.values())
+    if last_act(s) not in acts or kind_of(content_of(s)) is not None:
+        return None
+    return _as_question(s, model, types=types)
 
 
 _LEARNING = {"learned": "Instruct", "learned_quality": "Describe"}
@@ -106,6 +122,6 @@ def _words_at_hand(s: Record) -> list[Record]:
     return [*words(s), *said]
 
 
-CONTINUING = first(ask_same)
+CONTINUING = first(ask_same, ask_same_of_meant)
 NAMED_ALSO = first(teach_same, ask_same_of_named)
 """What takes a thing that is only named as the next one of which the same is so."""

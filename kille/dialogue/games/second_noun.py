@@ -43,7 +43,7 @@ def ask_both(s: Record, *, types: DialogueTypes) -> Record | None:
     """A thing was called something else: is it both?"""
     content = content_of(s)
     before = _other_name(s, content)
-    if before is None or s.shared.pending:
+    if before is None or any("c" in it for it in s.shared.pending):
         return None
     signs = signs_for(s, content, before)
     options = [s.shared.latest, replace(s.shared.latest, content=before)]
