@@ -67,7 +67,7 @@ def teach_same(s: Record, *, model: Model, types: DialogueTypes) -> Update | Non
 def ask_same_of_meant(
     s: Record, *, model: Model, types: DialogueTypes
 ) -> Update | None:
-    """It took another thing for the one that the tutor asked about: it is asked that."""
+    """It took another thing for the one the tutor asked about: it is asked of that."""
     acts = {*NAMING_ACTS}.union(*ANSWERING_ACTS.values())
     if last_act(s) not in acts or kind_of(content_of(s)) is not None:
         return None

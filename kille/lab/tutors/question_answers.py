@@ -12,6 +12,8 @@ from functools import lru_cache
 from kille.dialogue.commitments import kind_of
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import DialogueTypes, predicate_at, value_at
+from kille.dialogue.robust_reading.situations import Situation
+from kille.dialogue.robust_reading.text_hearing import hear_in_parts
 from ttr import Record, RecordType
 from ttr.types import PType
 from ttr.types.objects import Object
@@ -113,6 +115,8 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
             return True
         case asked, "forget_that" | "forget_last" if asked in TAKEN_BACK:
             return kind_of(event.content) is None
+        case "AskMeant" | "AskPresumed", "swap":
+            return options == _PAIR
         case "AskEarlier", "prefer_now" | "prefer_earlier" | "affirm" | "deny":
             return True
         case asked, "prefer_now" | "prefer_earlier" if asked in EITHER:
@@ -128,6 +132,10 @@ def _is_answer(move: str, event: Record, question: Record) -> bool:
     return False
 
 
+_PAIR = 2
+"""So many claims may be meant the other way round."""
+
+
 def _is_place(content: RecordType, options: int) -> bool:
     """Whether one of several things is mentioned by its place among them."""
     target = content["target"]
@@ -140,7 +148,13 @@ def _is_place(content: RecordType, options: int) -> bool:
 def _readings(
     text: str, language: str, types: DialogueTypes | None
 ) -> tuple[tuple[str, object], ...]:
-    """What a text may be: moves, by their predicates, and what they are about."""
-    first, *_ = understand(text, language, types=types)
-    moves = (it.type for it in first.readings)
+    """What a text may be: moves, by their predicates, and what they are about.
+
+    Some are heard by their parts: "Not that one."
+    """
+    first = understand(text, language, types=types)[:1]
+    around = Situation(things=1, asks_whether=True)
+    in_parts = hear_in_parts(first, around, language, types=types).moves[:1]
+    heard = dict.fromkeys((*first, *in_parts))
+    moves = (it.type for sentence in heard for it in sentence.readings)
     return tuple((predicate_at(it, "e").name, value_at(it, "content")) for it in moves)
