@@ -5,7 +5,7 @@ import pytest
 from kille.lab.tutors.question_answers import answer_test
 from kille.lab.worlds.games import simulated_game
 from kille.lab.worlds.worlds import draw_world
-from ttr import record
+from ttr import Rec, record
 
 GAME = simulated_game(draw_world(1))
 ONE, TWO, THREE = ([record(n=float(i)) for i in range(n)] for n in (1, 2, 3))
@@ -20,7 +20,6 @@ ONE, TWO, THREE = ([record(n=float(i)) for i in range(n)] for n in (1, 2, 3))
         ("That is correct.", "AskPresumed", TWO, True),
         ("You mixed them up.", "AskMeant", TWO, True),
         ("You mixed them up.", "AskMeant", ONE, False),
-        ("Not that one.", "AskMeant", ONE, True),
         ("What I say now.", "AskEither", TWO, True),
         ("What I said before.", "AskBoth", TWO, True),
         ("That is correct.", "AskEither", TWO, False),
@@ -46,6 +45,11 @@ def test_what_answers_what(text, ask, options, answers):
         step.event for step in GAME.take(GAME.begin(), GAME.hear(text)).trace[:1]
     )
     assert answer_test("en")(heard, record(ask=ask, options=options)) is answers
+
+
+def test_a_no_that_is_read_by_parts_answers():
+    no = record(text="Not that one.", content=Rec)
+    assert answer_test("en")(no, record(ask="AskMeant", options=ONE))
 
 
 def test_what_happens_and_is_not_said_answers_nothing():
