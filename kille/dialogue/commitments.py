@@ -106,7 +106,7 @@ def is_here(s: Record, claim: RecordType, *, types: DialogueTypes) -> bool:
     return claim["look"] == now or bool({claim, denial(claim)} & {*s.shared.here})
 
 
-def places_known(s: Record, content: RecordType) -> bool:
+def knows_places(s: Record, content: RecordType) -> bool:
     """Whether it is known where the things are, if a content is about that."""
     things = {thing_at(content, part) for part in PARTS}
     return "rel" not in content or things <= set(s.view.placed)

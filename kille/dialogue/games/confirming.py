@@ -68,7 +68,7 @@ def ask_which(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Affirm")
 def learn_answer(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says yes to their own question, which it could not answer."""
-    asked = _unanswered(s)
+    asked = _open_question(s)
     return None if asked is None else plan_learning(s, asked, types=types)
 
 
@@ -104,11 +104,11 @@ def ask_again(s: Record, *, types: DialogueTypes) -> Record | None:
 @rule(answers="Deny")
 def learn_negative_answer(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says no to their own question, which it could not answer."""
-    asked = _unanswered(s)
+    asked = _open_question(s)
     return None if asked is None else plan_learning(s, denial(asked), types=types)
 
 
-def _unanswered(s: Record) -> RecordType | None:
+def _open_question(s: Record) -> RecordType | None:
     """What the tutor asked whether it is so, and the robot has just not known."""
     if s.shared.pending or not s.private.last:
         return None

@@ -18,9 +18,9 @@ from kille.dialogue.commitments import (
     effects_of_rejection,
     is_here,
     kind_of,
+    knows_places,
     lessons_in,
     opposite_lesson_keys,
-    places_known,
     plan_learning,
     same,
     signs_for,
@@ -44,7 +44,7 @@ def correct(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what is so instead: learn that, and unlearn what was said."""
     content = _right(s)
     wrong = _wrong(s, content, types=types)
-    if not wrong or not places_known(s, content):
+    if not wrong or not knows_places(s, content):
         return None
     weaker, forgets = effects_of_rejection(s, wrong, types=types)
     teaches = [*weaker, content]
@@ -64,14 +64,14 @@ def correct(s: Record, *, types: DialogueTypes) -> Record | None:
 def accept(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor corrects what nobody has said: learn what is so."""
     content = _right(s)
-    return plan_learning(s, content, types=types) if places_known(s, content) else None
+    return plan_learning(s, content, types=types) if knows_places(s, content) else None
 
 
 @rule(answers="Reject")
 def reject(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what is not so: unlearn that it is, or learn that it is not."""
     content = content_of(s)
-    if not places_known(s, content):
+    if not knows_places(s, content):
         return None
     wrong = affirmation(content)
     was_taught = bool(lessons_in(s, wrong, types=types))

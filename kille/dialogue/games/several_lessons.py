@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.commitments import places_known, plan_learning
+from kille.dialogue.commitments import knows_places, plan_learning
 from kille.dialogue.games.distinguishing import say_where
 from kille.dialogue.games.doubting_words import MEANT, MEANT_TOO, PRESUMED
 from kille.dialogue.games.kinds_of_kinds import is_about_kinds, plan_kind
@@ -85,7 +85,7 @@ def learn_together(s: Record, *, model: Model, types: DialogueTypes) -> Record |
         learned = about(replace(learned, now), option.content, types=types)
         if AMID in option.content:
             learned = plan_between(learned, model, types=types)
-        elif places_known(learned, content_of(learned)):
+        elif knows_places(learned, content_of(learned)):
             learned = plan_learning(learned, content_of(learned), types=types)
         else:
             learned = plan(learned, "NeedDepth", types=types)

@@ -23,7 +23,7 @@ from kille.lab.tutors.answering import (
 )
 from kille.lab.tutors.happenings import interruptions, sample_silences
 from kille.lab.tutors.heard_sayings import sample_asides, sample_texts
-from kille.lab.tutors.leading_kinds import kind_situation, pressing_kinds
+from kille.lab.tutors.leading_kinds import kind_situation, topics_about_known_kinds
 from kille.lab.tutors.leading_perspectives import perspectives_by_side
 from kille.lab.worlds.asides import Aside, asides
 from kille.lab.worlds.sayings import Claim, Saying, WorldTalk
@@ -46,7 +46,7 @@ def follow_ups(talk: WorldTalk, s: Record) -> Options:
     said = [*_sayings(talk, s)]
     if not s.shared.pending and not s.shared.qud:
         said += [_questions(talk, s)]
-        said += pressing_kinds(kind_situation(talk.without_glance(), s))
+        said += topics_about_known_kinds(kind_situation(talk.without_glance(), s))
     said_so = map(sample_texts, filter(None, said))
     tried = (sample_asides(s, it) for it in _asides(talk, s) if it)
     return [*said_so, *tried]

@@ -6,7 +6,7 @@ a look in silence, and that the robot was spoken over.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import chain, product
 from random import Random
@@ -38,12 +38,14 @@ def sample_idle_looks(world: World) -> st.SearchStrategy[Record]:
 
     What is pointed at is the tutor's to speak of.
     """
-    return sample_looks(world, [(look_event, it) for it in _unpointed(world)])
+    return sample_looks(
+        world, [(look_event, it) for it in _worlds_without_pointing(world)]
+    )
 
 
 def sample_silences(world: World) -> st.SearchStrategy[Record]:
     """Sample looks while nobody speaks: as often all is as it was as it has changed."""
-    same, *changed = _unpointed(world)
+    same, *changed = _worlds_without_pointing(world)
     seen = list(product([*[same] * len(changed), *changed], SILENCES))
     return st.sampled_from(seen).map(lambda it: watch_event(it[0], world, *it[1]))
 
@@ -55,19 +57,15 @@ def sample_looks(world: World, after: Sequence[Look]) -> st.SearchStrategy[Recor
 
 def interruptions(s: Record) -> Sequence[Record]:
     """That the robot was cut off in what it has just said, at the end or before it."""
-    return [*_interruptions(s)]
-
-
-def _interruptions(s: Record) -> Iterator[Record]:
     latest, said = s.shared.latest, s.private.last
     if s.shared.cut or not said or "e" not in latest or latest.spkr != "robot":
-        return
-    yield record(unsaid=said[-1:], uttered="…", latest=latest)
-    if len(said) == 1:
-        yield record(unsaid=said, uttered="", latest=record())
+        return ()
+    at_end = record(unsaid=said[-1:], uttered="…", latest=latest)
+    before = record(unsaid=said, uttered="", latest=record())
+    return (at_end, before) if len(said) == 1 else (at_end,)
 
 
-def _unpointed(world: World) -> Sequence[World]:
+def _worlds_without_pointing(world: World) -> Sequence[World]:
     """What may become of a world while the tutor points at nothing else."""
     same = [it for it in happenings(world) if it.focus == world.focus]
     return [world.look_again(), *same]

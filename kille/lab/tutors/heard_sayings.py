@@ -69,10 +69,10 @@ def sample_texts(options: Sayings) -> st.SearchStrategy[object]:
 
 def sample_asides(s: Record, options: Sequence[Aside]) -> st.SearchStrategy[object]:
     """Sample one of these, as it is heard in a state."""
-    return st.sampled_from(options).map(lambda it: heard_aside(it, s))
+    return st.sampled_from(options).map(lambda it: aside_event(it, s))
 
 
-def heard_aside(aside: Aside, s: Record) -> object:
+def aside_event(aside: Aside, s: Record) -> object:
     """The text of what is said, or the event of what is heard of it in a state."""
     return aside.text if aside.is_read_whole else _part_event(aside, situation_of(s))
 

@@ -112,7 +112,7 @@ def kind_topics(now: KindSituation) -> Sequence[Sayings]:
 
 
 @lru_cache(256)
-def pressing_kinds(now: KindSituation) -> Sequence[Sayings]:
+def topics_about_known_kinds(now: KindSituation) -> Sequence[Sayings]:
     """What follows from what is known of kinds and of things, or contradicts it."""
     talk = now.talk
     topics = [

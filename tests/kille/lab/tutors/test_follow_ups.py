@@ -8,8 +8,8 @@ from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import predicate_at, record_type
 from kille.lab.tutors.follow_ups import follow_ups, sudden_events
 from kille.lab.tutors.happenings import SILENCES, interruptions
-from kille.lab.tutors.heard_sayings import heard_aside
-from kille.lab.tutors.leading_kinds import kind_situation, pressing_kinds
+from kille.lab.tutors.heard_sayings import aside_event
+from kille.lab.tutors.leading_kinds import kind_situation, topics_about_known_kinds
 from kille.lab.worlds.asides import aside_wordings, asides
 from kille.lab.worlds.games import simulated_game, world_of
 from kille.lab.worlds.perception import watch_event
@@ -34,7 +34,7 @@ def after(*texts, **strategy):
 def pressing(*texts):
     state = after(*texts)
     now = kind_situation(WorldTalk(ENGLISH, world_of(state)), state)
-    return {one.text for topic in pressing_kinds(now) for one in topic}
+    return {one.text for topic in topics_about_known_kinds(now) for one in topic}
 
 
 def test_of_what_is_named_it_is_denied_that_it_is_something_else():
@@ -101,7 +101,7 @@ def test_something_is_heard_of_all_that_is_tried(language):
     for name in lexicon(language).sections["asides"]:
         for one in set(asides(words, name)):
             assert "{" not in one.text
-            assert heard_aside(one, state) is not None, one.text
+            assert aside_event(one, state) is not None, one.text
 
 
 def test_a_language_of_ones_own_need_try_nothing():
