@@ -51,6 +51,7 @@ from kille.dialogue.word_lists import (
     plain_text,
     word_lists,
 )
+from ttr import Rec, RecType
 
 _UNSPEAKABLE = re.compile(r"[<>\[\]{}|\\^=@\x00-\x08\x0e-\x1f\x7f-\x9f\u202a-\u202e]")
 """Signs of markup, of programs and of terminals: what has any is not talk."""
@@ -122,26 +123,20 @@ def read_robustly(
                 _clauses_left_out(best, sentence, lists),
             )
     if lexicon(language).is_saying(plain_text(sentence.plain)):
-        return _as_remark(text, situation, language, types)
+        return _as_remark(text, types)
     return _phrases(sentence, found)
 
 
-def _as_remark(
-    text: str, situation: Situation, language: str, types: DialogueTypes
-) -> Understanding:
+def _as_remark(text: str, types: DialogueTypes) -> Understanding:
     """A saying that can be read as nothing else: it is heard as a remark."""
-    remark = lexicon(language).tells["remark"][0]
-    heard = read_robustly(remark, situation, language, types=types)
-    moves = tuple(
-        Sentence(text, tuple(_in_words(one, text, types) for one in it.readings))
-        for it in heard.moves
+    remark = set_to(
+        types.move_type("Heard", "Remark"),
+        text=types["Text"] @ text,
+        signs=types.record_type("Heard")["signs"] @ (),
+        content=RecType @ Rec,
     )
-    return Understanding(moves, (text,), (), is_remark=True)
-
-
-def _in_words(it: Utterance, text: str, types: DialogueTypes) -> Utterance:
-    """The same move, said in these words."""
-    return Utterance(text, set_to(it.type, text=types["Text"] @ text))
+    heard = Sentence(text, (Utterance(text, remark),))
+    return Understanding((heard,), (text,), (), is_remark=True)
 
 
 class _CoverReading(NamedTuple):
